@@ -32,7 +32,7 @@ from gelenk.kinematics.judge.words import Reference
 from gelenk.kinematics.poses.forward import ForwardKinematics, forward_kinematics
 from gelenk.kinematics.velocity.jacobian import Jacobians, Representation, jacobians
 from gelenk.operations import trajectory_request
-from gelenk.operations.ik_request import TargetLimits, asked, options_of
+from gelenk.operations.ik_request import TargetLimits, options_of, parse
 from gelenk.package_data import catalogue
 from gelenk.robot import robot as core
 from gelenk.robot.arrays import Array, Configuration
@@ -220,7 +220,7 @@ class Robot:
             array = np.asarray(given, dtype=float)
             fields["targets"] = array[None] if array.shape in {(7,), (4, 4)} else array
         call = call.model_copy(update=fields)  # arrays do not go number by number through pydantic
-        chain, poses, seeds = asked(self.core, call, _UNBOUNDED)
+        chain, poses, seeds = parse(self.core, call, _UNBOUNDED)
         return inverse_kinematics(self.core, chain, poses, seeds, options_of(chain, call, call.time_limit))
 
     def trajectory(self, start: Configuration, segments: Sequence[Mapping[str, object]], **options: Any) -> Trajectory:

@@ -16,7 +16,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gelenk.ik.search import kernels
-from gelenk.ik.search.search import MAX_ITERATIONS, make_goal, search, target_rows
+from gelenk.ik.search.bounds import make_goal, target_rows
+from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS
 from gelenk.ik.search.task import FULL_POSE
 from gelenk.robot.arrays import Array
 from gelenk.robot.description import UrdfLimits
@@ -24,6 +25,7 @@ from gelenk.robot.notations import placement, quaternions_xyzw_from_rotations
 from gelenk.robot.poses import Poses
 from gelenk.robot.urdf import write_urdf
 from tests.benchmarks.arms import BASE, TIP, Arm, alone
+from tests.ik.arms import search
 
 TOLERANCE = 1e-5
 """In position [m] and in orientation [rad], each as a norm."""
@@ -83,7 +85,9 @@ class Gelenk(BatchPeer):
 
     def __init__(self, arm: Arm) -> None:
         self._chain = arm.chain
-        self._goal = make_goal(arm.chain, FULL_POSE, TOLERANCE, TOLERANCE, True, MAX_ITERATIONS, 0)
+        self._goal = make_goal(
+            arm.chain, FULL_POSE, (TOLERANCE, TOLERANCE), True, MAX_ITERATIONS // ITERATIONS_PER_START
+        )
 
     def ask(self, T: Array, seed: Array) -> Callable[[], Any]:
         return self.ask_again(T, seed, 1)

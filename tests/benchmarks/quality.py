@@ -2,14 +2,12 @@
 
 import numpy as np
 
-from gelenk.ik.search.search import search, target_rows
-from gelenk.ik.search.task import FULL_POSE
 from gelenk.ik.verdict.branches import all_branches
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
 from tests.benchmarks.arms import ARMS, poses
 from tests.benchmarks.table import Row
-from tests.ik.arms import IRB, PUMA, UR5, table_arm
+from tests.ik.arms import IRB, PUMA, UR5, problem, search, table_arm
 from tests.oracles.dh_columns import Table
 from tests.oracles.many_starts import solutions
 
@@ -56,17 +54,7 @@ def completeness(name: str, parameters: list[tuple[float, float, float, float]])
     for i, q in enumerate(qs):
         T = table.pose(q)
         target = Poses(T[None, :3, 3].copy(), T[None, :3, :3].copy())
-        ours = all_branches(
-            chain,
-            target_rows(target)[0],
-            np.zeros(6),
-            task=FULL_POSE,
-            tolerances=(1e-6, 1e-6),
-            respect_limits=True,
-            random_seed=0,
-            most=100,
-            windings=False,
-        ).qs
+        ours = all_branches(problem(chain, target, np.zeros((1, 6))), 0).qs
         theirs = solutions(table, T, None, STARTS, seed=i)
         found, expected = found + len(ours), expected + len(theirs)
         missing += sum(not contains(ours, other) for other in theirs)

@@ -19,7 +19,7 @@ from gelenk.http.access.keyring import new_key
 from gelenk.http.messages.preference import wants_answer_later
 from gelenk.http.messages.scopes import Scope
 from gelenk.ik import solve
-from gelenk.ik.search import search
+from gelenk.ik.search import problem
 from gelenk.main import create_app
 from gelenk.pool.pool import WorkerPool
 from gelenk.robot.arrays import Array
@@ -232,7 +232,7 @@ def test_the_answer_does_not_depend_on_how_busy_the_machine_is(
         Ts = poses(client, "panda", 20, 7, None)
         call = {"targets": told_poses(Ts), "max_iterations": 400, **options}
         result = finished(client, client.post("/v1/robots/panda/ik", json=call, headers=LATER))
-        for module in (search, solve):
+        for module in (problem, solve):
             monkeypatch.setattr(module, "clock", Leap())
         now = client.post("/v1/robots/panda/ik", json=call)
         assert now.content == client.get(result).content
@@ -246,7 +246,7 @@ def test_a_solution_that_time_kept_from_its_objective_says_so(
         targets = told_poses(poses(client, "panda", 2, 7, None)[1:])
         call = {"targets": targets, "objective": "mid_range", "time_limit": 60.0, "trace": trace}
         clock = Leap(first=2)
-        for module in (search, solve):
+        for module in (problem, solve):
             monkeypatch.setattr(module, "clock", clock)
         (result,) = client.post("/v1/robots/panda/ik", json=call).json()["results"]
     assert (result["status"], result["stop_reason"]) == ("solved", "time_limit")

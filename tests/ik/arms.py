@@ -5,11 +5,15 @@ Poses come from Pinocchio, differences of orientations from SciPy; neither from 
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any, cast
 
 import numpy as np
 import pinocchio as pin
 from scipy.spatial.transform import Rotation
 
+from gelenk.ik.search.problem import Options, TargetProblem
+from gelenk.ik.search.search import MAX_ITERATIONS, Found
+from gelenk.ik.search.search import search as search_problem
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import Direction
 from gelenk.ik.verdict.result import InverseKinematics
@@ -70,6 +74,24 @@ IRB = [
 """Proportions of an industrial arm with an offset between its first two axes and at its elbow."""
 
 Q6 = np.array([0.3, 0.6, 0.7, 0.2, 0.9, -0.5])
+
+
+def problem(chain: Chain, targets: Poses, seeds: Array, **options: Any) -> TargetProblem:
+    """A problem for what does without the robot."""
+    return TargetProblem(cast(RobotModel, None), chain, targets, seeds, Options(**options))
+
+
+def search(
+    chain: Chain,
+    targets: Poses,
+    seeds: Array,
+    *,
+    max_iterations: int = MAX_ITERATIONS,
+    threads: int | None = None,
+    **options: Any,
+) -> Found:
+    """The results of the search alone."""
+    return search_problem(problem(chain, targets, seeds, **options), max_iterations, threads=threads)
 
 
 def catalogue_arm(name: str) -> tuple[RobotModel, Chain]:

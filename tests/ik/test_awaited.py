@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from gelenk.ik.search.search import mid_range
+from gelenk.ik.search.bounds import mid_range
 from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.robot import compilation
 from gelenk.robot.poses import Poses

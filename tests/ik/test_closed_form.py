@@ -15,7 +15,6 @@ from scipy.optimize import brentq
 from gelenk.errors import InvalidField
 from gelenk.ik.closed.branch_kernels import BranchTable
 from gelenk.ik.closed.closed_form import ClosedForm, closed_form
-from gelenk.ik.search.search import target_rows
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.ik.verdict.branches import all_branches
@@ -45,6 +44,7 @@ from tests.ik.arms import (
     middle,
     part,
     poses,
+    problem,
     same_turn,
 )
 from tests.oracles import catalogue
@@ -205,31 +205,20 @@ def test_arms_of_the_catalogue(name: str) -> None:
     # With fewer than six joints a pose near another one is no solution, whatever the tolerance.
     answer = all_of(machine, chain, targets, position_tolerance=EXACT, orientation_tolerance=EXACT)
     assert_solved(machine, chain, targets, answer, far=EXACT)
-    assert answer.branches is not None
-    assert answer.branches.name == form.name
+    assert answer.closed_form == form.name
     assert answer.complete is not None
     for i, complete in enumerate(answer.complete):
         # Not sure to be all next to a singularity alone, and then a search may add to them.
         sizes = np.linalg.svd(jacobians(machine, chain, of(answer, i)).values, compute_uv=False)[:, -1]
         assert complete or sizes.min() < max(form.doubt, 1e-3)
-        codes = answer.branches.codes[answer.firsts[i] : answer.firsts[i + 1]]
+        codes = answer.codes[answer.firsts[i] : answer.firsts[i + 1]]
         assert (codes >= 0).all() or not complete
     turning = chain.flat.joints[:, 0] == 0
     for i, q in enumerate(qs):
         apart = np.abs(np.where(turning, same_turn(of(answer, i) - q), of(answer, i) - q)).max(axis=1)
         assert apart.min() < 1e-7
     for i in range(2):
-        searched = all_branches(
-            chain,
-            target_rows(part(targets, slice(i, i + 1)))[0],
-            np.zeros(len(chain)),
-            task=FULL_POSE,
-            tolerances=(1e-6, 1e-6),
-            respect_limits=True,
-            random_seed=0,
-            most=100,
-            windings=False,
-        )
+        searched = all_branches(problem(chain, targets, np.zeros((1, len(chain)))), i)
         for q in searched.qs:
             assert contains(of(answer, i), q, close=1e-4)
 

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from gelenk.ik.search.descent import DescentRule, StepMethod
+from gelenk.ik.search.problem import DescentRule
 from gelenk.ik.search.steps import damped_step, gradient_step, newton_step
+from gelenk.ik.search.words import StepMethod
 from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.ik.verdict.result import InverseKinematics, IterationPath
 from gelenk.robot.arrays import Array

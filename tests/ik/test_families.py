@@ -90,20 +90,21 @@ def told(arm: Arm, q: Array, answer: InverseKinematics, task: Task) -> list[tupl
     target = arm.table.pose(q)
     for family in families:
         assert family.text in answer.doubts[0]
-        poses = np.array([arm.table.pose(member) for member in family.sweep])
+        sweep = np.array(family.sweep)
+        poses = np.array([arm.table.pose(member) for member in sweep])
         goals = np.repeat(target[None], len(poses), axis=0)
         errors = task.errors(*(Poses(Ts[:, :3, 3].copy(), Ts[:, :3, :3].copy()) for Ts in (goals, poses)))
         assert errors.max() < 1e-8
-        assert ((family.sweep >= arm.chain.lower) & (family.sweep <= arm.chain.upper)).all()
-        spans = np.ptp(family.sweep, axis=0)
+        assert ((sweep >= arm.chain.lower) & (sweep <= arm.chain.upper)).all()
+        spans = np.ptp(sweep, axis=0)
         moving = np.array([name in family.free_joints for name in arm.chain.joint_names])
         assert (spans[~moving] < 1e-4).all()
         assert spans.max() > 0.1
-        assert np.abs(np.diff(family.sweep, axis=0)).max() < 2.0
+        assert np.abs(np.diff(sweep, axis=0)).max() < 2.0
         if family.relation is not None:
             (terms,) = (part.removesuffix(" = c") for part in family.relation.split(", "))
             total = sum(
-                (-1.0 if sign == "-" else 1.0) * family.sweep[:, int(joint) - 1]
+                (-1.0 if sign == "-" else 1.0) * sweep[:, int(joint) - 1]
                 for sign, joint in re.findall(r"([-+]?) ?q_(\d)", terms)
             )
             assert np.ptp(total) < 1e-5

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from gelenk.ik.search.null_space import Objective, _value, objective_gradients, settle
+from gelenk.ik.search.null_space import _value, objective_gradients, settle
+from gelenk.ik.search.problem import Objective
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.kinematics.velocity.jacobian import jacobians
@@ -24,6 +25,7 @@ from tests.ik.arms import (
     middle,
     planar_arm,
     poses,
+    problem,
 )
 
 CASES = {
@@ -108,7 +110,7 @@ def test_the_objective_falls_and_the_target_stays_reached(name: str, task: Task,
     qs = draw(chain, 40, seed=43)
     targets = poses(machine, chain, qs)
     goal = objective_of(objective, chain, len(qs))
-    settled = settle(chain, targets, qs, goal, task=task)
+    settled = settle(problem(chain, targets, qs, task=task), qs, goal)
     reached = poses(machine, chain, settled)
     assert distances(targets, reached).max() < 1.1e-10
     if task is FULL_POSE:
@@ -145,7 +147,7 @@ def test_at_the_end_nothing_that_is_allowed_makes_it_smaller(name: str, objectiv
     qs = draw(chain, 30, seed=44)
     goal = objective_of(objective, chain, len(qs))
     targets = poses(machine, chain, qs)
-    settled = settle(chain, targets, qs, goal, task=task)
+    settled = settle(problem(chain, targets, qs, task=task), qs, goal)
     gradients = objective_gradients(chain, targets, settled, goal, task)
     ends = np.array([steepest(machine, chain, q, task, g) for q, g in zip(settled, gradients, strict=True)])
     first = objective_gradients(chain, targets, qs, goal, task)
@@ -165,7 +167,7 @@ def test_a_joint_beside_its_limit_does_not_end_the_descent(name: str, task: Task
     qs = draw(chain, 60, seed=44)
     goal = objective_of("posture", chain, len(qs))
     targets = poses(machine, chain, qs)
-    settled = settle(chain, targets, qs, goal, task=task)
+    settled = settle(problem(chain, targets, qs, task=task), qs, goal)
     gradients = objective_gradients(chain, targets, settled, goal, task)
     ends = np.array([steepest(machine, chain, q, task, g) for q, g in zip(settled, gradients, strict=True)])
     assert (ends > 0.05 * np.linalg.norm(gradients, axis=1)).sum() <= 3
@@ -177,7 +179,7 @@ def test_without_freedom_a_solution_stays(objective: str) -> None:
     qs = draw(chain, 20, seed=45)
     regular = np.linalg.svd(jacobians(machine, chain, qs).values, compute_uv=False)[:, -1] > 0.01
     goal = objective_of(objective, chain, len(qs))
-    settled = settle(chain, poses(machine, chain, qs), qs, goal, task=FULL_POSE)
+    settled = settle(problem(chain, poses(machine, chain, qs), qs, task=FULL_POSE), qs, goal)
     assert regular.sum() > 10
     np.testing.assert_allclose(settled[regular], qs[regular], atol=1e-6)
 
@@ -188,7 +190,7 @@ def test_a_posture_that_solves_the_target_is_reached() -> None:
     targets = poses(machine, chain, postures)
     nearby = inverse_kinematics(machine, chain, targets, postures + 0.05, Options())
     assert_solved(machine, chain, targets, nearby)
-    settled = settle(chain, targets, nearby.qs, Objective("posture", postures), task=FULL_POSE)
+    settled = settle(problem(chain, targets, nearby.qs, task=FULL_POSE), nearby.qs, Objective("posture", postures))
     assert np.median(np.abs(settled - postures).max(axis=1)) < 1e-6
 
 
@@ -233,7 +235,7 @@ def test_a_posture_is_needed_and_said_to_be() -> None:
     machine, chain = catalogue_arm("panda")
     qs = draw(chain, 1)
     with pytest.raises(ValueError, match="posture"):
-        settle(chain, poses(machine, chain, qs), qs, Objective("posture"), task=FULL_POSE)
+        settle(problem(chain, poses(machine, chain, qs), qs, task=FULL_POSE), qs, Objective("posture"))
 
 
 @pytest.mark.parametrize(
@@ -254,7 +256,7 @@ def test_manipulability_is_that_of_the_task() -> None:
     machine, chain = planar_arm(0.5, 0.4, 0.3)
     chain = narrow(chain)
     qs = draw(chain, 30, seed=51)
-    settled = settle(chain, poses(machine, chain, qs), qs, Objective("manipulability"), task=PLANAR)
+    settled = settle(problem(chain, poses(machine, chain, qs), qs, task=PLANAR), qs, Objective("manipulability"))
 
     def measure(qs: Array) -> Array:
         Js = jacobians(machine, chain, qs).values[:, :2]

@@ -5,13 +5,12 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from gelenk.ik.search.search import search
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.ik.verdict.branches import wound_near
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
-from tests.ik.arms import angles, assert_solved, distances, draw, inside, limited, middle, moved, poses
+from tests.ik.arms import angles, assert_solved, distances, draw, inside, limited, middle, moved, poses, search
 from tests.robots import of_table, rows
 
 SETTINGS = settings(max_examples=60, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,10 +10,9 @@ from scipy.spatial.transform import Rotation
 
 from gelenk.ik.closed.closed_form import closed_form
 from gelenk.ik.search.retrace import retrace
-from gelenk.ik.search.search import Found, search, start_of
-from gelenk.ik.search.task import FULL_POSE, Task
+from gelenk.ik.search.search import Found, start_of
+from gelenk.ik.search.task import Task
 from gelenk.ik.solve import Options, inverse_kinematics, solve_quickly
-from gelenk.ik.verdict.verdict import TargetProblem
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
@@ -35,8 +35,10 @@ from tests.ik.arms import (
     moved,
     part,
     poses,
+    problem,
     repeated,
     same_turn,
+    search,
     table_arm,
 )
 from tests.oracles import catalogue
@@ -183,7 +185,9 @@ def test_starts_are_spread_over_the_limits_as_the_mixing_function_says() -> None
             z = (z ^ (z >> 30)) * factor & mask
         return ((z ^ (z >> 31)) >> 11) * 2.0**-53
 
-    starts = np.array([start_of(chain, np.zeros(7), True, 5, start) for start in range(1, 2000)])
+    nowhere = Poses(np.zeros((1, 3)), np.eye(3)[None])
+    own = problem(chain, nowhere, np.zeros((1, 7)), random_seed=5)
+    starts = np.array([start_of(own, 0, start) for start in range(1, 2000)])
     shares = (starts - chain.lower) / (chain.upper - chain.lower)
     for start in (1, 2, 77, 1999):
         np.testing.assert_allclose(shares[start - 1], [uniform(5, start, j) for j in range(7)], atol=1e-12)
@@ -233,7 +237,7 @@ def test_a_start_goes_where_the_damped_steps_lead(name: str, task: str) -> None:
     found = search(chain, targets, middle(chain), task=TASKS[task])
     compared = 0
     for i in np.flatnonzero(found.iterations <= 14)[:8]:
-        start = start_of(chain, middle(chain)[0], True, 0, int(found.restarts[i]))
+        start = start_of(problem(chain, targets, middle(chain)), i, int(found.restarts[i]))
         sequence = followed(
             machine, chain, part(targets, slice(i, i + 1)), start, TASKS[task], int(found.iterations[i]) - 1
         )
@@ -253,15 +257,11 @@ def test_the_steps_can_be_retraced_one_by_one(name: str, task: str) -> None:
     for i in range(60):
         if found.followed[i] >= 0:
             continue
-        descent = retrace(
-            chain,
-            part(targets, slice(i, i + 1)),
-            start_of(chain, middle(chain)[0], True, 0, int(found.restarts[i])),
-            int(found.followed[i]),
-            task=TASKS[task],
-            tolerances=(1e-15, 1e-15),
-            respect_limits=True,
+        tight = problem(
+            chain, targets, middle(chain), task=TASKS[task], position_tolerance=1e-15, orientation_tolerance=1e-15
         )
+        start = start_of(tight, i, int(found.restarts[i]))
+        descent = retrace(tight, i, start, int(found.followed[i]))
         steps = int(found.iterations[i]) - 1
         if steps < len(descent.trace):
             step_by_step = descent.trace[steps].joint_positions
@@ -278,8 +278,7 @@ def test_quick_answers_are_the_same_answers(name: str) -> None:
     given_up = 0
     for i in range(60):
         target = part(targets, slice(i, i + 1))
-        question = TargetProblem(machine, chain, target, middle(chain), FULL_POSE, (1e-6, 1e-6), True)
-        quick = solve_quickly(question, 8, 0)
+        quick = solve_quickly(replace(problem(chain, target, middle(chain)), robot=machine), 8)
         answer = inverse_kinematics(machine, chain, target, middle(chain), Options())
         if quick is None:
             given_up += 1
@@ -291,9 +290,7 @@ def test_quick_answers_are_the_same_answers(name: str) -> None:
         np.testing.assert_array_equal(quick.position_errors, answer.position_errors)
     assert given_up < 20
     away = moved(part(targets, slice(0, 2)), np.array([[0.0] * 3, [9.0] * 3]), np.zeros((2, 3)))
-    assert (
-        solve_quickly(TargetProblem(machine, chain, away, middle(chain), FULL_POSE, (1e-6, 1e-6), True), 8, 0) is None
-    )
+    assert solve_quickly(replace(problem(chain, away, middle(chain)), robot=machine), 8) is None
 
 
 # Everything is solved

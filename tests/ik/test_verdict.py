@@ -7,9 +7,10 @@ from scipy.spatial.transform import Rotation
 
 from gelenk.errors import counted
 from gelenk.ik.closed.closed_form import closed_form
-from gelenk.ik.search.descent import DescentRule, StepMethod
+from gelenk.ik.search.problem import DescentRule
 from gelenk.ik.search.reach import Reach
 from gelenk.ik.search.task import FULL_POSE, Task
+from gelenk.ik.search.words import StepMethod
 from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.ik.verdict.result import InverseKinematics, UnsolvedTarget
 from gelenk.kinematics.velocity.jacobian import jacobians
@@ -566,7 +567,7 @@ def test_a_trace_ends_at_the_solution(name: str, task: str) -> None:
     for q, path in zip(answer.qs, answer.paths, strict=True):
         assert path.trace is not None
         assert path.stop_reason == "converged"
-        np.testing.assert_allclose(same_turn(path.trace[-1].joint_positions - q), 0.0, atol=2e-3)
+        np.testing.assert_allclose(same_turn(np.array(path.trace[-1].joint_positions) - q), 0.0, atol=2e-3)
 
 
 def test_a_trace_begins_at_the_seed_or_at_a_start_of_its_own() -> None:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gelenk.ik.search.null_space import Objective
+from gelenk.ik.search.problem import Objective
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import Direction, ObjectiveName
 from gelenk.kinematics.judge.words import Reference

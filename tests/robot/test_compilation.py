@@ -14,9 +14,9 @@ import pytest
 from numba.core.compiler_lock import global_compiler_lock
 
 from gelenk.ik import solve
-from gelenk.ik.search.search import mid_range
+from gelenk.ik.search.bounds import mid_range
+from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.solve import Options, inverse_kinematics
-from gelenk.ik.verdict.verdict import TargetProblem
 from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.robot.compilation import clock, when_compiling
 from tests.robots import robot

@@ -9,7 +9,16 @@ from gelenk.contract.common import Answer, ChainOptions, OnTheWire
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import Configuration, Configurations
 from gelenk.contract.pose import Pose, PoseFormat, pose_fields
-from gelenk.ik.search.words import Direction, ObjectiveName, Status, StopReason
+from gelenk.ik.search.words import (
+    BlockingJoint,
+    Direction,
+    Family,
+    Iterate,
+    Method,
+    ObjectiveName,
+    Status,
+    StopReason,
+)
 from gelenk.robot.arrays import Array
 
 MAX_TARGETS = 1_000_000
@@ -28,8 +37,6 @@ Targets = Annotated[
     OnTheWire(Annotated[list[Pose], Field(max_length=MAX_TARGETS, fail_fast=True)], pose_fields),
     Field(description="Target poses of `tip_frame` in `base_frame`."),
 ]
-
-Method = Literal["auto", "analytic", "newton", "gradient", "gradient_then_newton", "damped_least_squares"]
 
 
 class InverseOptions(ChainOptions):
@@ -175,25 +182,6 @@ class SolutionInfo(Answer):
     )
 
 
-class FamilyInfo(Answer):
-    """Infinitely many solutions, joined by a motion of some joints while the others stand still.
-
-    The motion was walked in steps of up to 0.2 rad (or m), as far as limits or a full turn allow, and each of its
-    configurations met the target within 1e-9 m and rad.
-    """
-
-    free_joints: list[str] = Field(description="The joints that move, base to tip.")
-    relation: str | None = Field(
-        description="Which sums of them stay, `q_k` being the k-th of `joint_names`: `q_4 + q_6 = c`; null where no "
-        "sum with small whole factors does."
-    )
-    text: str = Field(description="The relation in words, with the value of each sum [rad or m].")
-    sweep: list[list[float]] = Field(
-        description="Some of its configurations in the order of the motion, [rad or m]; those of all families together "
-        "are at most `max_solutions`."
-    )
-
-
 class NearestInfo(Answer):
     """The configuration found nearest to a target that is not reached.
 
@@ -207,26 +195,6 @@ class NearestInfo(Answer):
     orientation_error: float = Field(description="Angle to the target likewise, [rad].")
 
 
-class BlockingJointInfo(Answer):
-    """A joint whose limit prevents the solution."""
-
-    name: str = Field(description="Of the joint.")
-    position: float = Field(description="Position it would need, [rad or m].")
-    lower: float = Field(description="Lower limit, [rad or m].")
-    upper: float = Field(description="Upper limit, [rad or m].")
-    excess: float = Field(description="How far beyond the limit that is, [rad or m].")
-
-
-class IterationInfo(Answer):
-    """One configuration in the course of an iteration."""
-
-    error: float = Field(description="‖e‖ of the directions that count: distance [m] and rotation vector [rad] mixed.")
-    min_singular_value: float = Field(description="Smallest singular value of J in these directions, mixed likewise.")
-    step_length: float | None = Field(description="‖Δq‖ of the step from here, [rad or m]; null at the last.")
-    method: str | None = Field(description="Method of that step; null at the last.")
-    joint_positions: list[float] = Field(description="The configuration itself, [rad or m].")
-
-
 class InverseResult(Answer):
     """The result for one target."""
 
@@ -238,7 +206,7 @@ class InverseResult(Answer):
     solutions: list[SolutionInfo] = Field(description="Nearest to the seed first; empty unless solved.")
     reason: str | None = Field(description="Why it is not solved; or, with `all`, why there may be other solutions.")
     nearest: NearestInfo | None = Field(default=None, description="Of an unsolved target.")
-    blocking_joints: list[BlockingJointInfo] | None = Field(default=None, description="With `outside_limits`.")
+    blocking_joints: list[BlockingJoint] | None = Field(default=None, description="With `outside_limits`.")
     unserved_directions: list[list[float]] | None = Field(
         default=None,
         description="Of an unsolved target: unit twists in the base's axes, linear before angular, that the tip cannot "
@@ -249,7 +217,7 @@ class InverseResult(Answer):
         description="With `all`: whether these are proved to be all solutions. False for the results of a search, and "
         "next to a singularity, where rounding may lose a solution.",
     )
-    families: list[FamilyInfo] | None = Field(
+    families: list[Family] | None = Field(
         default=None,
         description="With `all`, where there are infinitely many solutions: the families that `solutions` samples. "
         "Empty where none was found; at most 32.",
@@ -259,7 +227,7 @@ class InverseResult(Answer):
         description="If one start was followed: why it stopped (`stagnated`: e lies in ker Jᵀ). "
         "`time_limit`: the call's time ran out before the target was solved, explained or brought to its objective.",
     )
-    trace: list[IterationInfo] | None = Field(
+    trace: list[Iterate] | None = Field(
         default=None,
         description="If requested: every configuration of the iteration; with `auto` from the start that counts, or "
         "from the seed if none does. Joints that turn freely may leave their limits meanwhile; in the solution they "

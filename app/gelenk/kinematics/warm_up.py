@@ -1,14 +1,14 @@
 """Warm-up: compile every kernel, or load it from the cache, before the first request needs it."""
 
 import math
-from typing import Any
 
 import numpy as np
 
 from gelenk.dh.tables.convert import describe_dh
 from gelenk.ik.count.continuation import continuation
-from gelenk.ik.search.search import mid_range, search, start_of, target_rows
-from gelenk.ik.search.task import FULL_POSE
+from gelenk.ik.search.bounds import mid_range
+from gelenk.ik.search.problem import TargetProblem
+from gelenk.ik.search.search import search, start_of
 from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.ik.verdict.branches import all_branches
 from gelenk.kinematics.poses.forward import forward_kinematics
@@ -64,11 +64,10 @@ def _searches() -> None:
     robot, chain, qs = _small_arm()
     for representation in ("zyz", "rpy"):
         poses = jacobians(robot, chain, qs, representation=representation, derivatives=True).poses
-    goal: dict[str, Any] = {"task": FULL_POSE, "respect_limits": True, "random_seed": 0}
-    search(chain, poses, qs, position_tolerance=1e-6, orientation_tolerance=1e-6, max_iterations=100, **goal)
-    row = target_rows(poses)[0]
-    all_branches(chain, row, qs[0], tolerances=(1e-6, 1e-6), most=1, windings=False, **goal)
-    start_of(chain, mid_range(chain), True, 0, 1)
+    problem = TargetProblem(robot, chain, poses, qs, Options(most=1))
+    search(problem, max_iterations=100)
+    all_branches(problem, 0)
+    start_of(problem, 0, 1)
     continuation(_six_joints().chain(None, None))
 
 

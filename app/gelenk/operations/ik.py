@@ -5,12 +5,12 @@ from typing import Any
 
 from gelenk.contract.ik import MAX_STEPWISE, MAX_TARGETS, InverseRequest
 from gelenk.ik.closed.closed_form import ClosedForm, closed_form, is_looked_at, look_at
+from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS
 from gelenk.ik.solve import inverse_kinematics, solve_quickly
 from gelenk.ik.verdict.result import InverseKinematics
-from gelenk.ik.verdict.verdict import TargetProblem
-from gelenk.operations.ik_answer import closed_form_of, table, told, told_results, unsolved_headers
-from gelenk.operations.ik_request import TargetLimits, asked, options_of, task_of
+from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolved_headers
+from gelenk.operations.ik_request import TargetLimits, options_of, parse, task_of
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.request_counts import RequestCounts
 from gelenk.operations.warm_up import WarmUp
@@ -28,7 +28,7 @@ _SHARE_OF_TIME = 0.8
 
 def run(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome:
     """Compute configurations that bring the tip to each target."""
-    chain, targets, seeds = asked(loaded.robot, call, _bounds(limits))
+    chain, targets, seeds = parse(loaded.robot, call, _bounds(limits))
     seconds = None if call.time_limit is None else min(call.time_limit, _SHARE_OF_TIME * limits.seconds)
     options = options_of(chain, call, seconds)
     return _outcome(chain, call, inverse_kinematics(loaded.robot, chain, targets, seeds, options))
@@ -36,12 +36,11 @@ def run(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome:
 
 def attempt(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome | None:
     """Try the operation with a few starts; return None if they do not suffice."""
-    chain, targets, seeds = asked(loaded.robot, call, _bounds(limits))
-    tolerances = call.position_tolerance, call.orientation_tolerance
-    question = TargetProblem(loaded.robot, chain, targets, seeds, task_of(call), tolerances, call.respect_limits)
+    chain, targets, seeds = parse(loaded.robot, call, _bounds(limits))
+    problem = TargetProblem(loaded.robot, chain, targets, seeds, options_of(chain, call, None))
     budget = max(1, (call.max_iterations or MAX_ITERATIONS) // ITERATIONS_PER_START)
     starts = min(budget, max(1, _QUICK_STARTS * 7 // max(7, len(chain))))
-    result = solve_quickly(question, starts, call.random_seed, by_form=call.method == "analytic")
+    result = solve_quickly(problem, starts, by_form=call.method == "analytic")
     return None if result is None else _outcome(chain, call, result)
 
 
@@ -86,7 +85,7 @@ def _outcome(chain: Chain, call: InverseRequest, result: InverseKinematics) -> O
     fits = call.solutions == "one" and not call.trace
 
     def content() -> dict[str, Any]:
-        return told(chain, call, closed_form_of(result), told_results(chain, call.pose_format, result))
+        return to_json(chain, call, result.closed_form, results_to_json(chain, call.pose_format, result))
 
     def array() -> tuple[Array, dict[str, str]]:
         return table(chain, result), unsolved_headers(list(result.failures))

@@ -8,7 +8,7 @@ import numpy as np
 from gelenk.contract.ik import MAX_TRACE, InverseRequest
 from gelenk.contract.pose import PoseFormat
 from gelenk.ik.verdict.fixed import narrowed
-from gelenk.ik.verdict.result import COUNTED, InverseKinematics, IterationPath, SolutionBranches, UnsolvedTarget
+from gelenk.ik.verdict.result import COUNTED, InverseKinematics, IterationPath, UnsolvedTarget
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.operations.ik_request import task_of
 from gelenk.operations.pose_arrays import pose_list
@@ -36,7 +36,7 @@ def unsolved_headers(unsolved: Sequence[int]) -> dict[str, str]:
     return {"Gelenk-Unsolved": str(len(unsolved)), "Gelenk-Unsolved-Rows": rows}
 
 
-def told(chain: Chain, call: InverseRequest, closed_form: str | None, results: list[Any]) -> dict[str, Any]:
+def to_json(chain: Chain, call: InverseRequest, closed_form: str | None, results: list[Any]) -> dict[str, Any]:
     """Return the whole answer; the results come last, so that they can be written part by part."""
     return {
         "joint_names": chain.joint_names,
@@ -48,75 +48,45 @@ def told(chain: Chain, call: InverseRequest, closed_form: str | None, results: l
     }
 
 
-def closed_form_of(result: InverseKinematics) -> str | None:
-    """Return the name of the closed form, or of the method for six joints without one; None if neither was used."""
-    return None if result.branches is None else result.branches.name
-
-
-def told_results(chain: Chain, pose_format: PoseFormat, result: InverseKinematics) -> list[dict[str, Any]]:
+def results_to_json(chain: Chain, pose_format: PoseFormat, result: InverseKinematics) -> list[dict[str, Any]]:
     """Return the result of each target."""
-    solutions = [
-        {
-            "joint_positions": q,
-            "position_error": position_error,
-            "orientation_error": orientation_error,
-            "method": result.method,
-            "iterations": iterations,
-            "restarts": restarts,
-            "branch": None,
-        }
-        for q, position_error, orientation_error, iterations, restarts in zip(
-            result.qs.tolist(),
-            result.position_errors.tolist(),
-            result.orientation_errors.tolist(),
-            result.iterations.tolist(),
-            result.restarts.tolist(),
-            strict=True,
-        )
-    ]
-    if result.branches is not None:
-        _name_branches(solutions, result.branches, result.qs)
-    firsts = result.firsts.tolist()
+    solutions, firsts = _solutions(result), result.firsts.tolist()
     entries: list[dict[str, Any]] = [
-        {"status": status, "solutions": solutions[firsts[i] : firsts[i + 1]], "reason": None}
+        {"status": status, "solutions": solutions[firsts[i] : firsts[i + 1]], "reason": result.doubts.get(i)}
         for i, status in enumerate(result.statuses)
     ]
-    if result.complete is not None:
-        for entry, complete in zip(entries, result.complete, strict=True):
-            entry["complete"], entry["families"] = complete, []
-    for i, families in result.families.items():
-        entries[i]["families"] = [
-            {
-                "free_joints": family.free_joints,
-                "relation": family.relation,
-                "text": family.text,
-                "sweep": family.sweep.tolist(),
-            }
-            for family in families
-        ]
-    for i, doubt in result.doubts.items():
-        entries[i]["reason"] = doubt
-    if result.paths is not None:
-        for entry, path in zip(entries, result.paths, strict=True):
-            entry.update(_path(path))
+    for i, complete in enumerate(result.complete or ()):
+        entries[i].update(complete=complete, families=result.families.get(i, ()))
+    for i, path in enumerate(result.paths or ()):
+        entries[i].update(_path(path))
     for i, failure in result.failures.items():
         entries[i].update(_failure(chain, pose_format, failure))
     return entries
 
 
-def _name_branches(solutions: list[dict[str, Any]], branches: SolutionBranches, qs: Array) -> None:
-    """Add to each solution its method, its branch, and the joints that a singularity leaves free."""
-    form = branches.form
-    for solution, code, free in zip(solutions, branches.codes.tolist(), branches.free.tolist(), strict=True):
-        if code == COUNTED:
-            solution["method"] = "continuation"
-        elif form and code >= 0:
-            solution["method"], solution["branch"] = form.method, form.branch(code)
-            if free:
-                solution["free_joints"] = form.free_joints(free)
+def _solutions(result: InverseKinematics) -> list[dict[str, Any]]:
+    """Return each solution with its method, its branch, and the joints that a singularity leaves free."""
+    form, solutions = result.form, []
+    rows = zip(*(column.tolist() for column in result.rows(slice(None)).values()), strict=True)
+    for q, position_error, orientation_error, iterations, restarts, code, free in rows:
+        is_named = form is not None and code >= 0
+        solution = {
+            "joint_positions": q,
+            "position_error": position_error,
+            "orientation_error": orientation_error,
+            "method": form.method if form and is_named else "continuation" if code == COUNTED else result.method,
+            "iterations": iterations,
+            "restarts": restarts,
+            "branch": form.branch(code) if form and is_named else None,
+        }
+        if form and is_named and free:
+            solution["free_joints"] = form.free_joints(free)
+        solutions.append(solution)
     if form and form.has_free_elbow:
-        for solution, angle in zip(solutions, form.elbow_angles(narrowed(form.chain, qs)).tolist(), strict=True):
+        angles = form.elbow_angles(narrowed(form.chain, result.qs)).tolist()
+        for solution, angle in zip(solutions, angles, strict=True):
             solution["elbow_angle"] = angle
+    return solutions
 
 
 def _failure(chain: Chain, pose_format: PoseFormat, failure: UnsolvedTarget) -> dict[str, Any]:
@@ -145,14 +115,5 @@ def _path(path: IterationPath) -> dict[str, Any]:
         every = max(1, -(-(len(path.trace) - 1) // (MAX_TRACE - 1)))
         if every > 1:
             entry["note"] = f"the trace reports 1 in {every} of {len(path.trace)} configurations, and the last"
-        entry["trace"] = [
-            {
-                "error": iterate.error,
-                "min_singular_value": iterate.min_singular_value,
-                "step_length": iterate.step_length,
-                "method": iterate.method,
-                "joint_positions": iterate.joint_positions.tolist(),
-            }
-            for iterate in [*path.trace[:-1:every], *path.trace[-1:]]
-        ]
+        entry["trace"] = [*path.trace[:-1:every], *path.trace[-1:]]
     return entry

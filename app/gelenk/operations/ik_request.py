@@ -2,15 +2,14 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import cast
 
 from gelenk.contract.ik import MAX_TRACE, InverseRequest
 from gelenk.errors import InvalidField, TooLarge, counted, quoted
-from gelenk.ik.search.descent import DescentRule
-from gelenk.ik.search.null_space import Objective
-from gelenk.ik.search.search import mid_range
+from gelenk.ik.search.bounds import mid_range
+from gelenk.ik.search.problem import DescentRule, Objective, Options
 from gelenk.ik.search.task import FULL_POSE, Task
-from gelenk.ik.search.words import DIRECTIONS, Direction
-from gelenk.ik.solve import Options
+from gelenk.ik.search.words import DIRECTIONS, Direction, StepMethod
 from gelenk.operations.pose_arrays import poses_from
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -34,7 +33,7 @@ class TargetLimits:
     numbers: int | None
 
 
-def asked(robot: RobotModel, call: InverseRequest, bounds: TargetLimits) -> tuple[Chain, Poses, Array]:
+def parse(robot: RobotModel, call: InverseRequest, bounds: TargetLimits) -> tuple[Chain, Poses, Array]:
     """Return the chain, the targets and the seeds: one configuration for all or one each, shape (1 or N, n).
 
     Raises:
@@ -65,11 +64,13 @@ def _seeds(chain: Chain, call: InverseRequest, count: int) -> Array:
 
 def options_of(chain: Chain, call: InverseRequest, time_limit: float | None) -> Options:
     """Return the options of the solver; without a time limit if that is None."""
-    match call.method:
-        case "auto" | "analytic":
-            rule = None
-        case step_method:
-            rule = DescentRule(step_method, call.step_size, call.damping, call.switch_error)
+    rule = None
+    if call.method not in {"auto", "analytic"}:
+        rule = DescentRule(cast(StepMethod, call.method), call.step_size, call.damping, call.switch_error)
+    objective = None
+    if call.objective is not None:
+        posture = None if call.posture is None else one_configuration(chain, call.posture, "posture")
+        objective = Objective(call.objective, posture)
     return Options(
         task=task_of(call),
         position_tolerance=call.position_tolerance,
@@ -83,7 +84,7 @@ def options_of(chain: Chain, call: InverseRequest, time_limit: float | None) -> 
         max_iterations=call.max_iterations,
         time_limit=time_limit,
         random_seed=call.random_seed,
-        objective=_objective(chain, call),
+        objective=objective,
         elbow_angle=call.elbow_angle,
         trace=call.trace,
         fixed_joints=call.fixed_joints or {},
@@ -100,14 +101,6 @@ def _task_of(directions: frozenset[Direction]) -> Task:
     if len(directions) == len(DIRECTIONS):
         return FULL_POSE
     return Task(tuple(direction for direction in DIRECTIONS if direction in directions))
-
-
-def _objective(chain: Chain, call: InverseRequest) -> Objective | None:
-    if call.objective is None:
-        return None
-    if call.posture is None:
-        return Objective(call.objective)
-    return Objective(call.objective, one_configuration(chain, call.posture, "posture"))
 
 
 def _check_fixed_joints(chain: Chain, call: InverseRequest) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 
 from gelenk.contract.velocity import VelocityRequest
 from gelenk.errors import InvalidArray, InvalidField, counted, quoted
-from gelenk.ik.search.null_space import Objective
+from gelenk.ik.search.problem import Objective
 from gelenk.kinematics.velocity.inverse_velocity import descent
 from gelenk.kinematics.velocity.linear_inverse import InverseRule
 from gelenk.kinematics.velocity.task_space import TaskSpace

@@ -18,8 +18,8 @@ from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
-from gelenk.operations.ik_answer import closed_form_of, table, told, told_results, unsolved_headers
-from gelenk.operations.ik_request import TargetLimits, asked, is_stepwise, options_of
+from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolved_headers
+from gelenk.operations.ik_request import TargetLimits, is_stepwise, options_of, parse
 from gelenk.operations.outcome import Limits
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -49,7 +49,7 @@ def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[
         raise InvalidField(
             "time_limit", "a job looks for each target to the end: leave it out, or ask for the answer now"
         )
-    chain, targets, seeds = asked(loaded.robot, call, _BOUNDS)
+    chain, targets, seeds = parse(loaded.robot, call, _BOUNDS)
     _check_room(limits.job_bytes, loaded, call, (chain, targets, seeds))
     ends = {"base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
     rest = call.model_copy(update={"targets": [], "seeds": None, **ends})
@@ -121,7 +121,7 @@ def _work(_: Limits, folder: Path) -> Work:
             unsolved += (k * size + values["unsolved"]).tolist()
         (form,) = forms
         chain = robot_of(text).chain(call.base_frame, call.tip_frame)
-        frame = orjson.dumps(told(chain, call, orjson.loads(form), []), option=orjson.OPT_SERIALIZE_NUMPY)
+        frame = orjson.dumps(to_json(chain, call, orjson.loads(form), []), option=orjson.OPT_SERIALIZE_NUMPY)
         files: Files = {RESULTS[JSON]: lambda target: _write_json(target, frame, run.parts.of(_STAGE, count))}
         if call.solutions == "all" or call.trace:
             return files
@@ -146,9 +146,9 @@ def solved_part(job: _Part) -> bytes:
 
 def _solved(robot: RobotModel, chain: Chain, call: InverseRequest, targets: Poses, seeds: Array) -> bytes:
     result = inverse_kinematics(robot, chain, targets, seeds, options_of(chain, call, None))
-    results = orjson.dumps(told_results(chain, call.pose_format, result), option=orjson.OPT_SERIALIZE_NUMPY)
+    results = orjson.dumps(results_to_json(chain, call.pose_format, result), option=orjson.OPT_SERIALIZE_NUMPY)
     return packed(
-        form=as_bytes(orjson.dumps(closed_form_of(result))),
+        form=as_bytes(orjson.dumps(result.closed_form)),
         results=as_bytes(results),
         unsolved=np.array(list(result.failures), dtype=np.int64),
         rows=None if call.solutions == "all" or call.trace else table(chain, result),

@@ -33,8 +33,8 @@ from gelenk.ik.closed.subproblem_chains import (
     SQUARE,
     SubproblemPlan,
 )
+from gelenk.ik.search.bounds import limits_of, make_goal, mid_range, target_rows, whole_turns_removed
 from gelenk.ik.search.linearise import linearise
-from gelenk.ik.search.search import limits_of, make_goal, mid_range, target_rows
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array, Flags
@@ -98,7 +98,7 @@ class ClosedForm:
             most: Largest number of solutions of one target.
         """
         chain = self.chain
-        goal = make_goal(chain, self.task, *tolerances, respect_limits=False, max_iterations=1, random_seed=0)
+        goal = make_goal(chain, self.task, tolerances, False, 1)
         angles = np.zeros(1) if elbow_angles is None else np.atleast_1d(np.asarray(elbow_angles, dtype=float))
         if elbow_angles is None and self.has_free_elbow:
             angles = self.elbow_angles(seeds)
@@ -583,9 +583,7 @@ def _trial(form: ClosedForm, count: int) -> tuple[Array, BranchTable]:
 def _row_of(chain: Chain, table: BranchTable, i: int, q: Array) -> int:
     """Return the row of configuration q among the branches of target i in the table; -1 if it is missing."""
     first, last = table.firsts[i], table.firsts[i + 1]
-    differences = table.qs[first:last] - q
-    turning = chain.flat.joints[:, 0] == 0
-    differences -= np.where(turning, 2.0 * np.pi * np.rint(differences / (2.0 * np.pi)), 0.0)
+    differences = whole_turns_removed(chain, table.qs[first:last] - q)
     near = np.flatnonzero(np.abs(differences).max(axis=1, initial=0.0) <= _FOUND_AGAIN)
     return int(first + near[0]) if len(near) else -1
 

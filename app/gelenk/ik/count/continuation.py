@@ -18,10 +18,10 @@ import numpy as np
 from gelenk.ik.closed.closed_form import screws_of_six
 from gelenk.ik.count.homotopy import JOINTS, ComplexArray, follow
 from gelenk.ik.count.special import drawn, geometry, reaches
-from gelenk.ik.search.search import limits_of
+from gelenk.ik.search.problem import TargetProblem
+from gelenk.ik.search.words import DIRECTIONS
 from gelenk.ik.verdict.branches import SEARCHED, Branches, sorted_by_distance, wound_near
 from gelenk.ik.verdict.near_singular import with_partners
-from gelenk.ik.verdict.verdict import TargetProblem
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
@@ -193,32 +193,37 @@ class _Ends(NamedTuple):
         return _Ends(qs, steps, steps <= np.minimum(_ALONE * far, _ALONE_FAR))
 
 
-def counted(question: TargetProblem, i: int, system: Continuation, search: Callable[[], Branches] | None) -> Branches:
+def counted(problem: TargetProblem, i: int, system: Continuation, search: Callable[[], Branches] | None) -> Branches:
     """Find all solutions of one target within the limits, nearest to the seed first, see `Continuation.solve`.
 
     Args:
-        question: The problem.
+        problem: The targets.
         i: Index of the target.
         system: Continuation of the chain.
         search: Search to call if the proof fails; None for no search.
     """
-    qs, doubt = system.solve(question.target(i))
+    qs, doubt = system.solve(problem.target(i))
     if doubt:
         other = search() if search else Branches(qs[:0], doubt)
         if search and other.doubt != SEARCHED:
             return other
-        found = with_partners(question, i, np.concatenate((qs, other.qs)), _ROUNDING * (1.0 + system.size))
+        found = with_partners(problem, i, np.concatenate((qs, other.qs)), _ROUNDING * (1.0 + system.size))
         qs = found if len(found) else other.qs
     else:
-        qs = within_limits(question, i, qs)
-    return Branches(sorted_by_distance(qs, question.seed(i)), doubt)
+        qs = within_limits(problem, i, qs)
+    return Branches(sorted_by_distance(qs, problem.seed(i)), doubt)
 
 
-def within_limits(question: TargetProblem, i: int, qs: Array) -> Array:
+def within_limits(problem: TargetProblem, i: int, qs: Array) -> Array:
     """Turn solutions by full turns into the limits, and keep those that fit; shape (k, n), [rad or m]."""
-    lower, upper = limits_of(question.chain, question.respect_limits)
-    qs = wound_near(question.chain, qs, question.seed(i), lower, upper)
+    lower, upper = problem.limits
+    qs = wound_near(problem.chain, qs, problem.seed(i), lower, upper)
     return np.asarray(qs[((qs >= lower) & (qs <= upper)).all(axis=1)])
+
+
+def system_of(problem: TargetProblem) -> Continuation | None:
+    """Return the continuation that counts all solutions; None if the chain or the task has none."""
+    return continuation(problem.chain) if len(problem.task) == len(DIRECTIONS) else None
 
 
 @lru_cache(maxsize=256)

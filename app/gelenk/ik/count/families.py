@@ -9,12 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.errors import quoted
-from gelenk.ik.search.linearise import linearise
-from gelenk.ik.search.search import free_variables, is_over, limits_of
+from gelenk.ik.search.bounds import free_variables, whole_turns_removed
+from gelenk.ik.search.problem import TargetProblem
+from gelenk.ik.search.words import Family
 from gelenk.ik.verdict.fixed import widened
 from gelenk.ik.verdict.judge import judged
-from gelenk.ik.verdict.result import Family
-from gelenk.ik.verdict.verdict import TargetProblem
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain
 
@@ -62,23 +61,20 @@ class _Motion:
         return bool((np.abs(apart) <= _MOVES).all())
 
 
-def families_of(question: TargetProblem, i: int, qs: Array, most: int, deadline: float | None) -> tuple[Family, ...]:
+def families_of(problem: TargetProblem, i: int, qs: Array) -> tuple[Family, ...]:
     """Find the families to which solutions of a target belong, in the order of the solutions.
 
     Args:
-        question: The problem.
+        problem: The targets; its options bound the sample configurations of all families together.
         i: Index of the target.
         qs: Its solutions; shape (k, n), [rad or m].
-        most: Largest number of sample configurations of all families together.
-        deadline: When to stop, on `gelenk.robot.compilation.clock`, [s].
     """
-    own = question.taken(np.array([i]))
-    Js = linearise(own.chain, own.taken(np.zeros(len(qs), dtype=np.int64)).targets, qs, own.task)[1]
-    sizes = np.linalg.svd(Js, compute_uv=False)
+    own, most = problem.taken(slice(i, i + 1)), problem.options.most
+    sizes = np.linalg.svd(own.linearised(0, qs)[1], compute_uv=False)
     ranks = (sizes > _SINGULAR * sizes[:, :1]).sum(axis=1)
     motions: list[_Motion] = []
     for q in qs[ranks < qs.shape[1]]:
-        if is_over(deadline) or len(motions) == min(most, MOST_FAMILIES):
+        if own.is_over or len(motions) == min(most, MOST_FAMILIES):
             break
         if not any(motion.has(own.chain, q) for motion in motions):
             motion = _motion(own, q)
@@ -98,10 +94,10 @@ def _family(chain: Chain, motion: _Motion, most: int) -> Family:
     sums = [f"{_sum(tie, names)} stays at {tie @ motion.path[0]:.6g}" for tie in motion.ties]
     rows = np.unique(np.linspace(0, len(path) - 1, min(most, len(path))).round().astype(np.int64))
     return Family(
-        tuple(chain.joint_names[j] for j in np.flatnonzero(motion.moving)),
+        [chain.joint_names[j] for j in np.flatnonzero(motion.moving)],
         ", ".join(relations) or None,
         ", ".join([said, *sums]),
-        path[rows],
+        path[rows].tolist(),
     )
 
 
@@ -115,12 +111,12 @@ def _sum(factors: Array, names: list[str]) -> str:
     return " ".join(terms).removeprefix("+ ")
 
 
-def _motion(question: TargetProblem, q: Array) -> _Motion | None:
+def _motion(problem: TargetProblem, q: Array) -> _Motion | None:
     """Return the motion from a solution along the target, or None if there is no motion."""
-    q, kernel, _ = _corrected(question, q)
+    q, kernel, _ = _corrected(problem, q)
     for direction in kernel:
-        ahead, is_loop = _walk(question, q, direction, _MOST_STEPS)
-        behind = ahead[:1] if is_loop else _walk(question, q, -direction, _MOST_STEPS)[0]
+        ahead, is_loop = _walk(problem, q, direction, _MOST_STEPS)
+        behind = ahead[:1] if is_loop else _walk(problem, q, -direction, _MOST_STEPS)[0]
         path = np.concatenate((behind[:0:-1], ahead))
         if len(path) > 1:
             break
@@ -128,26 +124,25 @@ def _motion(question: TargetProblem, q: Array) -> _Motion | None:
         return None
     ways = path
     # Families may cross where the walk began; further on it is in only one, whose dimension is that of the kernel.
-    on, kernel, _ = _corrected(question, path[len(path) // 4])
+    on, kernel, _ = _corrected(problem, path[len(path) // 4])
     if len(kernel) > 1:
         directions = [sign * direction for direction in (*kernel, kernel.sum(axis=0)) for sign in (1.0, -1.0)]
-        ways = np.concatenate([path, *(_walk(question, on, direction, _EXPLORED)[0] for direction in directions)])
+        ways = np.concatenate([path, *(_walk(problem, on, direction, _EXPLORED)[0] for direction in directions)])
     moving = np.ptp(ways, axis=0) > _MOVES
-    rows = np.zeros(len(path), dtype=np.int64)
-    good, *errors = judged(question.taken(rows), path, np.ones(len(path), dtype=bool))
+    good, *errors = judged(problem.taken(np.zeros(len(path), dtype=np.int64)), path)
     if not (moving.any() and good.all() and np.max(errors) <= 2.0 * _OFF_TARGET):
         return None
     return _Motion(path, moving, _ties(ways - ways[0], moving))
 
 
-def _corrected(question: TargetProblem, q: Array) -> tuple[Array, Array, float]:
+def _corrected(problem: TargetProblem, q: Array) -> tuple[Array, Array, float]:
     """Bring a configuration onto the target by Newton steps of least length.
 
     Returns:
         The configuration, shape (n,); an orthonormal basis of the kernel of J there, shape (k, n); the error.
     """
     for k in range(_CORRECTIONS + 1):
-        es, Js = linearise(question.chain, question.targets, q[None], question.task)
+        es, Js = problem.linearised(0, q[None])
         U, sizes, Vt = np.linalg.svd(Js[0])
         error = float(np.linalg.norm(es))
         if error <= _ROUNDING or k == _CORRECTIONS:
@@ -157,15 +152,14 @@ def _corrected(question: TargetProblem, q: Array) -> tuple[Array, Array, float]:
     return q, Vt[int((sizes > _SINGULAR * sizes[0]).sum()) :], error
 
 
-def _walk(question: TargetProblem, start: Array, direction: Array, most: int) -> tuple[Array, bool]:
+def _walk(problem: TargetProblem, start: Array, direction: Array, most: int) -> tuple[Array, bool]:
     """Walk on the target from a start until a limit or dead end; return the path, and whether it closed."""
-    lower, upper = limits_of(question.chain, question.respect_limits)
-    free = free_variables(question.chain)
+    lower, upper = problem.limits
     path = [start]
     while len(path) <= most and np.abs(direction).max() > 0.0:
         for size in _STEPS:
             step = size / np.abs(direction).max() * direction
-            q, kernel, error = _corrected(question, path[-1] + step)
+            q, kernel, error = _corrected(problem, path[-1] + step)
             goes_on = np.abs(q - path[-1] - step).max() <= 0.5 * size
             if goes_on and error <= min(_OFF_TARGET, _DRIFT * size) and ((q >= lower) & (q <= upper)).all():
                 break
@@ -173,8 +167,7 @@ def _walk(question: TargetProblem, start: Array, direction: Array, most: int) ->
             break
         direction = kernel.T @ (kernel @ (q - path[-1]))
         path.append(q)
-        apart = q - start - np.where(free, _TURN * np.rint((q - start) / _TURN), 0.0)
-        if len(path) > 3 and np.abs(apart).max() < 0.75 * size:
+        if len(path) > 3 and np.abs(whole_turns_removed(problem.chain, q - start)).max() < 0.75 * size:
             return np.array(path), True
     return np.array(path), False
 
@@ -188,8 +181,7 @@ def _ties(ways: Array, moving: Flags) -> Array:
     ties[:, joints] = rest / np.where(rest == 0.0, np.inf, np.abs(rest)).min(axis=1, initial=np.inf, keepdims=True)
     ties = np.rint(ties)
     stay = (np.abs(ties) <= _LARGEST).all(axis=1) & (np.ptp(ways @ ties.T, axis=0) <= _TIED)
-    held: Array = ties[stay]
-    return held
+    return np.asarray(ties[stay])
 
 
 def _reduced(rows: Array) -> Array:

@@ -2,22 +2,15 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
 
 import numpy as np
 
 from gelenk.ik.search.kernels import LONGEST_STEP
-from gelenk.ik.search.linearise import linearise
-from gelenk.ik.search.search import is_over, search_bounds
+from gelenk.ik.search.problem import DescentRule, TargetProblem
 from gelenk.ik.search.steps import damped_step, error_damping, gradient_step, newton_step
-from gelenk.ik.search.task import Task
-from gelenk.ik.search.words import StopReason
+from gelenk.ik.search.words import Iterate, StepMethod, StopReason
 from gelenk.robot.arrays import Array, Flags
-from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import MAX_MAGNITUDE
-from gelenk.robot.poses import Poses
-
-StepMethod: TypeAlias = Literal["newton", "gradient", "gradient_then_newton", "damped_least_squares"]
 
 DEFAULT_ITERATIONS: dict[StepMethod, int] = {
     "newton": 100,
@@ -31,25 +24,6 @@ _KERNEL = 1e-8
 """Share of σ_max‖e‖ below which Jᵀe counts as zero: e lies in ker Jᵀ."""
 _SINGULAR = 1e-12
 """Share of σ_max below which σ_min counts as zero, and Newton's step as undefined."""
-
-
-@dataclass(frozen=True, slots=True)
-class Iterate:
-    """One configuration of an iteration.
-
-    Attributes:
-        joint_positions: q; shape (n,), [rad or m].
-        error: ‖e‖ in the directions that count, [m and rad mixed].
-        min_singular_value: σ_min of J in these directions, [m or rad per rad or m, mixed].
-        step_length: ‖Δq‖ of the step taken from here; None at the last configuration.
-        method: Method of that step; None at the last configuration.
-    """
-
-    joint_positions: Array
-    error: float
-    min_singular_value: float
-    step_length: float | None
-    method: str | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,102 +41,65 @@ class Descent:
     trace: list[Iterate]
 
 
-@dataclass(frozen=True, slots=True)
-class DescentRule:
-    """A method and its parameters.
-
-    Attributes:
-        method: Name of the method.
-        step_size: α of the gradient; None for a line search.
-        damping: λ of damped least squares; None for an adaptive λ, which starts in proportion to ‖e‖².
-        switch_error: ‖e‖ at which `gradient_then_newton` switches to Newton.
-        max_iterations: Largest number of steps; None for the method's default.
-    """
-
-    method: StepMethod
-    step_size: float | None = None
-    damping: float | None = None
-    switch_error: float = 1e-2
-    max_iterations: int | None = None
-
-
-def descend(
-    chain: Chain,
-    target: Poses,
-    seed: Array,
-    rule: DescentRule,
-    *,
-    task: Task,
-    tolerances: tuple[float, float],
-    respect_limits: bool = True,
-    deadline: float | None = None,
-) -> Descent:
+def descend(problem: TargetProblem, i: int, start: Array, rule: DescentRule) -> Descent:
     """Run one method from one start.
 
     With limits, each step is clipped to them, and the damped method excludes joints that it would push further. Joints
     that turn freely may leave their limits on the way, since full turns bring them back.
 
     Args:
-        chain: Base and tip.
-        target: The desired T_base_tip; one pose.
-        seed: Initial configuration; shape (n,), [rad or m].
+        problem: The targets.
+        i: Index of the target.
+        start: Initial configuration; shape (n,), [rad or m].
         rule: The method and its parameters.
-        task: Which directions count.
-        tolerances: Of position [m] and orientation [rad].
-        respect_limits: Whether to respect joint limits.
-        deadline: When to stop, on `gelenk.robot.compilation.clock`, [s].
     """
-    bounds = search_bounds(chain, respect_limits)[:2]
-    q = np.clip(seed, *bounds)
+    bounds = problem.bounds[:2]
+    q = np.clip(start, *bounds)
     trace: list[Iterate] = []
-    most = DEFAULT_ITERATIONS[rule.method] if rule.max_iterations is None else rule.max_iterations
-    linear = task.positions
+    most = problem.options.max_iterations or DEFAULT_ITERATIONS[rule.method]
 
     def at(q: Array) -> tuple[Array, Array]:
-        es, Js = linearise(chain, target, q[None], task)
+        es, Js = problem.linearised(i, q[None])
         return es[0], Js[0]
 
     for count in range(most + 1):
         e, J = at(q)
         error = float(np.linalg.norm(e))
         sigmas: Array = np.linalg.svd(J, compute_uv=False).astype(np.float64)
-        method = _method(rule, error)
-        reason = stop_reason(e, J, sigmas, q, bounds, method, linear, tolerances)
+        method = rule.method
+        if method == "gradient_then_newton":
+            method = "gradient" if error > rule.switch_error else "newton"
+        reason = stop_reason(e, J, sigmas, q, bounds, method, problem)
         if reason is None and count == most:
             reason = "iterations"
-        if reason is None and is_over(deadline):
+        if reason is None and problem.is_over:
             reason = "time_limit"
-        smallest = float(sigmas[-1]) if len(sigmas) else 0.0
+        following = q
+        if reason is None:
+            step = _step(rule, method, J, e, q, bounds, lambda q: at(q)[0])
+            following = np.clip(q + step, *bounds)
+            if not np.abs(following).max(initial=0.0) <= MAX_MAGNITUDE:
+                reason = "diverged"
+        trace.append(iterate(error, sigmas, q, None if reason else following, method))
         if reason is not None:
-            trace.append(Iterate(q, error, smallest, None, None))
             return Descent(q, reason, trace)
-        step = _step(rule, method, J, e, q, bounds, lambda q: at(q)[0])
-        following = np.clip(q + step, *bounds)
-        if not np.abs(following).max(initial=0.0) <= MAX_MAGNITUDE:
-            trace.append(Iterate(q, error, smallest, None, None))
-            return Descent(q, "diverged", trace)
-        trace.append(Iterate(q, error, smallest, float(np.linalg.norm(following - q)), method))
         q = following
     raise AssertionError("the last iteration always gives a reason")
 
 
-def _method(rule: DescentRule, error: float) -> StepMethod:
-    if rule.method == "gradient_then_newton":
-        return "gradient" if error > rule.switch_error else "newton"
-    return rule.method
+def iterate(error: float, sigmas: Array, q: Array, following: Array | None, method: StepMethod) -> Iterate:
+    """Describe a configuration, its singular values and the step to the following one; None after the last."""
+    smallest = float(sigmas[-1]) if len(sigmas) else 0.0
+    if following is None:
+        return Iterate(error, smallest, None, None, q.tolist())
+    return Iterate(error, smallest, float(np.linalg.norm(following - q)), method, q.tolist())
 
 
 def stop_reason(
-    e: Array,
-    J: Array,
-    sigmas: Array,
-    q: Array,
-    bounds: Array,
-    method: StepMethod,
-    linear: int,
-    tolerances: tuple[float, float],
+    e: Array, J: Array, sigmas: Array, q: Array, bounds: Array, method: StepMethod, problem: TargetProblem
 ) -> StopReason | None:
-    """Return why a method stops here, or None to go on; the first `linear` rows of e belong to the position."""
+    """Return why a method stops at a configuration with this error, or None to go on."""
+    linear, tolerances = problem.task.positions, problem.tolerances
     if np.linalg.norm(e[:linear]) <= tolerances[0] and np.linalg.norm(e[linear:]) <= tolerances[1]:
         return "converged"
     slope = J.T @ e

@@ -1,13 +1,13 @@
 """Use of the freedom that a task leaves: motion along the self-motion that minimises an objective."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from gelenk.ik.search.bounds import mid_range
+from gelenk.ik.search.descent import blocked
 from gelenk.ik.search.linearise import linearise
-from gelenk.ik.search.search import is_over, limits_of, mid_range
+from gelenk.ik.search.problem import Objective, TargetProblem
 from gelenk.ik.search.task import Task
-from gelenk.ik.search.words import DIRECTIONS, ObjectiveName
+from gelenk.ik.search.words import DIRECTIONS
 from gelenk.kinematics.simd.kernels import chain_hessians
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -22,31 +22,7 @@ _AT_LIMIT = 1e-6
 """Distance from a limit that counts as at it, [rad or m]."""
 
 
-@dataclass(frozen=True, slots=True)
-class Objective:
-    """A function to minimise along the self-motion.
-
-    Attributes:
-        name: `posture`: ½‖q - posture‖². `mid_range`: ½ Σ ((q - middle) / range)² of the joints with limits. `limits`:
-            Σ range² / (4 (upper - q)(q - lower)), which grows without bound at the limits. `manipulability`: -log of
-            Yoshikawa's measure √det JJᵀ of the directions that count, metres and radians mixed.
-        posture: Target of `posture`; shape (n,), or (N, n) for one per solution, [rad or m].
-    """
-
-    name: ObjectiveName
-    posture: Array | None = None
-
-
-def settle(
-    chain: Chain,
-    targets: Poses,
-    qs: Array,
-    objective: Objective,
-    *,
-    task: Task,
-    respect_limits: bool = True,
-    deadline: float | None = None,
-) -> Array:
+def settle(problem: TargetProblem, qs: Array, objective: Objective) -> Array:
     """Move solutions along their self-motion to a nearby minimum of an objective; shape (N, n).
 
     Each round steps down the gradient projected onto the kernel of J, and brings the error back to zero by damped
@@ -54,21 +30,18 @@ def settle(
     solution becomes worse. A solution without freedom stays unchanged.
 
     Args:
-        chain: Base and tip.
-        targets: Desired T_base_tip; N of them.
-        qs: Solutions; shape (N, n), [rad or m].
+        problem: The targets; N of them.
+        qs: Their solutions; shape (N, n), [rad or m].
         objective: Function to minimise.
-        task: Which directions count.
-        respect_limits: Whether to respect joint limits.
-        deadline: When to stop improving, on `gelenk.robot.compilation.clock`, [s].
     """
-    bounds = np.array(limits_of(chain, respect_limits))
+    chain, targets, task = problem.chain, problem.targets, problem.task
+    bounds = np.array(problem.limits)
     best = qs.copy()
     values = _value(chain, targets, best, objective, task)
     sizes = np.full(len(qs), 0.5)
     moving = np.ones(len(qs), dtype=bool)
     for _ in range(_ROUNDS):
-        if is_over(deadline):
+        if problem.is_over:
             break
         steps = _projected_gradient(chain, targets, best, objective, task, bounds)
         steps *= -sizes[:, None]
@@ -119,9 +92,7 @@ def _damped(Js: Array, es: Array) -> Array:
 def _unblocked(Js: Array, es: Array, qs: Array, bounds: Array) -> Array:
     """J with zero columns for joints at a bound that the step would push further; shape (N, m, n)."""
     slopes = np.einsum("bmi,bm->bi", Js, es)
-    blocked = ((qs <= bounds[0]) & (slopes < 0.0)) | ((qs >= bounds[1]) & (slopes > 0.0))
-    unblocked: Array = np.where(blocked[:, None, :], 0.0, Js)
-    return unblocked
+    return np.asarray(np.where(blocked(slopes, qs, bounds)[:, None, :], 0.0, Js))
 
 
 def _projected_gradient(
@@ -134,12 +105,11 @@ def _projected_gradient(
     gradients = objective_gradients(chain, targets, qs, objective, task)
     Js = linearise(chain, targets, qs, task)[1]
     free = np.ones(qs.shape, dtype=bool)
-    projected = gradients
+    projected, margins = gradients, np.array([[_AT_LIMIT], [-_AT_LIMIT]])
     for _ in range(_PASSES):
         allowed, columns = np.where(free, gradients, 0.0), np.where(free[:, None, :], Js, 0.0)
         projected = np.where(free, allowed - _damped(columns, np.einsum("bmi,bi->bm", columns, allowed)), 0.0)
-        outwards = (qs <= bounds[0] + _AT_LIMIT) & (projected > 0.0)
-        outwards |= (qs >= bounds[1] - _AT_LIMIT) & (projected < 0.0)
+        outwards = blocked(-projected, qs, bounds + margins)
         if not outwards.any():
             break
         free &= ~outwards

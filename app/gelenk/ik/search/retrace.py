@@ -6,15 +6,13 @@ from typing import TypeAlias
 
 import numpy as np
 
-from gelenk.ik.search.descent import Descent, Iterate, blocked, shortened, stop_reason
+from gelenk.ik.search.descent import Descent, blocked, iterate, shortened, stop_reason
 from gelenk.ik.search.kernels import APPROACHES, CAREFUL_STEP, CLOSE, FLOOR, LONGEST, LONGEST_STEP
 from gelenk.ik.search.linearise import linearise
-from gelenk.ik.search.search import search_bounds
+from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.search.steps import damped_step, error_damping
-from gelenk.ik.search.task import Task
+from gelenk.ik.search.words import Iterate
 from gelenk.robot.arrays import Array
-from gelenk.robot.chain import Chain
-from gelenk.robot.poses import Poses
 
 _Linearised: TypeAlias = Callable[[Array], tuple[Array, Array]]
 _Seen: TypeAlias = Callable[[Array, Array], tuple[Array, Array]]
@@ -22,33 +20,20 @@ _Steps: TypeAlias = Iterator[tuple[Array, Array, Array, Array]]
 """Configuration, error, Jacobian, and the step taken from there."""
 
 
-def retrace(
-    chain: Chain,
-    target: Poses,
-    start: Array,
-    followed: int,
-    *,
-    task: Task,
-    tolerances: tuple[float, float],
-    respect_limits: bool,
-    slack: float = 0.0,
-) -> Descent:
+def retrace(problem: TargetProblem, i: int, start: Array, followed: int, slack: float = 0.0) -> Descent:
     """Trace one start of the search until it is within the tolerances or given up.
 
     Args:
-        chain: Base and tip.
-        target: The desired T_base_tip; one pose.
+        problem: The targets.
+        i: Index of the target.
         start: Initial configuration; shape (n,), [rad or m].
         followed: See `Found.followed`.
-        task: Which directions count.
-        tolerances: Of position [m] and orientation [rad].
-        respect_limits: Whether the search respected joint limits.
         slack: Share of the tolerances that the search subtracted from the errors.
     """
-    bounds = search_bounds(chain, respect_limits)[:2]
+    bounds, task, tolerances = problem.bounds[:2], problem.task, problem.tolerances
 
     def at(q: Array) -> tuple[Array, Array]:
-        es, Js = linearise(chain, target, q[None], task, chords=True)
+        es, Js = linearise(problem.chain, problem.target(i), q[None], task, chords=True)
         return es[0], Js[0]
 
     def shortened_error(e: Array, J: Array) -> tuple[Array, Array]:
@@ -65,32 +50,27 @@ def retrace(
     else:
         steps = _followed(at, start, bounds, 0.1**followed)
     trace: list[Iterate] = []
-    reached = False
+    q, reached = start, False
     for q, e, J, step in steps:
         sigmas = np.linalg.svd(J, compute_uv=False).astype(np.float64)
-        reason = stop_reason(e, J, sigmas, q, bounds, "damped_least_squares", task.positions, tolerances)
+        reason = stop_reason(e, J, sigmas, q, bounds, "damped_least_squares", problem)
         # After convergence the search takes one more step, unless the error is small enough already.
         on = reason == "converged" and not reached and not _is_close(e, task.positions, tolerances)
         reached = reason == "converged"
-        error, smallest = _error(chain, target, q, task), float(sigmas[-1]) if len(sigmas) else 0.0
+        # Its angles are chords; the trace has the error that the course's methods measure.
+        error = float(np.linalg.norm(problem.linearised(i, q[None])[0]))
+        following = np.clip(q + step, *bounds) if reason is None or on else None
+        trace.append(iterate(error, sigmas, q, following, "damped_least_squares"))
         if reason is not None and not on:
-            trace.append(Iterate(q, error, smallest, None, None))
             return Descent(q, reason, trace)
-        length = float(np.linalg.norm(np.clip(q + step, *bounds) - q))
-        trace.append(Iterate(q, error, smallest, length, "damped_least_squares"))
     trace[-1] = replace(trace[-1], step_length=None, method=None)
-    return Descent(trace[-1].joint_positions, "converged" if reached else "iterations", trace)
+    return Descent(q, "converged" if reached else "iterations", trace)
 
 
 def _is_close(e: Array, linear: int, tolerances: tuple[float, float]) -> bool:
     """Check whether an error is so far within the tolerances that the search takes no further step."""
     parts = np.linalg.norm(e[:linear]), np.linalg.norm(e[linear:])
     return all(part <= CLOSE * tolerance for part, tolerance in zip(parts, tolerances, strict=True))
-
-
-def _error(chain: Chain, target: Poses, q: Array, task: Task) -> float:
-    """Error norm ‖e‖ with angles instead of chords, as the course's methods measure it."""
-    return float(np.linalg.norm(linearise(chain, target, q[None], task)[0]))
 
 
 def _searched(at: _Linearised, q: Array, bounds: Array, seen: _Seen) -> _Steps:

@@ -7,9 +7,9 @@ from itertools import product
 import numpy as np
 
 from gelenk.ik.search import kernels
-from gelenk.ik.search.null_space import Objective, settle
-from gelenk.ik.search.search import ITERATIONS_PER_START, free_variables, limits_of, make_goal
-from gelenk.ik.search.task import Task
+from gelenk.ik.search.bounds import free_variables, make_goal, target_rows, whole_turns_removed
+from gelenk.ik.search.null_space import settle
+from gelenk.ik.search.problem import Objective, TargetProblem
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
@@ -47,111 +47,77 @@ class Branches:
     Attributes:
         qs: Solutions; shape (k, n), [rad or m].
         doubt: Why these may not be all; a search never proves that they are.
+        code: Their branch code, see `InverseKinematics.codes`.
     """
 
     qs: Array
     doubt: str
+    code: int = -1
 
 
-def all_branches(
-    chain: Chain,
-    row: Array,
-    seed: Array,
-    *,
-    task: Task,
-    tolerances: tuple[float, float],
-    respect_limits: bool,
-    random_seed: int,
-    most: int,
-    windings: bool,
-) -> Branches:
+def all_branches(problem: TargetProblem, i: int, *, windings: bool = False) -> Branches:
     """Search for all distinct solutions, modulo full turns unless `windings` is set.
 
     A redundant arm, or an arm at a singularity where a joint moves without effect, has infinitely many. The result is
     then a sample, no two within 0.2 rad or m in every joint, chosen from the nearest to the seed outwards.
 
     Args:
-        chain: Base and tip.
-        row: The target: rotation row by row, then position; shape (12,).
-        seed: Configuration from which distances are measured; shape (n,), [rad or m].
-        task: Which directions count.
-        tolerances: Of position [m] and orientation [rad].
-        respect_limits: Whether solutions must be within the joint limits.
-        random_seed: Seed of the random starts.
-        most: Largest number of solutions.
+        problem: The targets; its options give the largest number of solutions.
+        i: Index of the target.
         windings: Whether solutions that differ by full turns count as different, where limits allow them.
     """
-    candidates = _converged(chain, row, seed, task, tolerances, respect_limits, random_seed)
-    target = Poses(row[None, 9:].copy(), row[:9].reshape(1, 3, 3).copy())
-    free = free_variables(chain)
-    if len(chain) <= len(task):
+    candidates, seed = _converged(problem, i), problem.seed(i)
+    free, most = free_variables(problem.chain), problem.options.most
+    isolated = candidates[:0]
+    continuum = len(problem.chain) > len(problem.task)
+    if not continuum:
         distinct = sorted_by_distance(candidates[thin_out(candidates, free, _SAME, _MOST_DISTINCT)], seed)
-        isolated = _without_doubles(chain, target, distinct, task, tolerances)
+        isolated = _without_doubles(problem, i, distinct)
         continuum = len(isolated) > _MOST_ISOLATED
-    else:
-        continuum = True
     if continuum:
         candidates = sorted_by_distance(candidates, seed)
         # Of infinitely many solutions the nearest is not among those found, but close to the first.
-        objective = Objective("posture", seed)
-        nearest = settle(chain, target, candidates[:1], objective, task=task, respect_limits=respect_limits)
-        candidates = np.concatenate((nearest, candidates))
+        own = problem.taken(slice(i, i + 1))
+        candidates = np.concatenate((settle(own, candidates[:1], Objective("posture", seed)), candidates))
         isolated = candidates[thin_out(candidates, free, SPACING, most)]
     qs = isolated[:most]
     if windings and len(qs):
-        qs, _, _ = wound(chain, qs, seed, most, False, respect_limits)
+        qs, _, _ = wound(problem, i, qs, False)
     return Branches(qs, "infinitely many solutions, of which these are a sample" if continuum else SEARCHED)
 
 
-def _without_doubles(chain: Chain, target: Poses, qs: Array, task: Task, tolerances: tuple[float, float]) -> Array:
+def _without_doubles(problem: TargetProblem, i: int, qs: Array) -> Array:
     """Drop solutions whose midpoint to an earlier one is a solution too, as at a singularity; shape (k, n)."""
     kept: list[int] = []
-    free = free_variables(chain)
-    for i in range(len(qs)):
-        differences = qs[kept] - qs[i]
-        differences -= np.where(free, _TURN * np.rint(differences / _TURN), 0.0)
+    for k in range(len(qs)):
+        differences = whole_turns_removed(problem.chain, qs[kept] - qs[k])
         near = differences[np.abs(differences).max(axis=1, initial=0.0) <= _NEIGHBOURS]
-        middles = Poses(*chain_poses(chain.flat, qs[i] + 0.5 * near))
-        targets = Poses(np.repeat(target.positions, len(near), axis=0), np.repeat(target.rotations, len(near), axis=0))
-        errors = task.errors(targets, middles)
-        if not ((errors[0] <= tolerances[0]) & (errors[1] <= tolerances[1])).any():
-            kept.append(i)
+        middles = Poses(*chain_poses(problem.chain.flat, qs[k] + 0.5 * near))
+        errors = problem.task.errors(problem.taken(np.full(len(near), i)).targets, middles)
+        if not (problem.tolerances >= errors.T).all(axis=1).any():
+            kept.append(k)
     return qs[kept]
 
 
-def _converged(
-    chain: Chain,
-    row: Array,
-    seed: Array,
-    task: Task,
-    tolerances: tuple[float, float],
-    respect_limits: bool,
-    random_seed: int,
-) -> Array:
+def _converged(problem: TargetProblem, i: int) -> Array:
     """Converged starts, within the limits and as near to the seed as full turns allow; shape (k, n)."""
+    chain, seed, options = problem.chain, problem.seed(i), problem.options
     found = []
-    ways = (True, False) if respect_limits else (False,)
-    for limited in ways:
+    choices = (True, False) if options.respect_limits else (False,)
+    for limited in choices:
         # Search to rounding, so that a double solution is found once; if that fails, to the given tolerances.
-        for tolerance in ((_TIGHT, _TIGHT), tolerances):
-            goal = make_goal(
-                chain,
-                task,
-                min(tolerance[0], tolerances[0]),
-                min(tolerance[1], tolerances[1]),
-                limited,
-                STARTS // len(ways) * ITERATIONS_PER_START,
-                random_seed + limited,
-            )
-            qs = kernels.gather(chain.flat, goal, row, seed)
+        for most in (_TIGHT, np.inf):
+            tolerances = min(most, options.position_tolerance), min(most, options.orientation_tolerance)
+            starts = STARTS // len(choices)
+            goal = make_goal(chain, problem.task, tolerances, limited, starts, options.random_seed + limited)
+            qs = kernels.gather(chain.flat, goal, target_rows(problem.target(i))[0], seed)
             if len(qs):
                 found.append(qs)
                 break
     if not found:
         return np.empty((0, len(chain)))
-    qs = np.concatenate(found)
-    lower, upper = limits_of(chain, respect_limits)
-    qs = wound_near(chain, qs, seed, lower, upper)
+    lower, upper = problem.limits
+    qs = wound_near(chain, np.concatenate(found), seed, lower, upper)
     # A solution at a limit may miss it by rounding.
     within = ((qs >= lower - _ROUNDING) & (qs <= upper + _ROUNDING)).all(axis=1)
     return np.clip(qs[within], lower, upper)
@@ -179,9 +145,14 @@ def wound_near(chain: Chain, qs: Array, seed: Array, lower: Array, upper: Array)
     return np.where(np.abs(wound - inside) <= _ROUNDING, inside, wound)
 
 
+def by_distance(qs: Array, seed: Array) -> Indices:
+    """Return the order of configurations by their distance to the seed, the nearest first; shape (N,)."""
+    return np.argsort(np.square(qs - seed).sum(axis=1), kind="stable")
+
+
 def sorted_by_distance(qs: Array, seed: Array) -> Array:
     """Sort configurations by their distance to the seed, the nearest first; shape (N, n)."""
-    return qs[np.argsort(np.square(qs - seed).sum(axis=1), kind="stable")]
+    return qs[by_distance(qs, seed)]
 
 
 @compiled
@@ -219,24 +190,21 @@ def thin_out(qs: Array, free: Flags, spacing: float, most: int) -> Indices:
     return chosen[:count]
 
 
-def wound(
-    chain: Chain, qs: Array, seed: Array, most: int, complete: bool, respect_limits: bool
-) -> tuple[Array, Indices, bool]:
+def wound(problem: TargetProblem, i: int, qs: Array, complete: bool) -> tuple[Array, Indices, bool]:
     """Expand each solution to all combinations of full turns that the limits allow, nearest to the seed first.
 
-    A joint without limits keeps its value.
+    A joint without limits keeps its value; without respect for limits nothing is turned.
 
     Args:
-        chain: The chain.
+        problem: The targets; its options give the largest number of configurations.
+        i: Index of the target.
         qs: Solutions; shape (k, n), [rad or m].
-        seed: Configuration from which distances are measured; shape (n,), [rad or m].
-        most: Largest number of configurations returned.
         complete: Whether `qs` contains all solutions modulo full turns.
-        respect_limits: Whether the limits count; without them nothing is turned.
 
     Returns:
         Configurations, shape (m, n); the index in `qs` of each, shape (m,); and whether these are all solutions.
     """
+    chain, most, respect_limits = problem.chain, problem.options.most, problem.options.respect_limits
     free = free_variables(chain)
     results: list[tuple[float, ...]] = []
     owners: list[int] = []
@@ -251,7 +219,7 @@ def wound(
     table = np.array(results)
     if respect_limits:
         table = np.clip(table, chain.lower, chain.upper)
-    order = np.argsort(np.square(table - seed).sum(axis=1), kind="stable")[:most]
+    order = by_distance(table, problem.seed(i))[:most]
     return table[order], np.array(owners, dtype=np.int64)[order], complete and len(table) <= most
 
 

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import cast
 
 import numpy as np
 
@@ -83,11 +82,13 @@ def widened_answer(chain: Chain, answer: InverseKinematics) -> InverseKinematics
     if not isinstance(chain, HeldChain):
         return answer
 
-    def wide(q: Array) -> Array:
-        return cast(Array, widened(chain, q[None])[1][0])
+    def wide(q: Array | list[float]) -> Array:
+        return np.asarray(widened(chain, np.array([q]))[1][0])
 
     paths = answer.paths and [
-        replace(path, trace=path.trace and [replace(at, joint_positions=wide(at.joint_positions)) for at in path.trace])
+        replace(path, trace=[replace(at, joint_positions=wide(at.joint_positions).tolist()) for at in path.trace])
+        if path.trace
+        else path
         for path in answer.paths
     ]
     failures = {i: replace(failure, nearest=wide(failure.nearest)) for i, failure in answer.failures.items()}

@@ -1,13 +1,16 @@
 """Checks that configurations are solutions, by recomputing their poses with Pinocchio."""
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 
-from gelenk.ik.search.search import limits_of
+from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.verdict.fixed import widened
-from gelenk.ik.verdict.verdict import TargetProblem
+from gelenk.ik.verdict.result import InverseKinematics, firsts_of
 from gelenk.kinematics.judge.judge import pinocchio_poses
 from gelenk.kinematics.simd.kernels import chain_poses
-from gelenk.robot.arrays import Array, Flags
+from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.compilation import compiled
 from gelenk.robot.poses import Poses
 
@@ -16,31 +19,58 @@ _WITHIN = 1e-9
 
 
 def judged(
-    question: TargetProblem, qs: Array, claimed: Flags, worth: Flags | None = None
+    problem: TargetProblem, qs: Array, claimed: Flags | None = None, worth: Flags | None = None
 ) -> tuple[Flags, Array, Array]:
     """Check which configurations solve their targets within the limits, by Pinocchio, and return the errors.
 
     Args:
-        question: The problem, with one target per configuration.
+        problem: The problem, with one target per configuration.
         qs: Configurations; shape (N, n), [rad or m].
-        claimed: Which of them the solver claims as solutions; shape (N,).
+        claimed: Which of them the solver claims as solutions, default all; shape (N,).
         worth: Which of them Pinocchio recomputes, default all; our own kernels compute the others; shape (N,).
 
     Returns:
         Flags, distances [m] and angles [rad]; shape (N,) each.
     """
-    chain = question.chain
+    chain = problem.chain
     whole, full = widened(chain, qs)
     if worth is None or worth.all():
-        poses = pinocchio_poses(question.robot, whole, chain.tip_frame, full, range(len(qs)))
+        poses = pinocchio_poses(problem.robot, whole, chain.tip_frame, full, range(len(qs)))
     else:
         poses = Poses(*chain_poses(chain.flat, qs))
         rows = np.flatnonzero(worth)
-        recomputed = pinocchio_poses(question.robot, whole, chain.tip_frame, full, rows.tolist())
+        recomputed = pinocchio_poses(problem.robot, whole, chain.tip_frame, full, rows.tolist())
         poses.positions[rows], poses.rotations[rows] = recomputed.positions, recomputed.rotations
-    errors = question.task.errors(question.targets, poses)
-    limits = limits_of(chain, question.respect_limits)
-    return accepted(qs, claimed, errors, *question.tolerances, *limits), errors[0], errors[1]
+    errors = problem.task.errors(problem.targets, poses)
+    claims = np.ones(len(qs), dtype=np.bool_) if claimed is None else claimed
+    return accepted(qs, claims, errors, *problem.tolerances, *problem.limits), errors[0], errors[1]
+
+
+def assembled(
+    count: int,
+    owners: Indices,
+    qs: Array,
+    judgement: tuple[Flags, Array, Array],
+    labels: Mapping[str, Indices],
+    **rest: Any,
+) -> InverseKinematics:
+    """Build the answer for N targets from configurations, without those that are no solutions.
+
+    Args:
+        count: N.
+        owners: Target of each configuration, ascending; shape (M,).
+        qs: Configurations; shape (M, n), [rad or m].
+        judgement: What `judged` returns for them.
+        labels: Their iterations, restarts, codes and bit masks of free joints, as far as there are any; shape (M,).
+        rest: The fields of the answer that are not per solution.
+    """
+    solved, *errors = judgement
+    none = np.zeros(len(qs), dtype=np.int64)
+    columns: dict[str, Any] = {"iterations": none, "restarts": none, "codes": none - 1, "free": none, **labels}
+    columns.update(qs=qs, position_errors=errors[0], orientation_errors=errors[1])
+    if not solved.all():
+        owners, columns = owners[solved], {name: column[solved] for name, column in columns.items()}
+    return InverseKinematics(**columns, firsts=firsts_of(owners, count), **rest)
 
 
 @compiled

@@ -6,11 +6,10 @@ They come in pairs: where the tip's path along the valley folds back, it passes 
 
 import numpy as np
 
-from gelenk.ik.search.linearise import linearise
-from gelenk.ik.search.search import free_variables, limits_of
+from gelenk.ik.search.bounds import free_variables, whole_turns_removed
+from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.search.words import DIRECTIONS
 from gelenk.ik.verdict.branches import thin_out, wound_near
-from gelenk.ik.verdict.verdict import TargetProblem
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
 from gelenk.robot.arrays import Array, Indices
 
@@ -33,23 +32,22 @@ _WALK, _STRIDE = 16, 0.3
 """Number of configurations on a walk, and length of a step, [rad]."""
 
 
-def refined(question: TargetProblem, i: int, qs: Array, least: float) -> Array:
+def refined(problem: TargetProblem, i: int, qs: Array, least: float) -> Array:
     """Refine configurations by Newton's method; return those whose error is small enough, the best first; (k, n).
 
     Each configuration is corrected back onto the valley first, and again after each step before its error is compared,
     as in `branch_kernels`: off the valley, the remaining equation means nothing.
 
     Args:
-        question: The problem.
+        problem: The targets.
         i: Index of the target.
         qs: Initial configurations; shape (N, n), [rad or m].
         least: Largest error of a solution, [m, rad].
     """
-    chain, target = question.chain, question.target(i)
-    limits = limits_of(chain, question.respect_limits)
+    chain, limits = problem.chain, problem.limits
 
     def stepped(qs: Array, weak: float, shares: Array) -> Array:
-        steps = _steps(*linearise(chain, target, qs, question.task), weak)
+        steps = _steps(*problem.linearised(i, qs), weak)
         shares = shares * np.minimum(1.0, _LONGEST / np.maximum(np.abs(steps).max(axis=1, initial=0.0), _LONGEST))
         return np.asarray(np.clip(qs + shares[:, None] * steps, *limits))
 
@@ -59,9 +57,9 @@ def refined(question: TargetProblem, i: int, qs: Array, least: float) -> Array:
         return qs
 
     def misses(qs: Array) -> Array:
-        return np.asarray(np.linalg.norm(linearise(chain, target, qs, question.task)[0], axis=1))
+        return np.asarray(np.linalg.norm(problem.linearised(i, qs)[0], axis=1))
 
-    qs = corrected(wound_near(chain, qs, question.seed(i), *limits))
+    qs = corrected(wound_near(chain, qs, problem.seed(i), *limits))
     errors, shares = misses(qs), np.ones(len(qs))
     for _ in range(_STEPS):
         rows = np.flatnonzero((errors > _PERFECT) & (shares > _SHORTEST_SHARE))
@@ -73,7 +71,7 @@ def refined(question: TargetProblem, i: int, qs: Array, least: float) -> Array:
         qs[rows[better]], errors[rows[better]] = moved[better], after[better]
         shares[rows] = np.where(better, np.minimum(2.0 * shares[rows], 1.0), 0.25 * shares[rows])
     order = np.argsort(errors, kind="stable")[: np.count_nonzero(errors <= least)]
-    return wound_near(chain, qs[order], question.seed(i), *limits)
+    return wound_near(chain, qs[order], problem.seed(i), *limits)
 
 
 def _steps(es: Array, Js: Array, weak: float) -> Array:
@@ -81,59 +79,56 @@ def _steps(es: Array, Js: Array, weak: float) -> Array:
     return np.asarray(np.einsum("kij,kj->ki", np.linalg.pinv(Js, rcond=weak), es))
 
 
-def with_partners(question: TargetProblem, i: int, qs: Array, least: float) -> Array:
+def with_partners(problem: TargetProblem, i: int, qs: Array, least: float) -> Array:
     """Refine configurations and add the solutions that pair with them, without duplicates; shape (k, n).
 
     Args:
-        question: The problem.
+        problem: The targets.
         i: Index of the target.
         qs: Initial configurations; shape (N, n), [rad or m].
         least: Largest error of a solution, [m, rad].
     """
-    found = refined(question, i, qs, least)
+    found = refined(problem, i, qs, least)
     for look in (_further, _partners):
-        found = found[distinct(question, i, found)]
-        found = np.concatenate((found, refined(question, i, look(question, i, found), least)))
-    return found[distinct(question, i, found)]
+        found = found[distinct(problem, i, found)]
+        found = np.concatenate((found, refined(problem, i, look(problem, i, found), least)))
+    return found[distinct(problem, i, found)]
 
 
-def distinct(question: TargetProblem, i: int, qs: Array) -> Indices:
+def distinct(problem: TargetProblem, i: int, qs: Array) -> Indices:
     """Select distinct solutions of a target: the first of each group that differs only by rounding.
 
     Args:
-        question: The problem.
+        problem: The targets.
         i: Index of the target.
         qs: Its solutions; shape (N, n), [rad or m].
 
     Returns:
         Indices of the distinct solutions; shape (k,).
     """
-    chain, target, free = question.chain, question.target(i), free_variables(question.chain)
     kept: list[int] = []
-    for k in thin_out(qs, free, _SAME, len(qs)).tolist():
-        apart = qs[kept] - qs[k]
-        apart -= np.where(free, 2.0 * np.pi * np.rint(apart / (2.0 * np.pi)), 0.0)
+    for k in thin_out(qs, free_variables(problem.chain), _SAME, len(qs)).tolist():
+        apart = whole_turns_removed(problem.chain, qs[kept] - qs[k])
         near = apart[np.abs(apart).max(axis=1, initial=0.0) <= _NEAR]
         if len(near):
             halfway = qs[k] + 0.5 * near
             for _ in range(2):
-                halfway = halfway + _steps(*linearise(chain, target, halfway, question.task), _WEAK)
-            es = linearise(chain, target, halfway, question.task)[0]
-            if np.linalg.norm(es, axis=1).min() <= _BETWEEN:
+                halfway = halfway + _steps(*problem.linearised(i, halfway), _WEAK)
+            if np.linalg.norm(problem.linearised(i, halfway)[0], axis=1).min() <= _BETWEEN:
                 continue
         kept.append(k)
     return np.array(kept[:_MOST], dtype=np.int64)
 
 
-def _further(question: TargetProblem, i: int, qs: Array) -> Array:
+def _further(problem: TargetProblem, i: int, qs: Array) -> Array:
     """Configurations along some valleys where the remaining error changes its sign or is smallest; shape (k, n)."""
-    if not _is_square(question) or not len(qs):
+    if not _is_square(problem) or not len(qs):
         return qs[:0]
-    qs = qs[thin_out(qs, free_variables(question.chain), _LANES_APART, _LANES)]
-    narrow = np.linalg.svd(chain_jacobians(question.chain.flat, qs)[2], compute_uv=False)[:, -1] < _NARROW
+    qs = qs[thin_out(qs, free_variables(problem.chain), _LANES_APART, _LANES)]
+    narrow = np.linalg.svd(chain_jacobians(problem.chain.flat, qs)[2], compute_uv=False)[:, -1] < _NARROW
     if not narrow.any():
         return qs[:0]
-    path, levels = _walk(question, i, np.repeat(qs[narrow], 2, axis=0))
+    path, levels = _walk(problem, i, np.repeat(qs[narrow], 2, axis=0))
     sizes, turns = np.abs(levels), (levels[:-1] > 0.0) != (levels[1:] > 0.0)
     picked = np.zeros(levels.shape, dtype=bool)
     picked[:-1] |= turns
@@ -143,11 +138,11 @@ def _further(question: TargetProblem, i: int, qs: Array) -> Array:
     return np.asarray(path[picked & (sizes.max(axis=0) > _BETWEEN)])
 
 
-def _walk(question: TargetProblem, i: int, qs: Array) -> tuple[Array, Array]:
+def _walk(problem: TargetProblem, i: int, qs: Array) -> tuple[Array, Array]:
     """Walk along valleys in steps, each followed by corrections back onto the valley.
 
     Args:
-        question: The problem.
+        problem: The targets.
         i: Index of the target.
         qs: Solutions, each twice for the two directions of its valley; shape (N, n), [rad or m].
 
@@ -158,8 +153,8 @@ def _walk(question: TargetProblem, i: int, qs: Array) -> tuple[Array, Array]:
     ahead, beside = np.zeros(qs.shape), np.zeros(qs.shape)
     for k in range(_WALK):
         for _ in range(_CORRECTIONS if k else 0):
-            qs = qs + _steps(*linearise(question.chain, question.target(i), qs, question.task), _WEAK)
-        es, Js = linearise(question.chain, question.target(i), qs, question.task)
+            qs = qs + _steps(*problem.linearised(i, qs), _WEAK)
+        es, Js = problem.linearised(i, qs)
         Us, _, Vs = np.linalg.svd(Js)
         u, v = Us[:, :, -1], Vs[:, -1]
         if k == 0:
@@ -172,18 +167,18 @@ def _walk(question: TargetProblem, i: int, qs: Array) -> tuple[Array, Array]:
     return path, levels
 
 
-def _is_square(question: TargetProblem) -> bool:
-    return len(question.chain) == len(DIRECTIONS) == len(question.task)
+def _is_square(problem: TargetProblem) -> bool:
+    return len(problem.chain) == len(DIRECTIONS) == len(problem.task)
 
 
-def _partners(question: TargetProblem, _: int, qs: Array) -> Array:
+def _partners(problem: TargetProblem, _: int, qs: Array) -> Array:
     """Predict the partners of solutions along one of the two weakest directions, or along both; shape (k, n).
 
     At distance y along the right singular vector v of a singular value σ, the error's part along u is
     -σ y - ½ uᵀH(v, v) y². It vanishes again at y = -2σ / uᵀH(v, v): the fold of a Lyapunov-Schmidt reduction.
     """
-    chain = question.chain
-    if not _is_square(question) or not len(qs):
+    chain = problem.chain
+    if not _is_square(problem) or not len(qs):
         return qs[:0]
     Us, sizes, Vs = np.linalg.svd(chain_jacobians(chain.flat, qs)[2])
     Hs = chain_hessians(chain.flat, qs)

@@ -7,9 +7,7 @@ with the full Hessian does not.
 import numpy as np
 
 from gelenk.ik.search.descent import blocked
-from gelenk.ik.search.linearise import linearise
-from gelenk.ik.search.search import search_bounds
-from gelenk.ik.verdict.verdict import TargetProblem
+from gelenk.ik.search.problem import TargetProblem
 from gelenk.robot.arrays import Array
 
 _STEPS, _HALVINGS = 20, 6
@@ -21,20 +19,19 @@ _DIFFERENCE, _FLAT = 1e-5, 1e-9
 """Joint step of the finite differences, [rad or m]; least curvature, as a share of the largest."""
 
 
-def polished(question: TargetProblem, i: int, q: Array) -> Array:
+def polished(problem: TargetProblem, i: int, q: Array) -> Array:
     """Descend from a configuration to a nearby minimum of the error, never to a larger one; shape (n,).
 
     Args:
-        question: The targets.
+        problem: The targets.
         i: Index of the target.
         q: End of a search; shape (n,), [rad or m].
     """
-    chain, target = question.chain, question.taken(np.array([i]))
-    bounds = search_bounds(chain, question.respect_limits)
+    bounds = problem.bounds
 
     def slopes(qs: Array) -> tuple[Array, Array, Array]:
         """Return ½‖e‖², its gradient -Jᵀe, and ‖J‖‖e‖ to compare that with; shapes (k,), (k, n), (k,)."""
-        es, Js = linearise(chain, target.taken(np.zeros(len(qs), dtype=np.int64)).targets, qs, question.task)
+        es, Js = problem.linearised(i, qs)
         sizes = np.linalg.norm(Js, axis=(1, 2)) * np.linalg.norm(es, axis=1)
         return 0.5 * np.sum(es * es, axis=1), -np.einsum("kmn,km->kn", Js, es), sizes
 
@@ -60,5 +57,4 @@ def _newton(second: Array, slope: Array) -> Array:
     """Newton step by absolute eigenvalues, so that it goes downhill even where the Hessian is indefinite."""
     values, vectors = np.linalg.eigh(0.5 * (second + second.T))
     sizes = np.maximum(np.abs(values), _FLAT * np.abs(values).max())
-    step: Array = -vectors @ ((vectors.T @ slope) / sizes)
-    return step
+    return np.asarray(-vectors @ ((vectors.T @ slope) / sizes))

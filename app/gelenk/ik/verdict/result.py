@@ -1,10 +1,12 @@
 """Result types of inverse kinematics."""
 
 from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
 
 from gelenk.ik.closed.closed_form import ClosedForm
-from gelenk.ik.search.descent import Iterate
-from gelenk.ik.search.words import Status, StopReason
+from gelenk.ik.search.words import BlockingJoint, Family, Iterate, Status, StopReason
 from gelenk.robot.arrays import Array, Indices
 
 COUNTED = -2
@@ -12,29 +14,11 @@ COUNTED = -2
 
 
 @dataclass(frozen=True, slots=True)
-class BlockingJoint:
-    """A joint whose limit keeps a target from being reached.
-
-    Attributes:
-        name: Joint name.
-        position: Position that the target requires, [rad or m].
-        lower: Lower limit, [rad or m].
-        upper: Upper limit, [rad or m].
-        excess: Distance of the position beyond the limit, [rad or m].
-    """
-
-    name: str
-    position: float
-    lower: float
-    upper: float
-    excess: float
-
-
-@dataclass(frozen=True, slots=True)
 class UnsolvedTarget:
     """The reason why a target is unsolved, and the nearest configuration found.
 
     Attributes:
+        status: The verdict.
         reason: Explanation in words.
         nearest: Nearest configuration, within the limits if they count; shape (n,), [rad or m].
         position_error: Distance of its pose from the target, [m].
@@ -45,6 +29,7 @@ class UnsolvedTarget:
         is_late: Whether time ran out before the target was solved or explained.
     """
 
+    status: Status
     reason: str
     nearest: Array
     position_error: float
@@ -68,43 +53,6 @@ class IterationPath:
 
 
 @dataclass(frozen=True, slots=True)
-class SolutionBranches:
-    """Branch labels of M solutions, from a closed form or from continuation of six joints.
-
-    Attributes:
-        form: The closed form; None for six joints without one.
-        codes: Bits of the roots chosen; `COUNTED` for a solution from continuation, -1 from a search; shape (M,).
-        free: Bit mask: bit j is set if variable j was free and kept the seed's value; shape (M,).
-    """
-
-    form: ClosedForm | None
-    codes: Indices
-    free: Indices
-
-    @property
-    def name(self) -> str:
-        """Name of the method that found the branches, in words."""
-        return self.form.name if self.form else "six joints, by continuation"
-
-
-@dataclass(frozen=True, slots=True)
-class Family:
-    """A continuum of solutions, connected by a motion of some joints while the others stay still.
-
-    Attributes:
-        free_joints: Names of the joints that move, base to tip.
-        relation: Sums of these joints that stay constant, q_k being the chain's k-th joint; None if there are none.
-        text: Description of the motion in words.
-        sweep: Sample configurations in the order of the motion; shape (k, n), [rad or m].
-    """
-
-    free_joints: tuple[str, ...]
-    relation: str | None
-    text: str
-    sweep: Array
-
-
-@dataclass(frozen=True, slots=True)
 class InverseKinematics:
     """Solutions of N targets in one table: rows firsts[i] up to, but not including, firsts[i + 1] belong to target i.
 
@@ -114,14 +62,17 @@ class InverseKinematics:
         orientation_errors: Likewise; shape (M,), [rad].
         iterations: Iterations of the start that led to each solution; shape (M,).
         restarts: Number of starts that failed before it; shape (M,).
-        method: Name of the iterative method.
+        codes: Bits of the roots chosen in the closed form; `COUNTED` for a solution from continuation, -1 from a
+            search; shape (M,).
+        free: Bit mask: bit j is set if variable j was free and kept the seed's value; shape (M,).
         firsts: First row of each target's solutions, and M at the end; shape (N + 1,).
-        statuses: Verdict on each target; N of them.
+        method: Name of the iterative method.
         failures: Failure of each unsolved target, by its index.
-        complete: Whether each target's solutions are all there are; None if one was requested.
+        every: Whether all solutions were requested.
         doubts: Why a solved target may have other solutions, by its index.
         paths: Path of each target, if a single method was run or a trace requested.
-        branches: Branch labels, if a closed form or continuation was used.
+        form: The closed form used, if any.
+        is_counted: Whether continuation was used for six joints without a closed form.
         families: Families of targets with infinitely many solutions, by index, if all were requested.
     """
 
@@ -130,15 +81,54 @@ class InverseKinematics:
     orientation_errors: Array
     iterations: Indices
     restarts: Indices
-    method: str
+    codes: Indices
+    free: Indices
     firsts: Indices
-    statuses: list[Status]
+    method: str = "damped_least_squares"
     failures: dict[int, UnsolvedTarget] = field(default_factory=dict)
-    complete: list[bool] | None = None
+    every: bool = False
     doubts: dict[int, str] = field(default_factory=dict)
     paths: list[IterationPath] | None = None
-    branches: SolutionBranches | None = None
+    form: ClosedForm | None = None
+    is_counted: bool = False
     families: dict[int, tuple[Family, ...]] = field(default_factory=dict)
 
     def __len__(self) -> int:
-        return len(self.statuses)
+        return len(self.firsts) - 1
+
+    @property
+    def owners(self) -> Indices:
+        """Target of each solution; shape (M,)."""
+        return np.repeat(np.arange(len(self)), np.diff(self.firsts))
+
+    @property
+    def statuses(self) -> list[Status]:
+        """Verdict on each target; N of them."""
+        statuses: list[Status] = ["solved"] * len(self)
+        for i, failure in self.failures.items():
+            statuses[i] = failure.status
+        return statuses
+
+    @property
+    def complete(self) -> list[bool] | None:
+        """Whether each target's solutions are all there are; None if one was requested."""
+        return [i not in self.doubts and i not in self.failures for i in range(len(self))] if self.every else None
+
+    @property
+    def closed_form(self) -> str | None:
+        """Name of the closed form, or of the method for six joints without one; None if neither was used."""
+        if self.form:
+            return self.form.name
+        return "six joints, by continuation" if self.is_counted else None
+
+    def rows(self, rows: Indices | slice) -> dict[str, Any]:
+        """Return some rows of the table, by column."""
+        return {name: getattr(self, name)[rows] for name in _COLUMNS}
+
+
+_COLUMNS = ("qs", "position_errors", "orientation_errors", "iterations", "restarts", "codes", "free")
+
+
+def firsts_of(owners: Indices, count: int) -> Indices:
+    """Return the first row of each of a number of targets, and the end, from the ascending targets of the rows."""
+    return np.searchsorted(owners, np.arange(count + 1))

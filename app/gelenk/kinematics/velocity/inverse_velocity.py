@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gelenk.ik.search.null_space import Objective, objective_gradients
+from gelenk.ik.search.null_space import objective_gradients
+from gelenk.ik.search.problem import Objective
 from gelenk.kinematics.judge.judge import agreed
 from gelenk.kinematics.judge.motion import motion_scales
 from gelenk.kinematics.velocity.jacobian import jacobians

@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from gelenk.ik.search.search import mid_range
+from gelenk.ik.search.bounds import mid_range
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.kinematics.simd.kernels import chain_poses
