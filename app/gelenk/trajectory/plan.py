@@ -5,6 +5,7 @@ why it ends. A motion that fails its audit is never returned.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,9 +21,8 @@ from gelenk.trajectory.joint_part import joint_part
 from gelenk.trajectory.motion.extremes import peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
 from gelenk.trajectory.paths.segment_paths import is_blended
-from gelenk.trajectory.problem.parts import Halt, PlannedPart, standing
+from gelenk.trajectory.problem.parts import PlannedPart, standing
 from gelenk.trajectory.problem.problem import Segment, Trajectory, TrajectoryProblem
-from gelenk.trajectory.problem.result import PlanningFailure
 from gelenk.trajectory.tip_part import tip_part
 from gelenk.trajectory.whole_audit import whole
 
@@ -52,9 +52,8 @@ def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Traject
         AuditFailed: The motion fails its audit.
     """
     check_limits(chain, problem.start[None])
-    parts, halt = _parts(robot, chain, problem)
-    parts = [_with_stated_jerk(part, problem) for part in parts]
-    factor = _factor(parts, problem, halt)
+    parts = [_with_stated_jerk(part, problem) for part in _parts(robot, chain, problem)]
+    factor, share, failure = _factor(parts, problem), parts[-1].share, parts[-1].failure
     parts, audits = _judged(robot, chain, [part.slowed(factor) for part in parts])
     starts = np.concatenate(([0.0], np.cumsum([part.motion.duration for part in parts])))
     moving = [
@@ -68,25 +67,29 @@ def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Traject
     refuse_failed(judgement)
     return Trajectory(
         motion,
-        tuple(report for part, start in zip(parts, starts[:-1], strict=True) for report in part.moved(float(start))),
-        1.0 if halt is None else (halt.segment + halt.share) / len(problem.segments),
-        None if halt is None else _failure(halt, motion.duration),
+        tuple(
+            report.moved(float(start))
+            for part, start in zip(parts, starts[:-1], strict=True)
+            for report in part.reports
+        ),
+        1.0 if failure is None else (failure.segment + share) / len(problem.segments),
+        None if failure is None else replace(failure, time=motion.duration),
         judgement,
         tuple(part.timing for part in parts if part.timing is not None),
     )
 
 
-def _parts(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> tuple[list[PlannedPart], Halt | None]:
-    """Plan the parts that can be completed, each from rest to rest; also return why the others cannot."""
+def _parts(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> list[PlannedPart]:
+    """Plan the parts, each from rest to rest, up to the first one that cannot be completed."""
     parts: list[PlannedPart] = []
     configuration = problem.start
     for first, segments in _grouped(problem.segments):
         part = _part(robot, chain, configuration, first, segments, problem)
         parts.append(part)
-        if part.halt is not None:
-            return parts, part.halt
+        if part.failure is not None:
+            break
         configuration = part.motion.at(part.motion.breaks[-1:])[0]
-    return parts, None
+    return parts
 
 
 def _part(
@@ -127,7 +130,7 @@ def _refuse_unblendable(segments: tuple[Segment, ...], i: int) -> None:
             raise InvalidField(f"segments.{k}.duration", reason)
 
 
-def _factor(parts: list[PlannedPart], problem: TrajectoryProblem, halt: Halt | None) -> float:
+def _factor(parts: list[PlannedPart], problem: TrajectoryProblem) -> float:
     """Return the factor by which the whole motion is slowed down to last as long as requested.
 
     Raises:
@@ -140,7 +143,7 @@ def _factor(parts: list[PlannedPart], problem: TrajectoryProblem, halt: Halt | N
             field = "duration" if segment.duration is not None else "times"
             raise InvalidField(f"segments.{i}.{field}", "the trajectory has a `duration` already: give one of them")
     least = sum(part.motion.duration for part in parts)
-    if halt is not None or least == 0.0:
+    if parts[-1].failure is not None or least == 0.0:
         return 1.0
     if problem.duration < least * (1.0 - _SAME_DURATION):
         raise InvalidField("duration", f"the limits allow no less than {least:.6g} s")
@@ -221,7 +224,3 @@ def refuse_failed(judgement: Audit) -> None:
     """
     if not judgement.passed:
         raise AuditFailed("; ".join(reason.detail for reason in judgement.reasons[:_TOLD]))
-
-
-def _failure(halt: Halt, time: float) -> PlanningFailure:
-    return PlanningFailure(halt.reason, halt.segment, time, tuple(halt.position.tolist()), halt.joint, halt.detail)

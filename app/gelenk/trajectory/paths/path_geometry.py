@@ -16,8 +16,7 @@ from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
 from gelenk.trajectory.audit.demands import TipLimits, Zone
 from gelenk.trajectory.motion.composition import derivatives
-from gelenk.trajectory.motion.intervals import cut
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut
 from gelenk.trajectory.paths.paths import Path
 from gelenk.trajectory.problem.problem import SegmentLimits
 

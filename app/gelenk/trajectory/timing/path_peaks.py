@@ -13,8 +13,7 @@ import numpy as np
 from gelenk.robot.arrays import Array, Indices
 from gelenk.trajectory.motion.composition import derivatives
 from gelenk.trajectory.motion.extremes import candidates
-from gelenk.trajectory.motion.intervals import bernstein, cut
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut
 from gelenk.trajectory.paths.path_geometry import (
     ACCELERATION,
     JOINTS,
