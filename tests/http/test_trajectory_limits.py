@@ -8,7 +8,7 @@ import pytest
 
 from gelenk.contract.trajectory_request import MotionOptions
 from gelenk.errors import InvalidField
-from gelenk.operations.trajectory_limits import Layer, SourcedLimits, bounds_of, limit_notes, own_velocities
+from gelenk.operations.trajectory_limits import SourcedLimits, bounds_of, limit_notes, own_velocities
 from gelenk.operations.trajectory_samples import check_samples, sample_count, sample_times
 from tests.oracles import catalogue
 from tests.robots import robot, swept
@@ -19,7 +19,7 @@ PANDA = [2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61]
 def bounds(*options: dict[str, object], name: str = "panda") -> SourcedLimits:
     """Of a trajectory's options, and of a segment's."""
     own, chain = own_velocities(robot(name), robot(name).chain(None, None)), robot(name).chain(None, None)
-    layers = [Layer(MotionOptions.model_validate_json(orjson.dumps(one))) for one in options]
+    layers = {str(i): MotionOptions.model_validate_json(orjson.dumps(one)) for i, one in enumerate(options)}
     return bounds_of(chain, own, layers)
 
 

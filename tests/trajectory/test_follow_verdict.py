@@ -15,7 +15,7 @@ from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.words import NearSingularity
 from gelenk.trajectory.follow.follow import FollowedPath, follow
 from gelenk.trajectory.follow.integrate import traced
-from gelenk.trajectory.follow.rate_field import Course
+from gelenk.trajectory.follow.rate_field import RateField
 from gelenk.trajectory.paths.paths import Path, line
 from gelenk.trajectory.problem.problem import Following
 from tests.robots import of_table, robot, rows
@@ -123,9 +123,9 @@ def test_what_is_said_of_all_configurations_holds_for_each(name: str, near: Near
         seeds = rng.uniform(np.maximum(chain.lower, -7.0), np.minimum(chain.upper, 7.0), (4, len(q)))
         listed = inverse_kinematics(arm, chain, at, q[None], Options(task=ARMS[name], every=True)).qs
         found = [inverse_kinematics(arm, chain, at, seed[None], Options(task=ARMS[name])).qs for seed in seeds]
-        course, threshold = Course(chain, path, ARMS[name], (2e-5, 2e-4)), 0.01 if near == "stop" else 0.0
+        field = RateField(chain, path, ARMS[name], (1e-4, 1e-3), 0.01 if near == "stop" else 0.0)
         for other in np.concatenate([listed, *found]):
-            one = traced(course, (1e-4, 1e-3), other, threshold)
+            one = traced(field, other)
             assert one.ending != "complete"
             assert one.reached <= (said + 1e-6) * path.extent, way.stop.detail
     assert claims or name not in {"planar_2r", "puma560"}

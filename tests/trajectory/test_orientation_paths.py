@@ -80,7 +80,8 @@ def test_one_axis_against_slerp() -> None:
 
 def test_without_a_turn_there_is_no_axis() -> None:
     way = axis_angle(R_I, R_I)
-    assert (way.axis.any(), way.angle) == (False, 0.0)
+    assert not way.axis.any()
+    assert way.angle == 0.0
     rotations, rates, _ = way.at(ENDS)
     np.testing.assert_array_equal(rotations, [R_I, R_I])
     assert not rates.any()

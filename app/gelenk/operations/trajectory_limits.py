@@ -41,14 +41,6 @@ _ASSUMED = {
 
 
 @dataclass(frozen=True, slots=True)
-class Layer:
-    """Limits and scales given in one place of a request, and the prefix of its fields in refusals."""
-
-    options: MotionOptions
-    prefix: str = ""
-
-
-@dataclass(frozen=True, slots=True)
 class SourcedLimits:
     """Limits and their sources.
 
@@ -78,34 +70,41 @@ def own_velocities(robot: RobotModel, chain: Chain) -> OwnVelocities:
     return OwnVelocities(np.where(known, given, otherwise), known)
 
 
-def bounds_of(chain: Chain, own: OwnVelocities, layers: Sequence[Layer]) -> SourcedLimits:
+def bounds_of(chain: Chain, own: OwnVelocities, layers: Mapping[str, MotionOptions]) -> SourcedLimits:
     """Return the limits in force.
 
     Args:
         chain: Chain of the joints.
         own: Velocity limits of the robot.
-        layers: Limits in the request; later layers override earlier ones.
+        layers: Options that contain limits, by the prefix of their fields; later ones override earlier ones.
 
     Raises:
         WrongJointCount: A list does not have one number per joint.
         UnknownJoint: A name is not a joint of the chain.
     """
-    values, told = own.values, np.where(own.known, "robot", "assumed")
-    rows, sources = [], []
+    values, source = own.values, np.where(own.known, "robot", "assumed")
+    rows, sources = [], {}
     for quantity, rate in zip(QUANTITIES, (None, ACCELERATION_RATE, JERK_RATE), strict=True):
         if rate is not None:
-            values, told = values * rate, np.full(len(chain), "assumed", dtype=told.dtype)
-        for layer in layers:
-            given = None if layer.options.limits is None else getattr(layer.options.limits, quantity)
+            values, source = values * rate, np.full(len(chain), "assumed", dtype=source.dtype)
+        for prefix, options in layers.items():
+            given = None if options.limits is None else getattr(options.limits, quantity)
             if given is not None:
-                found = _row(chain, given, f"{layer.prefix}limits.{quantity}")
+                found = _row(chain, given, f"{prefix}limits.{quantity}")
                 counts = np.isfinite(found)
-                values, told = np.where(counts, found, values), np.where(counts, "request", told)
+                values, source = np.where(counts, found, values), np.where(counts, "request", source)
         rows.append(values)
-        sources.append(tuple(told.tolist()))
-    faster, harder = _scale(layers, "velocity_scale"), _scale(layers, "acceleration_scale")
-    limits = SegmentLimits(rows[0] * faster, rows[1] * harder, rows[2] * harder, _tip(layers, faster, harder))
-    return SourcedLimits(limits, dict(zip(QUANTITIES, sources, strict=True)))
+        sources[quantity] = tuple(source.tolist())
+    latest = list(layers.values())[::-1]
+    faster, harder = (_first(latest, name, 1.0) for name in ("velocity_scale", "acceleration_scale"))
+    limits = [options.limits for options in latest if options.limits is not None]
+    tip = TipLimits(
+        _first(limits, "tip_velocity", math.inf) * faster,
+        _first(limits, "tip_angular_velocity", math.inf) * faster,
+        _first(limits, "tip_acceleration", math.inf) * harder,
+        _first(limits, "tip_angular_acceleration", math.inf) * harder,
+    )
+    return SourcedLimits(SegmentLimits(rows[0] * faster, rows[1] * harder, rows[2] * harder, tip), sources)
 
 
 def _row(chain: Chain, given: JointValues, field: str) -> Array:
@@ -122,24 +121,10 @@ def _row(chain: Chain, given: JointValues, field: str) -> Array:
     return np.full(len(chain), given)
 
 
-def _scale(layers: Sequence[Layer], name: str) -> float:
-    """Return the scale of the last layer that gives one, else 1."""
-    given = (getattr(layer.options, name) for layer in reversed(layers))
-    return float(next((scale for scale in given if scale is not None), 1.0))
-
-
-def _tip(layers: Sequence[Layer], faster: float, harder: float) -> TipLimits:
-    def of(name: str) -> float:
-        limits: Iterable[TrajectoryLimits | None] = (layer.options.limits for layer in reversed(layers))
-        given = (getattr(one, name) for one in limits if one is not None)
-        return float(next((value for value in given if value is not None), math.inf))
-
-    return TipLimits(
-        of("tip_velocity") * faster,
-        of("tip_angular_velocity") * faster,
-        of("tip_acceleration") * harder,
-        of("tip_angular_acceleration") * harder,
-    )
+def _first(options: Iterable[MotionOptions | TrajectoryLimits], name: str, otherwise: float) -> float:
+    """Return the value of the first options that give one."""
+    given = (getattr(one, name) for one in options)
+    return float(next((value for value in given if value is not None), otherwise))
 
 
 def limit_notes(chain: Chain, own: OwnVelocities, used: Sequence[SourcedLimits]) -> list[str]:

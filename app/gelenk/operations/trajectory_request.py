@@ -19,7 +19,7 @@ from gelenk.errors import InvalidField, InvalidPose, OutsideLimits, counted
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.ik.search.words import DIRECTIONS
 from gelenk.operations.pose_arrays import poses_from
-from gelenk.operations.trajectory_limits import Layer, OwnVelocities, SourcedLimits, bounds_of, own_velocities
+from gelenk.operations.trajectory_limits import OwnVelocities, SourcedLimits, bounds_of, own_velocities
 from gelenk.robot.arrays import Array, Configuration
 from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import check_limits, configurations, one_configuration
@@ -58,17 +58,24 @@ def parse(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedPr
     waypoints = sum(len(segment.waypoints) for segment in call.segments if isinstance(segment, SplineSegment))
     if waypoints > MAX_WAYPOINTS:
         raise InvalidField("segments", f"all together have {waypoints} waypoints; at most {MAX_WAYPOINTS} are allowed")
-    own, whole = own_velocities(robot, chain), Layer(call)
-    layers = [(whole, Layer(segment, f"segments.{i}.")) for i, segment in enumerate(call.segments)]
-    bounds = tuple(bounds_of(chain, own, pair) for pair in layers)
+    own = own_velocities(robot, chain)
+    bounds = tuple(
+        bounds_of(chain, own, {"": call, f"segments.{i}.": segment}) for i, segment in enumerate(call.segments)
+    )
     problem = TrajectoryProblem(
         _within(chain, call.start, "start"),
         tuple(_segment(chain, call, i, bounds[i]) for i in range(len(call.segments))),
-        _following(call),
+        Following(
+            _task(call),
+            call.path_tolerance,
+            call.orientation_tolerance,
+            call.min_singular_value,
+            call.near_singularity,
+        ),
         call.duration,
         call.compare_timing,
     )
-    return SourcedProblem(problem, own, bounds_of(chain, own, (whole,)), bounds)
+    return SourcedProblem(problem, own, bounds_of(chain, own, {"": call}), bounds)
 
 
 def shortest_duration(problem: TrajectoryProblem) -> float:
@@ -77,12 +84,6 @@ def shortest_duration(problem: TrajectoryProblem) -> float:
         return problem.duration
     known = (part.duration if part.times is None else float(part.times[-1]) for part in problem.segments)
     return sum(duration for duration in known if duration is not None)
-
-
-def _following(call: TrajectoryRequest) -> Following:
-    return Following(
-        _task(call), call.path_tolerance, call.orientation_tolerance, call.min_singular_value, call.near_singularity
-    )
 
 
 def _task(call: TrajectoryRequest) -> Task:
@@ -104,11 +105,10 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedL
         stated_jerk=np.where(stated, bounds.limits.jerk, np.inf) if stated.any() else None,
     )
     match segment:
+        case JointSegment(target=Pose() as pose):
+            return replace(part, pose=_matrix(pose, f"{place}.target"))
         case JointSegment():
-            target = segment.target
-            if isinstance(target, Pose):
-                return replace(part, pose=_matrix(target, f"{place}.target"))
-            return replace(part, configuration=_within(chain, target, f"{place}.target"))
+            return replace(part, configuration=_within(chain, segment.target, f"{place}.target"))
         case LineSegment():
             _check_blend(call.segments, index)
             return replace(
@@ -135,7 +135,7 @@ def _law(call: TrajectoryRequest, index: int) -> Law:
     """
     segment = call.segments[index]
     law = segment.law or call.law
-    if law == "time_optimal" or call.near_singularity != "slow_down" or not _is_way(segment):
+    if law == "time_optimal" or call.near_singularity != "slow_down" or not _is_tip_path(segment):
         return law
     if (segment.law or "law" in call.model_fields_set) and not call.law_fallback:
         raise InvalidField(
@@ -146,7 +146,7 @@ def _law(call: TrajectoryRequest, index: int) -> Law:
     return "time_optimal"
 
 
-def _is_way(segment: Segment) -> bool:
+def _is_tip_path(segment: Segment) -> bool:
     """Check whether the tip follows a path without given times."""
     if isinstance(segment, SplineSegment):
         return segment.times is None and isinstance(segment.waypoints[0], Pose)

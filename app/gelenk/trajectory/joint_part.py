@@ -15,7 +15,7 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
-from gelenk.trajectory.audit.demands import Demands, Ends, JointLimits
+from gelenk.trajectory.audit.demands import Demands, JointLimits
 from gelenk.trajectory.audit.pieces import pieces_of
 from gelenk.trajectory.audit.tip import tip_peaks
 from gelenk.trajectory.audit.words import StopReason
@@ -184,7 +184,7 @@ def _demands(segment: Segment, start: Array, end: Array, task: Task) -> Demands:
     return Demands(
         JointLimits(*segment.limits.joints),
         segment.limits.tip,
-        Ends(start, end),
+        (start, end),
         task=task,
         continuous=promise.continuous,
         keeps_jerk=promise.has_bounded_jerk,

@@ -13,7 +13,7 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
-from gelenk.trajectory.audit.demands import Demands, Ends, JointLimits, TipLimits, Zone
+from gelenk.trajectory.audit.demands import Demands, JointLimits, TipLimits, Zone
 from gelenk.trajectory.follow.exact import path_error
 from gelenk.trajectory.follow.follow import FollowedPath, follow
 from gelenk.trajectory.laws.laws import scaled_law
@@ -125,11 +125,12 @@ class _TipPart:
         if following.near_singularity == "damp":
             position = max(position, _SLACK * joints.path_deviation)
             orientation = max(orientation, _SLACK * joints.orientation_deviation)
+        start, end = joints.positions.at(np.array([0.0, joints.reached]))
         stated = [one.stated_jerk for one in self.segments if one.stated_jerk is not None]
         return Demands(
             JointLimits(limits.velocity, limits.acceleration, limits.jerk),
             limits.tip,
-            Ends(*joints.positions.at(np.array([0.0, joints.reached]))),
+            (start, end),
             lambda times: self.path.path.at(np.clip(law.at(times)[:, 0], 0.0, joints.reached)).poses,
             following.task,
             position,

@@ -17,8 +17,8 @@ from gelenk.kinematics.judge.judge import MAX_SAMPLES, PoseCertificate, certify_
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
-from gelenk.trajectory.audit.demands import Demands, Zone
-from gelenk.trajectory.audit.pieces import Extremes, Pieces, extremes, largest_jumps, pieces_of
+from gelenk.trajectory.audit.demands import Demands
+from gelenk.trajectory.audit.pieces import Pieces, extremes, largest_jumps, pieces_of
 from gelenk.trajectory.audit.result import (
     Continuity,
     Jump,
@@ -30,11 +30,10 @@ from gelenk.trajectory.audit.result import (
     TipPeaks,
 )
 from gelenk.trajectory.audit.tip import Largest, poses_at, smallest_singular_value, tip_peaks
-from gelenk.trajectory.audit.words import Check
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 DERIVATIVES = ("position", "velocity", "acceleration", "jerk")
-_RATES: tuple[Check, ...] = ("velocity", "acceleration", "jerk")
+_RATES: tuple[Literal["velocity", "acceleration", "jerk"], ...] = ("velocity", "acceleration", "jerk")
 _DIGIT = 10.0
 """Factor by which the tolerated jump grows with each derivative: coefficients hold fewer digits of higher ones."""
 _ZONE_SAMPLES = 200
@@ -94,66 +93,166 @@ def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands:
     """
     if not (np.isfinite(motion.coefficients).all() and (np.diff(motion.breaks) > 0.0).all()):
         raise CertificationFailed("the motion", math.nan, 0.0)
-    pieces, names = pieces_of(motion), chain.joint_names
-    reasons: list[Reason] = []
-    peaks = _joint_peaks(pieces, names, demands, reasons)
-    tip, deviations = _tip(pieces, chain, demands, reasons)
-    qs, poses = poses_at(pieces, chain, MAX_SAMPLES)
-    continuity = _continuity(pieces, names, demands, peaks, reasons)
-    margin = _margin(pieces, chain, demands, reasons)
-    ends = _ends(pieces, names, demands, peaks, reasons)
+    examination = _Examination(pieces_of(motion), chain, demands, [])
+    peaks = examination.joint_peaks()
+    tip, deviations = examination.tip()
+    qs, poses = poses_at(examination.pieces, chain, MAX_SAMPLES)
+    continuity = examination.continuity(peaks)
+    margin = examination.margin()
+    ends = examination.ends(peaks)
     return Audit(
-        not reasons,
+        not examination.reasons,
         peaks.get("velocity"),
         peaks.get("acceleration"),
         peaks.get("jerk"),
         deviations.get("position"),
         deviations.get("orientation"),
         continuity,
-        smallest_singular_value(pieces, chain, demands.task) if names else None,
+        smallest_singular_value(examination.pieces, chain, demands.task) if len(chain) else None,
         margin,
         ends,
         tip,
         certify_poses(robot, chain, qs, {chain.tip_frame: poses}),
         demands.way_error,
-        tuple(reasons),
+        tuple(examination.reasons),
     )
 
 
 def continuity_of(chain: Chain, motion: PiecewisePolynomial) -> tuple[Continuity, tuple[Reason, ...]]:
     """Return the largest jumps where pieces meet, and a reason for each of position or velocity; no other checks."""
-    reasons: list[Reason] = []
-    found = _continuity(pieces_of(motion), chain.joint_names, Demands(), {}, reasons)
-    return found, tuple(reasons)
+    examination = _Examination(pieces_of(motion), chain, Demands(), [])
+    return examination.continuity({}), tuple(examination.reasons)
 
 
-def _joint_peaks(pieces: Pieces, names: tuple[str, ...], demands: Demands, reasons: list[Reason]) -> dict[str, Peak]:
-    """Find the peaks of velocity, acceleration and jerk, and add reasons; empty without joints."""
-    peaks: dict[str, Peak] = {}
-    for order, check in enumerate(_RATES, start=1):
+@dataclass(frozen=True, slots=True)
+class _Examination:
+    """The checks of a motion.
+
+    Attributes:
+        pieces: The motion.
+        chain: The moving chain.
+        demands: Limits, ends and path that the motion must keep.
+        reasons: Reasons why it does not pass, which each check adds to.
+    """
+
+    pieces: Pieces
+    chain: Chain
+    demands: Demands
+    reasons: list[Reason]
+
+    def joint_peaks(self) -> dict[str, Peak]:
+        """Find the peaks of velocity, acceleration and jerk; empty without joints."""
+        demands, names = self.demands, self.chain.joint_names
+        peaks: dict[str, Peak] = {}
+        for order, check in enumerate(_RATES if names else (), start=1):
+            values, times = extremes(self.pieces, order, absolute=True)
+            peaks[check] = peak = _worst(values, times, names, getattr(demands.joints, check))
+            if check == "jerk" and not demands.keeps_jerk:
+                if demands.stated_jerk is None:
+                    continue
+                peak = _worst(values, times, names, demands.stated_jerk)
+            if peak.ratio is not None and not peak.ratio <= 1.0 + demands.tolerance:
+                detail = f"{check} is {peak.ratio:.6g} times the limit"
+                self.reasons.append(Reason(check, detail, peak.joint, peak.time))
+        return peaks
+
+    def continuity(self, peaks: dict[str, Peak]) -> Continuity:
+        """Find the largest jump of each derivative."""
+        names, tolerance = self.chain.joint_names, self.demands.tolerance
         if not names:
-            break
-        found = extremes(pieces, order, "absolute")
-        bounds = getattr(demands.joints, check)
-        peaks[check] = peak = _worst(found, names, bounds)
-        if check == "jerk" and not demands.keeps_jerk:
-            if demands.stated_jerk is None:
-                continue
-            peak = _worst(found, names, demands.stated_jerk)
-        if peak.ratio is not None and not peak.ratio <= 1.0 + demands.tolerance:
-            detail = f"{check} is {peak.ratio:.6g} times the limit"
-            reasons.append(Reason(check, detail, peak.joint, peak.time))
-    return peaks
+            return Continuity(None, None, None, None)
+        jumps = []
+        for order, quantity in enumerate(DERIVATIVES):
+            found = _worst(*largest_jumps(self.pieces, order), names, None)
+            jump = Jump(found.value, found.joint, found.time)
+            jumps.append(jump)
+            allowed = _DIGIT**order * tolerance * _scale(peaks, quantity)
+            if order <= self.demands.continuous and not jump.value <= allowed:
+                detail = f"{quantity} jumps by {jump.value:.6g}"
+                self.reasons.append(Reason("continuity", detail, jump.joint, jump.time))
+        return Continuity(*jumps)
+
+    def margin(self) -> LimitMargin | None:
+        """Find the smallest distance to a joint limit."""
+        chain, limits = self.chain, self.demands.joints
+        lower = chain.lower if limits.lower is None else limits.lower
+        upper = chain.upper if limits.upper is None else limits.upper
+        if not (np.isfinite(lower).any() or np.isfinite(upper).any()):
+            return None
+        lowest, lowest_times = extremes(self.pieces.negated(), 0)
+        highest, highest_times = extremes(self.pieces, 0)
+        below, above = -lowest - lower, upper - highest
+        bound: Literal["lower", "upper"] = "lower" if below.min() < above.min() else "upper"
+        distances, times = (below, lowest_times) if bound == "lower" else (above, highest_times)
+        joint = int(distances.argmin())
+        margin = LimitMargin(float(distances[joint]), chain.joint_names[joint], bound, float(times[joint]))
+        if not margin.value >= -self.demands.tolerance:
+            detail = f"the joint goes {-margin.value:.6g} beyond its {bound} limit"
+            self.reasons.append(Reason("joint_limit", detail, margin.joint, margin.time))
+        return margin
+
+    def ends(self, peaks: dict[str, Peak]) -> dict[str, float]:
+        """Return the largest error of each demanded quantity at both ends."""
+        pieces, names, demands = self.pieces, self.chain.joint_names, self.demands
+        errors: dict[str, float] = {}
+        last = len(pieces.widths) - 1
+        for i, (end, piece, tau) in enumerate((("start", 0, 0.0), ("end", last, 1.0))):
+            rest = np.zeros(len(names))
+            for order, wanted in enumerate((None if demands.ends is None else demands.ends[i], rest)):
+                if wanted is None or not names:
+                    continue
+                quantity = DERIVATIVES[order]
+                off = np.abs(pieces.at(np.array([piece]), np.array([tau]), order)[0] - wanted)
+                joint = int(off.argmax())
+                errors[f"{end}_{quantity}"] = error = float(off[joint])
+                if not error <= demands.tolerance * _scale(peaks, quantity):
+                    time = float(pieces.starts[piece] + tau * pieces.widths[piece])
+                    detail = f"{quantity} at the {end} is off by {error:.6g}"
+                    self.reasons.append(Reason("boundary", detail, names[joint], time))
+        return errors
+
+    def tip(self) -> tuple[TipPeaks, dict[str, Peak]]:
+        """Find the peaks of the tip, and its deviations from the path by quantity; none without a path."""
+        demands = self.demands
+        limits = {name: getattr(demands.tip, name) for name in _TIP_UNITS}
+        limits |= {"position": demands.path_tolerance, "orientation": demands.orientation_tolerance}
+        peaks: dict[str, Peak] = {}
+        for quantity, found in tip_peaks(self.pieces, self.chain, demands.path, demands.task).items():
+            limit = limits[quantity]
+            ratio = float(_ratios(np.array(found.value), np.array(limit))) if math.isfinite(limit) else None
+            peaks[quantity] = Peak(ratio, found.value, None, found.time)
+            self.check_tip(quantity, found, limit, ratio)
+        for zone in demands.zones:
+            within = tip_peaks(self.pieces.between(zone.begin, zone.end), self.chain, None, least=_ZONE_SAMPLES)
+            for quantity, found in within.items():
+                limit = getattr(zone.tip, quantity)
+                if math.isfinite(limit):
+                    ratio = found.value / limit
+                    self.check_tip(quantity, found, limit, ratio)
+                    peaks[quantity] = replace(peaks[quantity], ratio=max(peaks[quantity].ratio or 0.0, ratio))
+        return TipPeaks(*(peaks.pop(name) for name in _TIP_UNITS)), peaks
+
+    def check_tip(self, quantity: str, found: Largest, limit: float, ratio: float | None) -> None:
+        """Add a reason if a quantity of the tip exceeds its limit."""
+        if ratio is None or ratio <= 1.0 + self.demands.tolerance:
+            return
+        if quantity in _TIP_UNITS:
+            unit, what = _TIP_UNITS[quantity], quantity.replace("_", " ")
+            detail = f"the tip's {what} is {found.value:.6g} {unit}; the limit is {limit:g} {unit}"
+            self.reasons.append(Reason("tip", detail, None, found.time))
+        else:
+            unit = "m" if quantity == "position" else "rad"
+            detail = f"the tip's {quantity} is {found.value:.6g} {unit} from the path; the limit is {limit:g} {unit}"
+            self.reasons.append(Reason("path", detail, None, found.time))
 
 
-def _worst(found: Extremes, names: tuple[str, ...], bounds: Array | None) -> Peak:
+def _worst(values: Array, times: Array, names: tuple[str, ...], bounds: Array | None) -> Peak:
     """Return the joint nearest to its limit, or the largest value if none is limited."""
-    sizes = np.abs(found.values)
+    sizes = np.abs(values)
     limited = bounds is not None and bool(np.isfinite(bounds).any())
     ratios = _ratios(sizes, bounds) if limited and bounds is not None else sizes
     joint = int(ratios.argmax())
-    ratio = float(ratios[joint]) if limited else None
-    return Peak(ratio, float(found.values[joint]), names[joint], float(found.times[joint]))
+    return Peak(float(ratios[joint]) if limited else None, float(values[joint]), names[joint], float(times[joint]))
 
 
 def _ratios(sizes: Array, bounds: Array) -> Array:
@@ -163,107 +262,6 @@ def _ratios(sizes: Array, bounds: Array) -> Array:
     return ratios
 
 
-def _continuity(
-    pieces: Pieces, names: tuple[str, ...], demands: Demands, peaks: dict[str, Peak], reasons: list[Reason]
-) -> Continuity:
-    """Find the largest jump of each derivative, and add reasons."""
-    if not names:
-        return Continuity(None, None, None, None)
-    jumps = []
-    for order, quantity in enumerate(DERIVATIVES):
-        found = _worst(largest_jumps(pieces, order), names, None)
-        jump = Jump(found.value, found.joint, found.time)
-        jumps.append(jump)
-        if order <= demands.continuous and not jump.value <= _DIGIT**order * demands.tolerance * _scale(
-            peaks, quantity
-        ):
-            detail = f"{quantity} jumps by {jump.value:.6g}"
-            reasons.append(Reason("continuity", detail, jump.joint, jump.time))
-    return Continuity(*jumps)
-
-
 def _scale(peaks: dict[str, Peak], quantity: str) -> float:
     """Return the peak of a derivative, but at least 1."""
     return max(1.0, abs(peaks[quantity].value)) if quantity in peaks else 1.0
-
-
-def _margin(pieces: Pieces, chain: Chain, demands: Demands, reasons: list[Reason]) -> LimitMargin | None:
-    """Find the smallest distance to a joint limit, and add a reason if it is beyond."""
-    lower = chain.lower if demands.joints.lower is None else demands.joints.lower
-    upper = chain.upper if demands.joints.upper is None else demands.joints.upper
-    if not (np.isfinite(lower).any() or np.isfinite(upper).any()):
-        return None
-    lowest, highest = extremes(pieces, 0, "lowest"), extremes(pieces, 0, "highest")
-    below, above = lowest.values - lower, upper - highest.values
-    bound: Literal["lower", "upper"] = "lower" if below.min() < above.min() else "upper"
-    distances, times = (below, lowest.times) if bound == "lower" else (above, highest.times)
-    joint = int(distances.argmin())
-    margin = LimitMargin(float(distances[joint]), chain.joint_names[joint], bound, float(times[joint]))
-    if not margin.value >= -demands.tolerance:
-        detail = f"the joint goes {-margin.value:.6g} beyond its {bound} limit"
-        reasons.append(Reason("joint_limit", detail, margin.joint, margin.time))
-    return margin
-
-
-def _ends(
-    pieces: Pieces, names: tuple[str, ...], demands: Demands, peaks: dict[str, Peak], reasons: list[Reason]
-) -> dict[str, float]:
-    """Return the largest error of each demanded quantity at both ends, and add reasons."""
-    errors: dict[str, float] = {}
-    still = np.zeros(len(names))
-    last = len(pieces.widths) - 1
-    for end, piece, tau in (("start", 0, 0.0), ("end", last, 1.0)):
-        for order, quantity in enumerate(DERIVATIVES[:3]):
-            wanted = getattr(demands.ends, end if order == 0 else f"{end}_{quantity}")
-            if order == 1 and wanted is None:
-                wanted = still
-            if wanted is None or not names:
-                continue
-            off = np.abs(pieces.at(np.array([piece]), np.array([tau]), order)[0] - wanted)
-            joint = int(off.argmax())
-            errors[f"{end}_{quantity}"] = error = float(off[joint])
-            if not error <= demands.tolerance * _scale(peaks, quantity):
-                time = float(pieces.starts[piece] + tau * pieces.widths[piece])
-                detail = f"{quantity} at the {end} is off by {error:.6g}"
-                reasons.append(Reason("boundary", detail, names[joint], time))
-    return errors
-
-
-def _tip(pieces: Pieces, chain: Chain, demands: Demands, reasons: list[Reason]) -> tuple[TipPeaks, dict[str, Peak]]:
-    """Find the peaks of the tip and its deviations from the path, and add reasons."""
-    tolerances = {"position": demands.path_tolerance, "orientation": demands.orientation_tolerance}
-    tip: dict[str, Peak] = {}
-    deviations: dict[str, Peak] = {}
-    for quantity, found in tip_peaks(pieces, chain, demands.path, demands.task).items():
-        of_tip = quantity in _TIP_UNITS
-        limit = getattr(demands.tip, quantity) if of_tip else tolerances[quantity]
-        ratio = float(_ratios(np.array(found.value), np.array(limit))) if math.isfinite(limit) else None
-        (tip if of_tip else deviations)[quantity] = Peak(ratio, found.value, None, found.time)
-        if ratio is not None and not ratio <= 1.0 + demands.tolerance:
-            reasons.append(_tip_reason(quantity, found.value, limit, found.time))
-    for zone in demands.zones:
-        within = tip_peaks(pieces.between(zone.begin, zone.end), chain, None, least=_ZONE_SAMPLES)
-        for quantity in _TIP_UNITS:
-            tip[quantity] = _in_zone(tip[quantity], quantity, within[quantity], zone, demands, reasons)
-    return TipPeaks(**tip), deviations
-
-
-def _in_zone(peak: Peak, quantity: str, found: Largest, zone: Zone, demands: Demands, reasons: list[Reason]) -> Peak:
-    """Raise a peak's ratio to that of a zone with its own limit if larger, and add a reason if it is exceeded."""
-    limit = getattr(zone.tip, quantity)
-    if not math.isfinite(limit):
-        return peak
-    ratio = found.value / limit
-    if not ratio <= 1.0 + demands.tolerance:
-        reasons.append(_tip_reason(quantity, found.value, limit, found.time))
-    return replace(peak, ratio=max(peak.ratio or 0.0, ratio))
-
-
-def _tip_reason(quantity: str, value: float, limit: float, time: float) -> Reason:
-    if quantity in _TIP_UNITS:
-        what = quantity.replace("_", " ")
-        unit = _TIP_UNITS[quantity]
-        return Reason("tip", f"the tip's {what} is {value:.6g} {unit}; the limit is {limit:g} {unit}", None, time)
-    unit = "m" if quantity == "position" else "rad"
-    detail = f"the tip's {quantity} is {value:.6g} {unit} from the path; the limit is {limit:g} {unit}"
-    return Reason("path", detail, None, time)

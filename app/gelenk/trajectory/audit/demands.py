@@ -39,27 +39,6 @@ class TipLimits:
 
 
 @dataclass(frozen=True, slots=True)
-class Ends:
-    """State that a motion must have at its start and end; None leaves a quantity open, but a velocity is then 0.
-
-    Attributes:
-        start: Configuration; shape (n,), [rad or m].
-        end: Likewise.
-        start_velocity: Zero if None; shape (n,), [rad/s or m/s].
-        end_velocity: Likewise.
-        start_acceleration: Open if None; shape (n,), [rad/s² or m/s²].
-        end_acceleration: Likewise.
-    """
-
-    start: Array | None = None
-    end: Array | None = None
-    start_velocity: Array | None = None
-    end_velocity: Array | None = None
-    start_acceleration: Array | None = None
-    end_acceleration: Array | None = None
-
-
-@dataclass(frozen=True, slots=True)
 class Zone:
     """A part of a motion or a path on which the tip has its own limits, in addition to those that hold everywhere.
 
@@ -81,7 +60,8 @@ class Demands:
     Attributes:
         joints: Limits of the joints.
         tip: Limits of the tip.
-        ends: State at the start and the end.
+        ends: Configurations at the start and the end, shape (n,) each, [rad or m]; None leaves them open. The motion
+            rests at both.
         path: Demanded pose at each time; None if the tip is free.
         task: Directions that count for the path and for the smallest singular value.
         path_tolerance: Allowed distance from the path, [m].
@@ -97,7 +77,7 @@ class Demands:
 
     joints: JointLimits = field(default_factory=JointLimits)
     tip: TipLimits = field(default_factory=TipLimits)
-    ends: Ends = field(default_factory=Ends)
+    ends: tuple[Array, Array] | None = None
     path: PathOfTime | None = None
     task: Task = FULL_POSE
     path_tolerance: float = 1e-4

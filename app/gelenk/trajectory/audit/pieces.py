@@ -8,7 +8,6 @@ peak, and only those are refined.
 
 import math
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -16,27 +15,12 @@ from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.trajectory.audit.peaks import highest
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
-Sense: TypeAlias = Literal["absolute", "highest", "lowest"]
-
 _MIN_INTERVALS = 12
 _CHUNK = 1024
 """Number of pieces that are sampled at a time."""
 _ROUNDING = 1e-13
 _SAME = 1e-12
 """Share by which a piece must be able to exceed the largest sample to be refined."""
-
-
-@dataclass(frozen=True, slots=True)
-class Extremes:
-    """The extreme value of each joint, and its time.
-
-    Attributes:
-        values: Shape (n,).
-        times: Shape (n,), [s].
-    """
-
-    values: Array
-    times: Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +45,10 @@ class Pieces:
         """Return the pieces whose middle lies between two times, [s]."""
         middles = self.starts + 0.5 * self.widths
         return self.part(int(np.searchsorted(middles, begin)), int(np.searchsorted(middles, end)))
+
+    def negated(self) -> "Pieces":
+        """Return the pieces of the opposite motion, whose highest values are the lowest."""
+        return Pieces(self.starts, self.widths, -self.scaled)
 
     @property
     def degree(self) -> int:
@@ -112,13 +100,16 @@ def pieces_of(motion: PiecewisePolynomial) -> Pieces:
     return Pieces(motion.breaks[:-1], widths, motion.coefficients.transpose(1, 0, 2) * powers[:, :, None])
 
 
-def extremes(pieces: Pieces, order: int, sense: Sense) -> Extremes:
+def extremes(pieces: Pieces, order: int, *, absolute: bool = False) -> tuple[Array, Array]:
     """Find the extreme value of a derivative of each joint over the whole motion.
 
     Args:
         pieces: The motion.
         order: Order of the derivative; 0 is the position.
-        sense: Whether to find the largest magnitude, the highest or the lowest value.
+        absolute: Whether to find the value of largest magnitude, not the highest one.
+
+    Returns:
+        Values and their times, [s]; shape (n,) each.
     """
     degree = max(pieces.degree - order, 0)
     count = max(_MIN_INTERVALS, 2 * degree + 2)
@@ -128,25 +119,26 @@ def extremes(pieces: Pieces, order: int, sense: Sense) -> Extremes:
     for first in range(0, len(pieces.widths), _CHUNK):
         part = pieces.part(first, first + _CHUNK)
         values = part.on(nodes, order)
-        signed = _signed(values, sense)
+        signed = np.abs(values) if absolute else values
         found.take_samples(signed, nodes, first)
         if degree > 1:
             # At degree 0 or 1 the extremes are at the ends, which are samples.
-            bounds = _bounds(values, sense, 1.0 / math.cos(0.5 * math.pi * degree / count))
-            _refine(part, order, sense, nodes, signed, bounds > found.best + _SAME * np.abs(found.best), found, first)
+            bounds = _bounds(values, absolute, 1.0 / math.cos(0.5 * math.pi * degree / count))
+            can_exceed = bounds > found.best + _SAME * np.abs(found.best)
+            _refine(part, order, absolute, nodes, signed, can_exceed, found, first)
     values = pieces.joint_at(found.piece, np.arange(n), found.tau[:, None], order)[:, 0]
-    return Extremes(values, pieces.times(found.piece, found.tau))
+    return values, pieces.times(found.piece, found.tau)
 
 
-def largest_jumps(pieces: Pieces, order: int) -> Extremes:
-    """Find the largest jump of a derivative of each joint where two pieces meet; zero if there is only one piece."""
+def largest_jumps(pieces: Pieces, order: int) -> tuple[Array, Array]:
+    """Find the largest jump of a derivative of each joint where two pieces meet, and when; zero in a single piece."""
     if len(pieces.widths) == 1:
         n = pieces.scaled.shape[2]
-        return Extremes(np.zeros(n), np.full(n, pieces.starts[0]))
+        return np.zeros(n), np.full(n, pieces.starts[0])
     ends = pieces.on(np.array([0.0, 1.0]), order)
     jumps = np.abs(ends[0, 1:] - ends[1, :-1])
     where = jumps.argmax(axis=0)
-    return Extremes(jumps[where, np.arange(jumps.shape[1])], pieces.starts[1:][where])
+    return jumps[where, np.arange(jumps.shape[1])], pieces.starts[1:][where]
 
 
 def _powers(tau: Array, order: int, degree: int) -> Array:
@@ -159,42 +151,30 @@ def _powers(tau: Array, order: int, degree: int) -> Array:
     return powers
 
 
-def _signed(values: Array, sense: Sense) -> Array:
-    """Return the function to maximise."""
-    if sense == "absolute":
-        return np.abs(values)
-    sign = 1.0 if sense == "highest" else -1.0
-    result: Array = sign * values
-    return result
-
-
-def _bounds(values: Array, sense: Sense, factor: float) -> Array:
+def _bounds(values: Array, absolute: bool, factor: float) -> Array:
     """Bound the values of each piece from its samples, applying [Ehlich1964] around their middle; shape (M, n)."""
     low, high = values.min(axis=0), values.max(axis=0)
     middle, half = 0.5 * (low + high), 0.5 * factor * (high - low)
-    if sense == "absolute":
-        bounds: Array = np.abs(middle) + half
-        return bounds
-    signed: Array = middle + half if sense == "highest" else half - middle
-    return signed
+    bounds: Array = (np.abs(middle) if absolute else middle) + half
+    return bounds
 
 
 def _refine(
-    part: Pieces, order: int, sense: Sense, nodes: Array, signed: Array, open_: Flags, found: "_Largest", first: int
+    part: Pieces,
+    order: int,
+    absolute: bool,
+    nodes: Array,
+    signed: Array,
+    can_exceed: Flags,
+    found: "_Largest",
+    first: int,
 ) -> None:
-    """Refine around each local maximum of the samples in pieces that may hold more.
+    """Refine around each local maximum of the samples in pieces that may exceed the extremes found so far.
 
-    Args:
-        part: Some of the pieces.
-        order: Order of the derivative.
-        sense: The kind of extreme.
-        nodes: τ of the samples; shape (K,).
-        signed: The samples; shape (K, P, n).
-        open_: Which pieces may exceed the extremes found so far; shape (P, n).
-        found: The extremes found so far, updated here.
-        first: Number of the first of the pieces.
+    The samples `signed` at `nodes` have shape (K, P, n), `can_exceed` (P, n); `found` is updated, and `first` is the
+    number of the first of these pieces.
     """
-    piece, joint = np.nonzero(open_)
+    piece, joint = np.nonzero(can_exceed)
     samples = signed[:, piece, joint]
     padded = np.pad(samples, ((1, 1), (0, 0)), constant_values=-np.inf)
     node, candidate = np.nonzero((samples >= padded[:-2]) & (samples >= padded[2:]))
@@ -203,7 +183,8 @@ def _refine(
         return
 
     def values_at(tau: Array) -> Array:
-        return _signed(part.joint_at(piece, joint, tau, order), sense)
+        values = part.joint_at(piece, joint, tau, order)
+        return np.abs(values) if absolute else values
 
     near = np.clip(node, 1, len(nodes) - 2)[:, None] + np.arange(-1, 2)
     largest, where = highest(

@@ -43,21 +43,6 @@ QUANTITIES = ("speed", "angular_speed", "acceleration", "angular_acceleration", 
 
 
 @dataclass(frozen=True, slots=True)
-class SampleGrid:
-    """Samples of each piece, including both its ends.
-
-    Attributes:
-        piece: Number of the piece; shape (N,).
-        tau: Place within the piece, from 0 to 1; shape (N,).
-        inner: Which samples have neighbours on both sides in their piece; shape (K,).
-    """
-
-    piece: Indices
-    tau: Array
-    inner: Indices
-
-
-@dataclass(frozen=True, slots=True)
 class Largest:
     """The largest value of a quantity, and its time [s]."""
 
@@ -65,14 +50,18 @@ class Largest:
     time: float
 
 
-def grid(pieces: Pieces, least: int = MIN_SAMPLES, intervals: int = 2) -> SampleGrid:
-    """Sample each piece evenly, ends included: at least `least` samples in all, and `intervals` intervals per piece."""
+def grid(pieces: Pieces, least: int = MIN_SAMPLES, intervals: int = 2) -> tuple[Indices, Array, Indices]:
+    """Sample each piece evenly, ends included: at least `least` samples in all, and `intervals` intervals per piece.
+
+    Returns:
+        The piece and τ of each sample, shape (N,) each; and which samples have neighbours on both sides in their piece.
+    """
     shares = pieces.widths / pieces.widths.sum()
     counts = np.maximum(np.ceil(shares * least).astype(np.int64), intervals) + 1
     piece = np.repeat(np.arange(len(counts)), counts)
     within = np.arange(len(piece)) - np.repeat(np.cumsum(counts) - counts, counts)
     last = (counts - 1)[piece]
-    return SampleGrid(piece, within / last, np.flatnonzero((within > 0) & (within < last)))
+    return piece, within / last, np.flatnonzero((within > 0) & (within < last))
 
 
 def tip_peaks(
@@ -93,11 +82,11 @@ def tip_peaks(
         # Where the path has no pose, the deviation is infinite.
         return np.nan_to_num(np.column_stack(columns), nan=np.inf)
 
-    samples = grid(pieces, least)
-    values = np.concatenate([quantities(samples.piece[rows], samples.tau[rows]) for rows in _chunks(len(samples.tau))])
-    found = _between(samples.tau, values, samples.inner, samples.piece, quantities, _rounding(pieces)[: len(names)])
+    piece, taus, inner = grid(pieces, least)
+    values = np.concatenate([quantities(piece[rows], taus[rows]) for rows in _chunks(len(taus))])
+    found = _between(taus, values, inner, piece, quantities, _rounding(pieces)[: len(names)])
     return {
-        name: Largest(value, float(pieces.times(samples.piece[[row]], np.array([tau]))[0]))
+        name: Largest(value, float(pieces.times(piece[[row]], np.array([tau]))[0]))
         for name, (value, row, tau) in zip(names, found, strict=True)
     }
 
@@ -126,8 +115,7 @@ def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE
         return cast(Array, -np.sqrt(np.maximum(np.linalg.eigvalsh(squares)[:, :1], 0.0)))
 
     # Like the joints, σ is continuous: it is one function from start to end.
-    samples = grid(pieces, _SIGMA_SAMPLES, 1)
-    times = np.unique(pieces.times(samples.piece, samples.tau))
+    times = np.unique(pieces.times(*grid(pieces, _SIGMA_SAMPLES, 1)[:2]))
     values = np.concatenate([estimate(times[some]) for some in _chunks(len(times))])
     nearest = int(values.argmax())
     values[nearest] = exact(np.zeros(1, dtype=np.int64), times[[nearest]])
@@ -144,9 +132,9 @@ def _chunks(count: int) -> list[slice]:
 
 def poses_at(pieces: Pieces, chain: Chain, count: int) -> tuple[Array, Poses]:
     """Return configurations, shape (count, n), and poses at evenly spread samples, for an independent check."""
-    samples = grid(pieces, count)
-    rows = np.unique(np.linspace(0, len(samples.tau) - 1, count).round().astype(np.int64))
-    qs = pieces.at(samples.piece[rows], samples.tau[rows], 0)
+    piece, taus, _ = grid(pieces, count)
+    rows = np.unique(np.linspace(0, len(taus) - 1, count).round().astype(np.int64))
+    qs = pieces.at(piece[rows], taus[rows], 0)
     return qs, Poses(*chain_poses(chain.flat, qs))
 
 

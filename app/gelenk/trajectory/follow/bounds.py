@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from gelenk.robot.arrays import Array
-from gelenk.trajectory.follow.rate_field import Course, Knot
+from gelenk.trajectory.follow.rate_field import Knot, RateField
 from gelenk.trajectory.follow.step import HULL, INNER, TO_POWERS, Piece, knot_within, piece_between
 
 SLACK = 1e-10
@@ -49,9 +49,9 @@ class Crossing:
     floor: float = 0.0
 
 
-def limit_crossing(course: Course, piece: Piece) -> Crossing | None:
+def limit_crossing(field: RateField, piece: Piece) -> Crossing | None:
     """Find the first place in a piece at which a joint leaves its limits."""
-    lower, upper = course.chain.lower - SLACK, course.chain.upper + SLACK
+    lower, upper = field.chain.lower - SLACK, field.chain.upper + SLACK
     hull = HULL @ piece.data
     found: Crossing | None = None
     for joint in np.flatnonzero((hull.min(axis=0) < lower) | (hull.max(axis=0) > upper)):
@@ -76,20 +76,20 @@ def _first_outside(powers: Array, bound: float, side: float) -> tuple[float, flo
 
 
 def threshold_crossing(
-    course: Course, piece: Piece, threshold: float, best: float, stretch: tuple[float, float]
+    field: RateField, piece: Piece, best: float, stretch: tuple[float, float]
 ) -> tuple[Crossing | None, float]:
     """Find the first place in a piece at which σ falls below the threshold, and the largest σ so far.
 
     If the path began below the threshold, σ must grow instead until it is above.
 
     Args:
-        course: The course being followed.
+        field: Field of joint rates.
         piece: A piece of the joint path.
-        threshold: Lower bound on σ.
         best: The largest σ before the piece.
         stretch: The breaks of the path before and after.
     """
-    taus, sigmas = _resolved(course, piece, _floor(threshold, best), stretch)
+    threshold = field.threshold
+    taus, sigmas = _resolved(field, piece, _floor(threshold, best), stretch)
     largest = np.maximum.accumulate(np.maximum(sigmas, best))
     below = sigmas < np.where(largest >= threshold, threshold, _SAG * largest)
     if best < threshold and largest[-1] <= best * _GROWING:
@@ -106,7 +106,7 @@ def _floor(threshold: float, best: float) -> float:
     return threshold if best >= threshold else _SAG * best
 
 
-def _resolved(course: Course, piece: Piece, floor: float, stretch: tuple[float, float]) -> tuple[Array, Array]:
+def _resolved(field: RateField, piece: Piece, floor: float, stretch: tuple[float, float]) -> tuple[Array, Array]:
     """Return places from 0 to 1 and σ there, so dense that σ cannot fall below the floor between them unnoticed."""
     taus, sigmas = np.linspace(0.0, 1.0, len(piece.sigmas)), piece.sigmas
     change = _CERTAIN * piece.width * max(piece.a.change, piece.b.change)
@@ -118,46 +118,45 @@ def _resolved(course: Course, piece: Piece, floor: float, stretch: tuple[float, 
         if not open_.any():
             break
         places = (taus[:-1] + 0.5 * widths)[open_]
-        at = course.samples(piece.a.s + piece.width * places, *stretch)
-        more = course.velocities(at, piece.at(places))[1]
+        at = field.samples(piece.a.s + piece.width * places, *stretch)
+        more = field.velocities(at, piece.at(places))[1]
         order = np.argsort(np.concatenate((taus, places)), kind="stable")
         taus, sigmas = np.concatenate((taus, places))[order], np.concatenate((sigmas, more))[order]
     return taus, sigmas
 
 
 def located(
-    course: Course, tolerances: tuple[float, float], piece: Piece, crossing: Crossing, stretch: tuple[float, float]
+    field: RateField, piece: Piece, crossing: Crossing, stretch: tuple[float, float]
 ) -> tuple[Piece | None, Crossing]:
     """Locate a violation more exactly; return the part of the piece before it (None if empty) and the crossing.
 
     Args:
-        course: The course being followed.
-        tolerances: Of position [m] and orientation [rad].
+        field: Field of joint rates.
         piece: The piece that contains the violation.
         crossing: The violation as bracketed on the quintic.
         stretch: The breaks of the path before and after.
     """
     good, bad, kept = piece.a.s, crossing.bad, None
     kind, joint = crossing.kind, crossing.joint
-    room, lack = _margin(course, piece.a, crossing.floor), -np.inf
+    room, lack = _margin(field, piece.a, crossing.floor), -np.inf
     closest = _CLOSEST * piece.width
     for _ in range(_ROUNDS):
         if bad - good <= closest:
             break
         middle = _between(good, bad, room, lack, closest)
-        knot = knot_within(course, piece, middle, stretch)
-        margin = -np.inf if knot is None else _margin(course, knot, crossing.floor)
+        knot = knot_within(field, piece, middle, stretch)
+        margin = -np.inf if knot is None else _margin(field, knot, crossing.floor)
         if knot is not None and margin >= 0.0:
             good, kept, room, lack = middle, knot, margin, 0.5 * lack
             continue
-        joint = None if knot is None else _outside(course, knot)
+        joint = None if knot is None else _outside(field, knot)
         kind = "lost" if knot is None else "threshold" if joint is None else "joint_limit"
         bad, lack, room = middle, margin, 0.5 * room
+    found = Crossing(good, bad, kind, joint, crossing.floor)
     if kept is None:
-        return None, Crossing(good, bad, kind, joint, crossing.floor)
-    at = course.samples(piece.a.s + (kept.s - piece.a.s) * INNER, *stretch)
-    part = piece_between(course, tolerances, piece.a, kept, at)
-    return part, Crossing(good, bad, kind, joint, crossing.floor)
+        return None, found
+    at = field.samples(piece.a.s + (kept.s - piece.a.s) * INNER, *stretch)
+    return piece_between(field, piece.a, kept, at), found
 
 
 def _between(good: float, bad: float, room: float, lack: float, closest: float) -> float:
@@ -168,17 +167,17 @@ def _between(good: float, bad: float, room: float, lack: float, closest: float) 
     return float(np.clip(guess, good + 0.4 * closest, bad - 0.4 * closest))
 
 
-def _margin(course: Course, knot: Knot, floor: float) -> float:
+def _margin(field: RateField, knot: Knot, floor: float) -> float:
     """Return the smallest margin: of σ to its floor, or of a joint to its limits."""
     margin = knot.sigma - floor
-    if course.limited:
-        rooms = np.minimum(knot.q - course.chain.lower, course.chain.upper - knot.q)
+    if field.limited:
+        rooms = np.minimum(knot.q - field.chain.lower, field.chain.upper - knot.q)
         margin = min(margin, float(rooms.min()) + SLACK)
     return margin
 
 
-def _outside(course: Course, knot: Knot) -> int | None:
+def _outside(field: RateField, knot: Knot) -> int | None:
     """Return the joint that is furthest beyond its limits; None if all are within."""
-    excess = np.maximum(course.chain.lower - knot.q, knot.q - course.chain.upper)
+    excess = np.maximum(field.chain.lower - knot.q, knot.q - field.chain.upper)
     joint = int(excess.argmax())
-    return joint if course.limited and excess[joint] > SLACK else None
+    return joint if field.limited and excess[joint] > SLACK else None

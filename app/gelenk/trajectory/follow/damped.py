@@ -19,9 +19,9 @@ from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.follow.bounds import Crossing, limit_crossing
 from gelenk.trajectory.follow.integrate import MOST_KNOTS, Trace
-from gelenk.trajectory.follow.rate_field import Course, Knot, beside, derivative_along
+from gelenk.trajectory.follow.rate_field import SHARE, Knot, RateField, beside, derivative_along
 from gelenk.trajectory.follow.rows import task_rows
-from gelenk.trajectory.follow.step import INNER, RATE_TOLERANCE, SHARE, Piece, end_conditions, rates_of
+from gelenk.trajectory.follow.step import INNER, RATE_TOLERANCE, Piece, end_conditions, rates_of
 from gelenk.trajectory.paths.paths import PathSamples
 
 _GAIN = 50.0
@@ -46,22 +46,20 @@ class Damped:
     """The damped field.
 
     Attributes:
-        course: The course being followed.
-        threshold: σ₀.
+        exact: The field without damping; its threshold is σ₀.
     """
 
-    course: Course
-    threshold: float
+    exact: RateField
 
     def velocities(self, at: PathSamples, qs: Array) -> tuple[Array, Array]:
         """Return the field's rates q', shape (N, n), and the smallest singular value, shape (N,)."""
-        rows = task_rows(self.course.chain, self.course.task, at, qs)
+        rows = task_rows(self.exact.chain, self.exact.task, at, qs)
         left, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
-        near = np.clip(1.0 - np.square(sigmas / self.threshold), 0.0, None) ** 3
-        damping = self.threshold**2 * near[:, -1:]
+        near = np.clip(1.0 - np.square(sigmas / self.exact.threshold), 0.0, None) ** 3
+        damping = self.exact.threshold**2 * near[:, -1:]
         squares = np.square(sigmas) + damping
         gains = np.where(squares > 0.0, sigmas / np.where(squares > 0.0, squares, 1.0), 0.0)
-        back = _GAIN / self.course.path.extent * rows.errors
+        back = _GAIN / self.exact.path.extent * rows.errors
         sizes, speeds = (np.linalg.norm(values, axis=1)[:, None] for values in (back, rows.rates))
         speeds = np.maximum(speeds, 1e-12)
         back /= np.sqrt(1.0 + np.square(sizes / speeds))
@@ -74,52 +72,49 @@ class Damped:
         """Return the point of the damped path at a configuration; `at` is one sample."""
         dqs, sigmas = self.velocities(at, q[None])
         sigma = float(sigmas[0])
-        ddq = derivative_along(self, at, q, dqs[0], 0.1 * max(sigma, 0.1 * self.threshold))
+        ddq = derivative_along(self.velocities, at, q, dqs[0], 0.1 * max(sigma, 0.1 * self.exact.threshold))
         return Knot(s, q, dqs[0], ddq, sigma, np.empty((0, len(q))), 0.0)
 
 
-def damped(course: Course, tolerances: tuple[float, float], start: Array, threshold: float, since: float) -> Trace:
+def damped(exact: RateField, start: Array, since: float) -> Trace:
     """Follow the damped path from a configuration to a joint limit or to the end of the path.
 
     Args:
-        course: The course being followed.
-        tolerances: Of position [m] and orientation [rad].
+        exact: The field without damping.
         start: First configuration; shape (n,).
-        threshold: σ₀.
         since: Place on the path where it begins, [m or rad].
 
     Raises:
         InvalidField: It takes too many knots.
     """
-    field, trace, q = Damped(course, threshold), Trace(), start
-    for stretch in pairwise((0.0, *course.path.breaks, course.path.extent)):
+    field, trace = Damped(exact), Trace(start, [])
+    for stretch in pairwise((0.0, *exact.path.breaks, exact.path.extent)):
         if stretch[1] <= since:
             continue
         begin = max(since, stretch[0])
-        a = field.knot(begin, course.samples(np.array([begin]), *stretch), q)
-        for piece in _pieces(field, tolerances, a, stretch):
+        a = field.knot(begin, exact.samples(np.array([begin]), *stretch), trace.last)
+        for piece in _pieces(field, a, stretch):
             if len(trace.pieces) >= MOST_KNOTS:
                 reason = (
                     f"leaving the path and returning to it takes more than {MOST_KNOTS} knots: allow a larger tolerance"
                 )
                 raise InvalidField("path_tolerance", reason)
-            crossing = limit_crossing(course, piece) if course.limited else None
+            crossing = limit_crossing(exact, piece) if exact.limited else None
             if crossing is not None:
                 trace.ending, trace.crossing = "joint_limit", crossing
-                cut_short(course, trace, piece, (crossing.good - piece.a.s) / piece.width)
+                cut_short(exact, trace, piece, (crossing.good - piece.a.s) / piece.width)
                 return trace
             trace.pieces.append(piece)
-        q = trace.pieces[-1].b.q
-    _leave_out_what_never_returns(course, tolerances, trace)
+    _leave_out_what_never_returns(exact, trace)
     return trace
 
 
-def _leave_out_what_never_returns(course: Course, tolerances: tuple[float, float], trace: Trace) -> None:
+def _leave_out_what_never_returns(exact: RateField, trace: Trace) -> None:
     """End the path where the tip leaves its tolerances for good, if it does."""
     ends = np.array([piece.b.q for piece in trace.pieces])
-    at = course.path.at(np.array([piece.b.s for piece in trace.pieces]))
-    errors = course.task.errors(at.poses, Poses(*chain_poses(course.chain.flat, ends)))
-    good: Flags = np.all(errors.T - np.array(tolerances) <= 0.0, axis=1)
+    at = exact.path.at(np.array([piece.b.s for piece in trace.pieces]))
+    errors = exact.task.errors(at.poses, Poses(*chain_poses(exact.chain.flat, ends)))
+    good: Flags = np.all(errors.T - np.array(exact.tolerances) <= 0.0, axis=1)
     if good[-1]:
         return
     kept = int(np.flatnonzero(good)[-1]) + 1 if good.any() else 0
@@ -128,32 +123,32 @@ def _leave_out_what_never_returns(course: Course, tolerances: tuple[float, float
     low, high = 0.0, 1.0
     for _ in range(_SEARCH):
         tau = 0.5 * (low + high)
-        pose = Poses(*chain_poses(course.chain.flat, piece.at(np.array([tau]))))
-        error = course.task.errors(course.path.at(np.array([piece.a.s + tau * piece.width])).poses, pose)[:, 0]
-        low, high = (tau, high) if (error <= tolerances).all() else (low, tau)
+        pose = Poses(*chain_poses(exact.chain.flat, piece.at(np.array([tau]))))
+        error = exact.task.errors(exact.path.at(np.array([piece.a.s + tau * piece.width])).poses, pose)[:, 0]
+        low, high = (tau, high) if (error <= exact.tolerances).all() else (low, tau)
     place = piece.a.s + low * piece.width
     trace.ending, trace.crossing = "lost", Crossing(place, place, "lost")
-    cut_short(course, trace, piece, low)
+    cut_short(exact, trace, piece, low)
 
 
-def cut_short(course: Course, trace: Trace, piece: Piece, tau: float) -> None:
+def cut_short(exact: RateField, trace: Trace, piece: Piece, tau: float) -> None:
     """Append the part of a piece up to place `tau`, from 0 to 1, unless it is empty."""
     s = piece.a.s + tau * piece.width
     if not s > piece.a.s:
         return
     place, width = np.array([tau]), piece.width
     q, dq, ddq = piece.at(place)[0], rates_of(place, 1, piece.data)[0] / width, rates_of(place, 2, piece.data)[0]
-    at = course.path.at(np.array([s]))
-    sigma = float(course.velocities(at, q[None])[1][0])
+    at = exact.path.at(np.array([s]))
+    sigma = float(exact.velocities(at, q[None])[1][0])
     b = Knot(s, q, dq, ddq / width**2, sigma, piece.b.span, 0.0)
-    trace.pieces.append(_piece(Damped(course, 1.0), piece.a, b, (piece.a.s, s))[0])
+    trace.pieces.append(_piece(Damped(exact), piece.a, b, (piece.a.s, s))[0])
 
 
-def _pieces(field: Damped, tolerances: tuple[float, float], a: Knot, stretch: tuple[float, float]) -> Iterator[Piece]:
+def _pieces(field: Damped, a: Knot, stretch: tuple[float, float]) -> Iterator[Piece]:
     """Yield the pieces up to the end of a stretch."""
-    end, extent = stretch[1], field.course.path.extent
+    end, extent = stretch[1], field.exact.path.extent
     h = min(_FIRST_STEP * extent, end - a.s)
-    allowed = SHARE * min(tolerances)
+    allowed = SHARE * min(field.exact.tolerances)
     while a.s < end:
         s = end if end - a.s <= 1.1 * h else a.s + h
         h = s - a.s
@@ -161,7 +156,7 @@ def _pieces(field: Damped, tolerances: tuple[float, float], a: Knot, stretch: tu
         ratio = error / _TOLERANCE
         factor = 0.8 * max(ratio, 1e-6) ** (-1.0 / 3.0)
         if ratio <= 1.0 or h < _SHORTEST * extent:
-            b = field.knot(s, field.course.samples(np.array([s]), *stretch), q)
+            b = field.knot(s, field.exact.samples(np.array([s]), *stretch), q)
             piece, off = _piece(field, a, b, stretch)
             fastest = max(float(np.abs(a.dq).max()), float(np.abs(b.dq).max()), 1e-300)
             ratio = max(off / (RATE_TOLERANCE * fastest), 0.25 * off * h / allowed)
@@ -174,17 +169,17 @@ def _pieces(field: Damped, tolerances: tuple[float, float], a: Knot, stretch: tu
 
 def _piece(field: Damped, a: Knot, b: Knot, stretch: tuple[float, float]) -> tuple[Piece, float]:
     """Return the quintic between two points, and the largest difference of its rate from the field's."""
-    course, data, h = field.course, end_conditions(a, b), b.s - a.s
-    at, qs = course.samples(a.s + h * INNER, *stretch), rates_of(INNER, 0, data)
+    exact, data, h = field.exact, end_conditions(a, b), b.s - a.s
+    at, qs = exact.samples(a.s + h * INNER, *stretch), rates_of(INNER, 0, data)
     velocities, sigmas = field.velocities(at, qs)
     off = float(np.abs(rates_of(INNER, 1, data) / h - velocities).max())
-    errors = course.task.errors(at.poses, Poses(*chain_poses(course.chain.flat, qs)))
+    errors = exact.task.errors(at.poses, Poses(*chain_poses(exact.chain.flat, qs)))
     return Piece(a, b, data, np.concatenate(([a.sigma], sigmas, [b.sigma])), errors.max(axis=1), 0.0), off
 
 
 def _rosenbrock(field: Damped, a: Knot, h: float, stretch: tuple[float, float]) -> tuple[Array, float]:
     """Take one step; return its end, shape (n,), and an estimate of its error."""
-    n, at = len(a.q), field.course.samples(np.array([a.s]), *stretch)
+    n, at = len(a.q), field.exact.samples(np.array([a.s]), *stretch)
     by_q, by_s = _derivatives(field, at, a.q)
     matrix = np.eye(n) / (h * _GAMMA) - by_q
     steps = np.zeros((4, n))
@@ -192,7 +187,7 @@ def _rosenbrock(field: Damped, a: Knot, h: float, stretch: tuple[float, float]) 
     for i, (place, weight) in enumerate(_STAGES):
         if i >= 2:
             moved = a.q + np.array(_FROM_STAGES[i]) @ steps[:i]
-            later = field.course.samples(np.array([a.s + place * h]), *stretch)
+            later = field.exact.samples(np.array([a.s + place * h]), *stretch)
             rate = field.velocities(later, moved[None])[0][0]
         coupled = np.array(_COUPLED[i]) @ steps[:i] / h if i else 0.0
         steps[i] = np.linalg.solve(matrix, rate + coupled + weight * h * by_s)

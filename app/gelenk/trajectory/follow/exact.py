@@ -12,7 +12,7 @@ import numpy as np
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.trajectory.audit.result import PathError
 from gelenk.trajectory.follow.bounds import SLACK
-from gelenk.trajectory.follow.rate_field import Course
+from gelenk.trajectory.follow.rate_field import RateField
 from gelenk.trajectory.follow.rows import row_derivatives, task_rows
 from gelenk.trajectory.motion.composition import RATES_KNOWN, derivatives
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut
@@ -36,21 +36,21 @@ _UNSEEN = 1.5
 _STEPS, _SETTLED, _RANK = 4, 1e-11, 1e-13
 
 
-def refined(course: Course, positions: PiecewisePolynomial) -> tuple[PiecewisePolynomial, Array]:
+def refined(field: RateField, positions: PiecewisePolynomial) -> tuple[PiecewisePolynomial, Array]:
     """Add knots to a path where its q'' differs from the exact one, and return the remaining error.
 
     Args:
-        course: The course being followed.
+        field: Field of joint rates.
         positions: q(s), quintics; pieces too near to singularities or joint limits stay unchanged.
 
     Returns:
         The path in M pieces, and the largest error of q'' for each piece and joint, ∞ where unknown; (M, n).
     """
     for left in reversed(range(_ROUNDS)):
-        off, parts = _errors(course, positions)
+        off, parts = _errors(field, positions)
         if left == 0 or (parts == 1).all():
             break
-        positions = _divided(course, positions, parts)
+        positions = _divided(field, positions, parts)
     return positions, off
 
 
@@ -81,12 +81,12 @@ def path_error(joints: PiecewisePolynomial, off: Array | None, timing: Timed, li
     return PathError(*(value if math.isfinite(value) else None for value in found))
 
 
-def _errors(course: Course, positions: PiecewisePolynomial) -> tuple[Array, Indices]:
+def _errors(field: RateField, positions: PiecewisePolynomial) -> tuple[Array, Indices]:
     """Return the largest error of q'' in each piece, (M, n), and the number of parts to divide it into, (M,)."""
-    widths, extent = np.diff(positions.breaks), course.path.extent
+    widths, extent = np.diff(positions.breaks), field.path.extent
     places = (positions.breaks[:-1] + _PROBES[:, None] * widths).ravel()
     rates = positions.rates_at(places)
-    exact, near = _exact(course, places, *rates)
+    exact, near = _exact(field, places, *rates)
     errors = np.where(near[:, None], np.abs(exact[2] - rates[2]), np.inf)
     q, first, second, off = (
         np.abs(values).reshape(len(_PROBES), len(widths), -1).max(axis=0) for values in (*rates, errors)
@@ -100,7 +100,7 @@ def _errors(course: Course, positions: PiecewisePolynomial) -> tuple[Array, Indi
     return off, np.minimum(wanted, most).astype(np.int64)
 
 
-def _divided(course: Course, positions: PiecewisePolynomial, parts: Indices) -> PiecewisePolynomial:
+def _divided(field: RateField, positions: PiecewisePolynomial, parts: Indices) -> PiecewisePolynomial:
     """Divide pieces at exact knots; a piece that would then leave the joint limits keeps its own quintic."""
     piece = np.repeat(np.arange(len(parts)), parts)
     share = (np.arange(len(piece)) - np.repeat(np.cumsum(parts) - parts, parts)) / parts[piece]
@@ -109,21 +109,21 @@ def _divided(course: Course, positions: PiecewisePolynomial, parts: Indices) -> 
     own = cut(positions, breaks)
     starts = np.stack((own[:, 0], own[:, 1], 2.0 * own[:, 2]))
     new = share > 0.0
-    starts[:, new] = _exact(course, breaks[:-1][new], *starts[:, new])[0]
+    starts[:, new] = _exact(field, breaks[:-1][new], *starts[:, new])[0]
     ends = np.roll(starts, -1, axis=1)
     ends[:, np.append(~new[1:], True)] = np.stack(derivatives(positions.coefficients, widths[:, None])[:3])
     lengths = np.diff(breaks)
     coefficients = hermite_pieces(starts, ends, lengths)
     hull = bernstein(coefficients * lengths[:, None, None] ** np.arange(coefficients.shape[1])[:, None])
-    beyond = (hull < course.chain.lower - SLACK) | (hull > course.chain.upper + SLACK)
+    beyond = (hull < field.chain.lower - SLACK) | (hull > field.chain.upper + SLACK)
     kept = np.isin(piece, piece[beyond.any(axis=(1, 2))])
     coefficients[kept] = own[kept]
     return PiecewisePolynomial(breaks, coefficients)
 
 
-def _exact(course: Course, s: Array, q: Array, first: Array, second: Array) -> tuple[Array, Flags]:
+def _exact(field: RateField, s: Array, q: Array, first: Array, second: Array) -> tuple[Array, Flags]:
     """Return q, q', q'' of the exact path next to given ones, (3, N, n), and whether found; if not, the given ones."""
-    chain, task, at = course.chain, course.task, course.path.at(s)
+    chain, task, at = field.chain, field.task, field.path.at(s)
     rows, exact, step = task_rows(chain, task, at, q), q, np.zeros_like(q)
     inverses = _inverses(rows.jacobians)
     for _ in range(_STEPS):

@@ -19,9 +19,8 @@ from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.follow.damped import damped
 from gelenk.trajectory.follow.exact import refined
 from gelenk.trajectory.follow.integrate import Trace, traced
-from gelenk.trajectory.follow.rate_field import Course
-from gelenk.trajectory.follow.step import SHARE, Piece
-from gelenk.trajectory.follow.verdict import Inquiry, Stop, never_back, verdict
+from gelenk.trajectory.follow.rate_field import RateField
+from gelenk.trajectory.follow.verdict import Stop, never_back, verdict
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.paths.paths import Path
@@ -46,8 +45,6 @@ class FollowedPath:
         stop: Why it is incomplete; None if complete.
         path_deviation: Largest distance of the tip from the path, between the knots that the tolerances require, [m].
         orientation_deviation: Largest angle likewise, [rad].
-        min_singular_value: The smallest σ of the rows that count along the path, metres and radians mixed.
-        min_singular_value_s: s at that value, [m or rad].
         bend_errors: Bound on the error of q'' against the exact path, for each piece and joint; shape (M, n). None
             if nothing moves, or the path is left.
     """
@@ -55,10 +52,8 @@ class FollowedPath:
     positions: PiecewisePolynomial
     reached: float
     stop: Stop | None
-    path_deviation: float
-    orientation_deviation: float
-    min_singular_value: float
-    min_singular_value_s: float
+    path_deviation: float = 0.0
+    orientation_deviation: float = 0.0
     bend_errors: Array | None = None
 
 
@@ -76,61 +71,53 @@ def follow(robot: RobotModel, chain: Chain, path: Path, start: Array, following:
         InvalidField: The tolerances require too many knots.
         ValueError: The start is not at the path's first pose.
     """
-    _check_start(chain, path, start, following)
-    if path.extent <= 0.0 or len(chain) == 0:
-        return _motionless(chain, path, start, following)
-    tolerances = following.position_tolerance, following.orientation_tolerance
-    residuals = SHARE * tolerances[0], SHARE * tolerances[1]
-    course = Course(chain, path, following.task, residuals)
-    threshold = 0.0 if following.near_singularity == "slow_down" else following.min_singular_value
-    trace = traced(course, tolerances, start, threshold)
-    if following.near_singularity == "damp":
-        return _damped_way(robot, course, tolerances, start, threshold, trace)
-    if trace.ending == "joint_limit" and course.is_redundant:
-        course, trace = _away_from_limits(course, tolerances, start, threshold, trace)
-    stop = verdict(Inquiry(robot, course, tolerances, threshold, start), trace)
-    return _exactly(course, _joint_way(start, trace, stop))
-
-
-def _damped_way(
-    robot: RobotModel, course: Course, tolerances: tuple[float, float], start: Array, threshold: float, trace: Trace
-) -> FollowedPath:
-    """Follow the exact path up to a singularity, and the damped one from there."""
-    inquiry = Inquiry(robot, course, tolerances, threshold, start)
-    began_near = bool(trace.pieces) and trace.pieces[0].a.sigma < threshold
-    if trace.ending != "threshold" and not began_near:
-        return _exactly(course, _joint_way(start, trace, verdict(inquiry, trace)))
-    exact = [] if began_near else trace.pieces
-    since, q = (exact[-1].b.s, exact[-1].b.q) if exact else (0.0, start)
-    rest = damped(course, tolerances, q, threshold, since)
-    rest.pieces = exact + rest.pieces
-    stop = verdict(inquiry, rest) if rest.ending != "lost" else never_back(inquiry, rest)
-    return _joint_way(start, rest, stop)
-
-
-def _exactly(course: Course, way: FollowedPath) -> FollowedPath:
-    """Add the knots that accurate peaks require."""
-    if way.reached <= 0.0:
-        return way
-    positions, bend_errors = refined(course, way.positions)
-    return replace(way, positions=positions, bend_errors=bend_errors)
-
-
-def _check_start(chain: Chain, path: Path, start: Array, following: Following) -> None:
-    errors = following.task.errors(path.at(np.zeros(1)).poses, Poses(*chain_poses(chain.flat, start[None])))[:, 0]
+    first = path.at(np.zeros(1)).poses
+    errors = following.task.errors(first, Poses(*chain_poses(chain.flat, start[None])))[:, 0]
     if not (errors <= _LOOSE).all():
         raise ValueError(f"the start is {errors[0]:.3g} m and {errors[1]:.3g} rad from the path's first pose")
+    if path.extent <= 0.0:
+        return _motionless(start, None)
+    if len(chain) == 0:
+        detail = "the chain has no joints: its tip cannot move"
+        return _motionless(start, Stop("out_of_reach", 0.0, first.positions[0], None, detail))
+    tolerances = following.position_tolerance, following.orientation_tolerance
+    threshold = 0.0 if following.near_singularity == "slow_down" else following.min_singular_value
+    field = RateField(chain, path, following.task, tolerances, threshold)
+    trace = traced(field, start)
+    if following.near_singularity == "damp":
+        return _damped_path(robot, field, trace)
+    if trace.ending == "joint_limit" and field.is_redundant:
+        field, trace = _away_from_limits(field, trace)
+    return _exactly(field, _joint_path(trace, verdict(robot, field, trace)))
 
 
-def _away_from_limits(
-    course: Course, tolerances: tuple[float, float], start: Array, threshold: float, plain: Trace
-) -> tuple[Course, Trace]:
-    """Return the course and trace that get farthest, with and without pushing joints away from their limits."""
-    best = course, plain
+def _damped_path(robot: RobotModel, field: RateField, trace: Trace) -> FollowedPath:
+    """Follow the exact path up to a singularity, and the damped one from there."""
+    began_near = bool(trace.pieces) and trace.pieces[0].a.sigma < field.threshold
+    if trace.ending != "threshold" and not began_near:
+        return _exactly(field, _joint_path(trace, verdict(robot, field, trace)))
+    exact = [] if began_near else trace.pieces
+    since, q = (exact[-1].b.s, exact[-1].b.q) if exact else (0.0, trace.start)
+    rest = damped(field, q, since)
+    rest.start, rest.pieces = trace.start, exact + rest.pieces
+    return _joint_path(rest, (never_back if rest.ending == "lost" else verdict)(robot, field, rest))
+
+
+def _exactly(field: RateField, path: FollowedPath) -> FollowedPath:
+    """Add the knots that accurate peaks require."""
+    if path.reached <= 0.0:
+        return path
+    positions, bend_errors = refined(field, path.positions)
+    return replace(path, positions=positions, bend_errors=bend_errors)
+
+
+def _away_from_limits(field: RateField, plain: Trace) -> tuple[RateField, Trace]:
+    """Return the field and trace that get farthest, with and without pushing joints away from their limits."""
+    best = field, plain
     for push in _PUSHES:
-        pushed = replace(course, push=push)
+        pushed = replace(field, push=push)
         try:
-            trace = traced(pushed, tolerances, start, threshold)
+            trace = traced(pushed, plain.start)
         except InvalidField:
             continue
         if trace.reached > best[1].reached:
@@ -140,44 +127,18 @@ def _away_from_limits(
     return best
 
 
-def _motionless(chain: Chain, path: Path, start: Array, following: Following) -> FollowedPath:
-    """Return the result for a path of zero length, or a chain without joints."""
-    stop = None
-    at = path.at(np.zeros(1))
-    if path.extent > 0.0:
-        stop = Stop("out_of_reach", 0.0, at.poses.positions[0], None, "the chain has no joints: its tip cannot move")
-    sigma = 0.0
-    if len(chain):
-        course = Course(chain, path, following.task, (0.0, 0.0))
-        sigma = float(course.velocities(at, start[None])[1][0])
-    return FollowedPath(_constant(start), 0.0, stop, 0.0, 0.0, sigma, 0.0)
+def _motionless(start: Array, stop: Stop | None) -> FollowedPath:
+    return FollowedPath(PiecewisePolynomial(np.array([0.0, _STILL]), start[None, None]), 0.0, stop)
 
 
-def _constant(q: Array) -> PiecewisePolynomial:
-    return PiecewisePolynomial(np.array([0.0, _STILL]), q[None, None])
-
-
-def _joint_way(start: Array, trace: Trace, stop: Stop | None) -> FollowedPath:
-    if not trace.pieces:
-        return FollowedPath(_constant(start), 0.0, stop, 0.0, 0.0, trace.best, 0.0)
-    deviations = np.array([piece.deviations for piece in trace.pieces]).max(axis=0)
-    sigmas = np.array([piece.sigmas for piece in trace.pieces])
-    i, k = np.unravel_index(int(sigmas.argmin()), sigmas.shape)
-    place = trace.pieces[i].a.s + trace.pieces[i].width * k / (sigmas.shape[1] - 1)
-    return FollowedPath(
-        _polynomial(trace.pieces),
-        trace.reached,
-        stop,
-        float(deviations[0]),
-        float(deviations[1]),
-        float(sigmas[i, k]),
-        float(place),
-    )
-
-
-def _polynomial(pieces: list[Piece]) -> PiecewisePolynomial:
-    """Return the quintics between the knots."""
+def _joint_path(trace: Trace, stop: Stop | None) -> FollowedPath:
+    """Return the quintics between the knots of a trace."""
+    pieces = trace.pieces
+    if not pieces:
+        return _motionless(trace.start, stop)
     breaks = np.array([pieces[0].a.s, *(piece.b.s for piece in pieces)])
     starts = np.array([[piece.a.q, piece.a.dq, piece.a.ddq] for piece in pieces]).transpose(1, 0, 2)
     ends = np.array([[piece.b.q, piece.b.dq, piece.b.ddq] for piece in pieces]).transpose(1, 0, 2)
-    return PiecewisePolynomial(breaks, hermite_pieces(starts, ends, np.diff(breaks)))
+    positions = PiecewisePolynomial(breaks, hermite_pieces(starts, ends, np.diff(breaks)))
+    deviations = np.array([piece.deviations for piece in pieces]).max(axis=0)
+    return FollowedPath(positions, trace.reached, stop, *deviations.tolist())

@@ -1,7 +1,7 @@
 """Trace of the joint path from knot to knot, until its end or until it cannot go on."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal, TypeAlias
 
@@ -10,7 +10,7 @@ import numpy as np
 from gelenk.errors import InvalidField, counted
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.follow.bounds import Crossing, limit_crossing, located, threshold_crossing
-from gelenk.trajectory.follow.rate_field import Course, Knot
+from gelenk.trajectory.follow.rate_field import Knot, RateField
 from gelenk.trajectory.follow.step import Piece, attempt
 
 Ending: TypeAlias = Literal["complete", "joint_limit", "threshold", "lost", "too_fast"]
@@ -42,13 +42,15 @@ class Trace:
     """The traced path, and how it ended.
 
     Attributes:
+        start: First configuration; shape (n,), [rad or m].
         pieces: The pieces in order.
         ending: Why it ended.
         crossing: Up to where the path is good, and from where it is not; None if complete.
         best: The largest σ so far.
     """
 
-    pieces: list[Piece] = field(default_factory=list)
+    start: Array
+    pieces: list[Piece]
     ending: Ending = "complete"
     crossing: Crossing | None = None
     best: float = 0.0
@@ -58,23 +60,20 @@ class Trace:
         """How far along the path the trace leads, [m or rad]."""
         return self.pieces[-1].b.s if self.pieces else 0.0
 
+    @property
+    def last(self) -> Array:
+        """The last configuration; shape (n,), [rad or m]."""
+        return self.pieces[-1].b.q if self.pieces else self.start
+
 
 def traced(
-    course: Course,
-    tolerances: tuple[float, float],
-    start: Array,
-    threshold: float,
-    since: float = 0.0,
-    until_above: float = np.inf,
-    most: int | None = None,
+    field: RateField, start: Array, since: float = 0.0, until_above: float = np.inf, most: int | None = None
 ) -> Trace:
     """Trace the path from a configuration on.
 
     Args:
-        course: The course to follow.
-        tolerances: Of position [m] and orientation [rad].
+        field: Field of joint rates.
         start: First configuration; shape (n,).
-        threshold: σ at which it ends; 0 goes through singularities as long as an exact path exists.
         since: Place on the path where it begins, [m or rad].
         until_above: σ above which tracing stops. If finite, a path about to be lost is also given up once its end can
             be extrapolated (`_end_of_branch`), instead of being traced to the last nanometre.
@@ -84,15 +83,15 @@ def traced(
         InvalidField: It takes too many knots.
     """
     most = MOST_KNOTS if most is None else most
-    trace, q, creep = Trace(), start, _CREEP * min(course.path.extent, 1.0)
-    for stretch in pairwise((0.0, *course.path.breaks, course.path.extent)):
+    trace, creep = Trace(start, []), _CREEP * min(field.path.extent, 1.0)
+    for stretch in pairwise((0.0, *field.path.breaks, field.path.extent)):
         if stretch[1] <= since:
             continue
         begin = max(since, stretch[0])
-        a = course.first_knot(begin, course.samples(np.array([begin]), *stretch), q)
+        a = field.first_knot(begin, field.samples(np.array([begin]), *stretch), trace.last)
         if not trace.pieces:
             trace.best = a.sigma
-        for piece in _pieces(course, tolerances, a, stretch, trace, threshold):
+        for piece in _pieces(field, a, stretch, trace):
             trace.pieces.append(piece)
             if len(trace.pieces) > most:
                 reason = (
@@ -104,13 +103,12 @@ def traced(
                 return trace
             if piece.b.sigma >= until_above:
                 return trace
-            end = _end_of_branch(trace.pieces, course.path.extent) if until_above < np.inf else None
+            end = _end_of_branch(trace.pieces, field.path.extent) if until_above < np.inf else None
             if end is not None:
                 trace.ending, trace.crossing = "lost", Crossing(piece.b.s, end, "lost")
                 return trace
         if trace.ending != "complete":
             return trace
-        q = trace.pieces[-1].b.q
     return trace
 
 
@@ -136,33 +134,26 @@ def _end_of_branch(pieces: list[Piece], extent: float) -> float | None:
     return float(ends[-1]) + _SHORTEST * scale if is_ahead and np.ptp(ends) <= _SHORTEST * scale else None
 
 
-def _pieces(
-    course: Course,
-    tolerances: tuple[float, float],
-    a: Knot,
-    stretch: tuple[float, float],
-    trace: Trace,
-    threshold: float,
-) -> Iterator[Piece]:
+def _pieces(field: RateField, a: Knot, stretch: tuple[float, float], trace: Trace) -> Iterator[Piece]:
     """Yield the pieces up to the end of a stretch; if it is not reached, set the reason in `trace`."""
-    end, extent = stretch[1], course.path.extent
+    end, extent = stretch[1], field.path.extent
     shortest = _SHORTEST * min(extent, 1.0)
     h = min(_FIRST_STEP * (end - a.s), _farthest(a))
     while a.s < end:
         s = _next_place(a.s, h, end)
-        piece = attempt(course, tolerances, a, s, stretch)
+        piece = attempt(field, a, s, stretch)
         is_good = piece is not None and (piece.ratio <= 1.0 or end - a.s <= _NOTHING * shortest)
         if piece is None or not is_good:
             h = (s - a.s) * (_SHRINKAGE if piece is None else max(_SHRINKAGE, _factor(piece)))
             if h < shortest:
-                if piece is not None and a.sigma > _CLEAR and len(course.chain) >= len(course.task):
+                if piece is not None and a.sigma > _CLEAR and len(field.chain) >= len(field.task):
                     raise InvalidField("path_tolerance", "is so small that rounding exceeds it: allow a larger one")
                 trace.ending, trace.crossing = "lost", Crossing(a.s, s, "lost")
                 return
             continue
-        crossing = _first_crossing(course, piece, stretch, trace, threshold)
+        crossing = _first_crossing(field, piece, stretch, trace)
         if crossing is not None:
-            part, trace.crossing = located(course, tolerances, piece, crossing, stretch)
+            part, trace.crossing = located(field, piece, crossing, stretch)
             trace.ending = trace.crossing.kind
             if part is not None:
                 yield part
@@ -192,15 +183,13 @@ def _next_place(s: float, h: float, end: float) -> float:
     return s + (0.5 * left if left < 2.0 * h else h)
 
 
-def _first_crossing(
-    course: Course, piece: Piece, stretch: tuple[float, float], trace: Trace, threshold: float
-) -> Crossing | None:
+def _first_crossing(field: RateField, piece: Piece, stretch: tuple[float, float], trace: Trace) -> Crossing | None:
     """Find the first violation in a piece, and update the trace's largest σ."""
     near, best = None, max(trace.best, float(piece.sigmas.max()))
-    if threshold > 0.0:
-        near, best = threshold_crossing(course, piece, threshold, trace.best, stretch)
+    if field.threshold > 0.0:
+        near, best = threshold_crossing(field, piece, trace.best, stretch)
     trace.best = best
-    beyond = limit_crossing(course, piece) if course.limited else None
+    beyond = limit_crossing(field, piece) if field.limited else None
     if near is None or beyond is None:
         return near or beyond
     return near if near.good <= beyond.good else beyond

@@ -5,8 +5,9 @@ derivative is q'' = J̇ᵀλ + J⁺(ξ' - J̇q' - J J̇ᵀλ) with λ = (JJᵀ)�
 along the self-motion, which keeps joints away from their limits.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import TypeAlias
 
 import numpy as np
 
@@ -15,14 +16,16 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.notations import rotations_from_vectors
 from gelenk.robot.poses import Poses
-from gelenk.trajectory.follow.rows import CountedRows, row_derivatives, task_rows
+from gelenk.trajectory.follow.rows import PLACES, STENCIL, CountedRows, row_derivatives, task_rows
 from gelenk.trajectory.paths.paths import Path, PathSamples
 
-STENCIL = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
-PLACES = np.array([-2.0, -1.0, 1.0, 2.0])
-"""Places of a central difference of fourth order; its weights are `STENCIL`."""
+Velocities: TypeAlias = Callable[[PathSamples, Array], tuple[Array, Array]]
+"""Returns the rates q' of a field, shape (N, n), and the smallest singular value, shape (N,), at any configurations."""
+
+SHARE = 1.0 / 3.0
+"""Share of the tolerances that interpolation may use."""
 _DIFFERENCE = 1e-3
-"""Step of that difference in q, [rad or m]; smaller near a singularity, where the field changes fast."""
+"""Step of differences in q, [rad or m]; smaller near a singularity, where the field changes fast."""
 _RANK = 1e-13
 """Share of the largest singular value below which one counts as zero."""
 _EXACT = 1e-14
@@ -64,14 +67,15 @@ class Knot:
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
-    """The path to follow, and how to follow it.
+class RateField:
+    """The joint rates that follow a path of the tip.
 
     Attributes:
         chain: Chain from base to tip.
         path: The path of the tip.
         task: Directions of the path that count.
-        residuals: Distance [m] and angle [rad] allowed to an arm with too few joints for all directions.
+        tolerances: Largest distance [m] and angle [rad] from the path.
+        threshold: σ at which following ends; 0 goes through singularities as long as an exact path exists.
         limited: Whether joints must keep their limits.
         push: Gain that pushes spare joints away from their limits.
     """
@@ -79,7 +83,8 @@ class Course:
     chain: Chain
     path: Path
     task: Task
-    residuals: tuple[float, float]
+    tolerances: tuple[float, float]
+    threshold: float = 0.0
     limited: bool = True
     push: float = 0.0
 
@@ -87,6 +92,11 @@ class Course:
     def is_redundant(self) -> bool:
         """Whether there are more joints than directions that count."""
         return len(self.chain) > len(self.task)
+
+    @property
+    def residuals(self) -> tuple[float, float]:
+        """Distance [m] and angle [rad] allowed to an arm with too few joints for all directions."""
+        return SHARE * self.tolerances[0], SHARE * self.tolerances[1]
 
     def samples(self, s: Array, begin: float, end: float) -> PathSamples:
         """Sample the path between two of its breaks; at the end the derivatives are those before the break."""
@@ -110,7 +120,7 @@ class Course:
             dq = dq + self._pushed(right, rows.rates, q[None])
         dJ, dxi = row_derivatives(self.chain, self.task, at, q[None], dq)
         if self.push > 0.0:
-            ddq = derivative_along(self, at, q, dq[0], float(sigmas[0, -1]))
+            ddq = derivative_along(self.velocities, at, q, dq[0], float(sigmas[0, -1]))
         else:
             ddq = _acceleration(rows, left, sigmas, right, dq, dJ, dxi)[0]
         return Knot(s, q, dq[0], ddq, float(sigmas[0, -1]), right[0], float(np.sqrt(np.sum(dJ * dJ))))
@@ -178,10 +188,15 @@ def _step(rows: CountedRows) -> Array:
 
 def _applied(left: Array, sigmas: Array, right: Array, bs: Array) -> Array:
     """Return J⁺b from singular value decompositions of J; shape (N, n)."""
-    counts = sigmas > _RANK * sigmas[:, :1]
-    gains = np.where(counts, 1.0 / np.where(counts, sigmas, 1.0), 0.0)
+    gains = _gains(sigmas)
     result: Array = ((gains[:, :, None] * (left.transpose(0, 2, 1) @ bs[:, :, None])).transpose(0, 2, 1) @ right)[:, 0]
     return result
+
+
+def _gains(sigmas: Array) -> Array:
+    """Return 1/σ, or 0 where σ counts as zero."""
+    counts = sigmas > _RANK * sigmas[:, :1]
+    return np.where(counts, 1.0 / np.where(counts, sigmas, 1.0), 0.0)
 
 
 def _acceleration(
@@ -192,18 +207,9 @@ def _acceleration(
     if rows.jacobians.shape[2] <= rows.jacobians.shape[1]:
         return _applied(left, sigmas, right, missing)
     # λ = (JJᵀ)⁻¹ξ = (J⁺)ᵀq'.
-    counts = sigmas > _RANK * sigmas[:, :1]
-    gains = np.where(counts, 1.0 / np.where(counts, sigmas, 1.0), 0.0)
-    lam = (left @ (gains[:, :, None] * (right @ dq[:, :, None])))[:, :, 0]
+    lam = (left @ (_gains(sigmas)[:, :, None] * (right @ dq[:, :, None])))[:, :, 0]
     along = (dJ.transpose(0, 2, 1) @ lam[:, :, None])[:, :, 0]
     return along + _applied(left, sigmas, right, missing - (rows.jacobians @ along[:, :, None])[:, :, 0])
-
-
-class Field(Protocol):
-    """A field of joint rates, defined at any configuration."""
-
-    def velocities(self, at: PathSamples, qs: Array) -> tuple[Array, Array]:
-        """Return the rates q', shape (N, n), and the smallest singular value, shape (N,)."""
 
 
 def taken(at: PathSamples, rows: slice) -> PathSamples:
@@ -211,14 +217,13 @@ def taken(at: PathSamples, rows: slice) -> PathSamples:
     return PathSamples(Poses(at.poses.positions[rows], at.poses.rotations[rows]), at.first[rows], at.second[rows])
 
 
-def derivative_along(field: Field, at: PathSamples, q: Array, dq: Array, sigma: float) -> Array:
+def derivative_along(velocities: Velocities, at: PathSamples, q: Array, dq: Array, sigma: float) -> Array:
     """Return the derivative of a field by s along its own path, by a difference of fourth order; shape (n,)."""
     step = min(_DIFFERENCE, 0.05 * max(sigma, 1e-6)) / max(
         float(np.abs(dq).max()), float(np.abs(at.first[:, 3:]).max()), 1e-300
     )
     places = PLACES * step
-    velocities = field.velocities(beside(at, places), q + places[:, None] * dq)[0]
-    result: Array = STENCIL @ velocities / step
+    result: Array = STENCIL @ velocities(beside(at, places), q + places[:, None] * dq)[0] / step
     return result
 
 

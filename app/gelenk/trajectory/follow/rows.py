@@ -12,15 +12,17 @@ import numpy as np
 from gelenk.ik.search.linearise import linearise
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
-from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.trajectory.paths.paths import PathSamples
+from gelenk.trajectory.paths.so3 import skew
 
 _SMALL = 0.1
 """Angle below which a series is used, [rad]."""
 _STEP = 1e-3
-_STENCIL = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
-_PLACES = np.array([-2.0, -1.0, 1.0, 2.0])
+STENCIL = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
+PLACES = np.array([-2.0, -1.0, 1.0, 2.0])
+"""Places of a central difference of fourth order; its weights are `STENCIL`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +54,7 @@ def task_rows(chain: Chain, task: Task, at: PathSamples, qs: Array) -> CountedRo
         return CountedRows(errors, Js, at.first)
     to_target = at.poses.rotations.transpose(0, 2, 1)
     rates = _turned(to_target, at.first[:, :, None])[:, :, 0]
-    rows = _rows_of(task)
+    rows = np.flatnonzero(task.weights)
     if not _turns_about_one(task):
         errors, Js = linearise(chain, at.poses, qs, task)
         return CountedRows(errors, Js, rates[:, rows])
@@ -72,7 +74,7 @@ def row_derivatives(chain: Chain, task: Task, at: PathSamples, qs: Array, dqs: A
     changes[:, 3:] -= np.cross(omegas[:, :, None], Js[:, 3:], axis=1)
     changes = _turned(to_target, changes)
     bends = _turned(to_target, at.second[:, :, None])[:, :, 0]
-    rows = _rows_of(task)
+    rows = np.flatnonzero(task.weights)
     if _turns_about_one(task):
         vectors = _turned(to_target, linearise(chain, at.poses, qs, FULL_POSE)[0][:, :, None])[:, 3:, 0]
         turning, wanted = to_target @ Js[:, 3:], (to_target @ omegas[:, :, None])[:, :, 0]
@@ -82,10 +84,6 @@ def row_derivatives(chain: Chain, task: Task, at: PathSamples, qs: Array, dqs: A
         changes[:, 3:] += dM @ turning
         bends[:, 3:] += (dM @ wanted[:, :, None])[:, :, 0]
     return np.ascontiguousarray(changes[:, rows]), np.ascontiguousarray(bends[:, rows])
-
-
-def _rows_of(task: Task) -> Indices:
-    return np.flatnonzero(task.weights)
 
 
 def _turns_about_one(task: Task) -> bool:
@@ -107,9 +105,7 @@ def _rate_matrices(vectors: Array) -> Array:
     series = 1.0 / 12.0 + squares * (1.0 / 720.0 + squares * (1.0 / 30240.0 + squares / 1209600.0))
     safe = np.maximum(angles, _SMALL)
     c = np.where(angles < _SMALL, series, (1.0 - 0.5 * safe / np.tan(0.5 * safe)) / (safe * safe))
-    across = np.zeros((len(vectors), 3, 3))
-    across[:, 2, 1], across[:, 0, 2], across[:, 1, 0] = vectors.T
-    across -= across.transpose(0, 2, 1)
+    across = skew(vectors)
     result: Array = np.eye(3) + 0.5 * across + c[:, None, None] * (across @ across)
     return result
 
@@ -118,7 +114,7 @@ def _matrix_changes(vectors: Array, rates: Array) -> Array:
     """Return dM/ds for ψ' = rates, by a difference of fourth order; shape (N, 3, 3)."""
     steps = _STEP / (1.0 + np.linalg.norm(rates, axis=1))[:, None]
     changes = np.zeros((len(vectors), 3, 3))
-    for place, weight in zip(_PLACES, _STENCIL, strict=True):
+    for place, weight in zip(PLACES, STENCIL, strict=True):
         changes += weight * _rate_matrices(vectors + place * steps * rates)
     result: Array = changes / steps[:, :, None]
     return result

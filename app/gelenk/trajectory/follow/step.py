@@ -12,7 +12,7 @@ import numpy as np
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
-from gelenk.trajectory.follow.rate_field import Course, Knot, taken
+from gelenk.trajectory.follow.rate_field import SHARE, Knot, RateField, taken
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.paths.paths import PathSamples
 
@@ -38,8 +38,6 @@ HULL, TO_POWERS = _BERNSTEIN @ _QUINTIC, _QUINTIC
 
 RATE_TOLERANCE = 1e-3
 """Largest error of q' between knots, in fractions of the largest q' there."""
-SHARE = 1.0 / 3.0
-"""Share of the tolerances that interpolation may use."""
 _SETTLED = 1e-12
 """Change of the joints that counts as none, [rad or m]."""
 
@@ -86,56 +84,53 @@ def end_conditions(a: Knot, b: Knot) -> Array:
     return np.array([a.q, h * a.dq, h * h * a.ddq, b.q, h * b.dq, h * h * b.ddq])
 
 
-def attempt(
-    course: Course, tolerances: tuple[float, float], a: Knot, s: float, stretch: tuple[float, float]
-) -> Piece | None:
+def attempt(field: RateField, a: Knot, s: float, stretch: tuple[float, float]) -> Piece | None:
     """Return the piece from a knot to a place, whatever its errors; None if no exact knot is found there.
 
     Args:
-        course: The course being followed.
-        tolerances: Of position [m] and orientation [rad].
+        field: Field of joint rates.
         a: First knot of the piece.
         s: Place where it ends, [m or rad].
         stretch: The breaks of the path before and after.
     """
-    at = course.samples(np.append(a.s + (s - a.s) * INNER, s), *stretch)
-    b = next_knot(course, a, s, taken(at, slice(-1, None)))
-    return None if b is None else piece_between(course, tolerances, a, b, taken(at, slice(0, -1)))
+    at = field.samples(np.append(a.s + (s - a.s) * INNER, s), *stretch)
+    b = next_knot(field, a, s, taken(at, slice(-1, None)))
+    return None if b is None else piece_between(field, a, b, taken(at, slice(0, -1)))
 
 
-def piece_between(course: Course, tolerances: tuple[float, float], a: Knot, b: Knot, at: PathSamples) -> Piece:
+def piece_between(field: RateField, a: Knot, b: Knot, at: PathSamples) -> Piece:
     """Return the quintic between two knots with its errors at the inner samples `at` of the path."""
     h, data = b.s - a.s, end_conditions(a, b)
     qs = _VALUES @ data
-    velocities, sigmas = course.velocities(at, qs)
+    velocities, sigmas = field.velocities(at, qs)
     fastest = max(float(np.abs(velocities).max()), float(np.abs(data[[1, 4]]).max()) / h, 1e-300)
     rate_ratio = float(np.abs(_RATES @ data / h - velocities).max()) / (RATE_TOLERANCE * fastest + 20.0 * a.offset / h)
-    errors = course.task.errors(at.poses, Poses(*chain_poses(course.chain.flat, qs)))
+    errors = field.task.errors(at.poses, Poses(*chain_poses(field.chain.flat, qs)))
     deviations = errors.max(axis=1)
-    ratio = max(rate_ratio, float((deviations / (SHARE * np.array(tolerances) + 10.0 * a.offset)).max()))
+    ratio = max(rate_ratio, float((deviations / (SHARE * np.array(field.tolerances) + 10.0 * a.offset)).max()))
     return Piece(a, b, data, np.concatenate(([a.sigma], sigmas, [b.sigma])), deviations, ratio)
 
 
-def next_knot(course: Course, a: Knot, s: float, at: PathSamples) -> Knot | None:
+def next_knot(field: RateField, a: Knot, s: float, at: PathSamples) -> Knot | None:
     """Return the knot of the same branch at a place, `at` being the path's sample there; None if none is near.
 
     For a redundant arm the self-motion follows the field, by the formula of fourth order from q' and q'' at both ends;
     other arms have no choice.
     """
     h = s - a.s
-    b = course.next_to(s, at, a.q + h * (a.dq + 0.5 * h * a.ddq))
-    for _ in range(2 if course.is_redundant else 0):
+    b = field.next_to(s, at, a.q + h * (a.dq + 0.5 * h * a.ddq))
+    for _ in range(2 if field.is_redundant else 0):
         if b is None:
             return None
         wanted = a.q + 0.5 * h * (a.dq + b.dq) + h * h / 12.0 * (a.ddq - b.ddq) - b.q
         along = wanted - b.span.T @ (b.span @ wanted)
         if float(np.abs(along).max()) <= _SETTLED:
             break
-        b = course.next_to(s, at, b.q + along)
+        b = field.next_to(s, at, b.q + along)
     return b
 
 
-def knot_within(course: Course, piece: Piece, s: float, stretch: tuple[float, float]) -> Knot | None:
+def knot_within(field: RateField, piece: Piece, s: float, stretch: tuple[float, float]) -> Knot | None:
     """Return the exact knot at a place within a piece; None if there is none near the quintic."""
-    at = course.samples(np.array([s]), *stretch)
-    return course.next_to(s, at, piece.at(np.array([(s - piece.a.s) / piece.width]))[0])
+    at = field.samples(np.array([s]), *stretch)
+    return field.next_to(s, at, piece.at(np.array([(s - piece.a.s) / piece.width]))[0])
