@@ -68,7 +68,7 @@ def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Traject
     return Trajectory(
         motion,
         tuple(
-            report.moved(float(start))
+            report.retimed(start=float(start))
             for part, start in zip(parts, starts[:-1], strict=True)
             for report in part.reports
         ),

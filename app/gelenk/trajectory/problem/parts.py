@@ -44,7 +44,7 @@ class PlannedPart:
         return replace(
             self,
             motion=self.motion.scaled(factor),
-            reports=tuple(report.slowed(factor) for report in self.reports),
+            reports=tuple(report.retimed(factor) for report in self.reports),
             demands=replace(self.demands, path=slower, zones=zones),
         )
 
