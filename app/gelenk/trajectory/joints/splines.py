@@ -41,18 +41,6 @@ _STILL = 1e-12
 """Largest q' at an end that counts as rest, in fractions of the steepest step."""
 
 
-class Prefix(NamedTuple):
-    """The part of a spline that stays within the joint limits.
-
-    Attributes:
-        motion: Motion to the last waypoint that is reached, at rest there.
-        waypoints: Number of waypoints reached.
-    """
-
-    motion: PiecewisePolynomial
-    waypoints: int
-
-
 @dataclass(frozen=True, slots=True)
 class JointSpline:
     """The spline through the waypoints of a segment; the module explains its law, times and boundary.
@@ -125,7 +113,7 @@ class JointSpline:
         optimal = time_optimal(self.path, limits.velocity, limits.acceleration).motion.duration
         return timings(self._fastest(), limits, optimal)
 
-    def prefix(self, chain: Chain, excess: LimitExcess) -> Prefix:
+    def prefix(self, chain: Chain, excess: LimitExcess) -> tuple[PiecewisePolynomial, int]:
         """Plan through as many waypoints as a spline can pass within the joint limits.
 
         The spline ends at rest at the last of them. Part of a periodic spline gets a natural boundary; part of a spline
@@ -134,6 +122,9 @@ class JointSpline:
         Args:
             chain: The moving chain.
             excess: Where the spline first exceeds the joint limits.
+
+        Returns:
+            The motion, and the number of waypoints reached.
         """
         before = int(np.searchsorted(self.points.times, excess.time, side="right")) - 1
         most = min(before, len(self.points.times) - 2)
@@ -144,9 +135,9 @@ class JointSpline:
             part = JointSpline._through(shorter, points)
             if first_limit_excess(chain, part.path) is None:
                 if shorter.times is None:
-                    return Prefix(part._fastest(), count)
-                return Prefix(part.path.scaled(part._scaling_at_times().course_factor), count)
-        return Prefix(standing(self.points.positions[0]), 0)
+                    return part._fastest(), count
+                return part.path.scaled(part._scaling_at_times().course_factor), count
+        return standing(self.points.positions[0]), 0
 
     def _is_scaled(self) -> bool:
         """Return whether the spline is the motion itself: at rest at both ends, with a law that scales it."""

@@ -109,12 +109,8 @@ class _Chain:
             law = jerk_limited(start, end, limits)
         except InvalidField:
             return None, np.inf
-        t = np.diff(law.breaks)[:, None] * np.linspace(0.0, 1.0, _INSTANTS // 4)
-        rows = np.repeat(law.coefficients, t.shape[1], axis=0)
-        places, *rates = (values.reshape(t.shape) for values in derivatives(rows, t.reshape(-1, 1)))
-        if rates[0].min() < -_KEPT * limits[0, 0]:
-            return law, np.inf
-        return law, float(self.factors(places, *rates).max())
+        factors = self._needed(law.coefficients, np.diff(law.breaks), _INSTANTS // 4, limits[0, 0])
+        return law, float(factors.max())
 
     def _shortest(self, begin: float, end: float, speeds: Array) -> tuple[float, float]:
         """Return the least duration of a polynomial between two speeds, and the k that must still slow it down."""
@@ -123,14 +119,20 @@ class _Chain:
         for _ in range(_ZOOMS):
             durations = np.geomspace(min(low, high), high, _DURATIONS)
             c = _pieces(self.count, np.array([[begin], [end]]), speeds[:, None], durations)
-            t = durations[:, None] * np.linspace(0.0, 1.0, _INSTANTS)
-            law = [values.reshape(t.shape) for values in derivatives(np.repeat(c, _INSTANTS, axis=0), t.reshape(-1, 1))]
-            factors = self.factors(*law).max(axis=1)
-            factors[law[1].min(axis=1) < -_KEPT * speeds.max()] = np.inf
+            factors = self._needed(c, durations, _INSTANTS, speeds.max())
             good = np.flatnonzero(factors <= 1.0)
             i = int(good[0]) if len(good) else int(factors.argmin())
             low, high = durations[max(i - 1, 0)], durations[i if len(good) else min(i + 1, _DURATIONS - 1)]
         return float(durations[i]), max(1.0, float(factors[i]))
+
+    def _needed(self, pieces: Array, durations: Array, count: int, speed: float) -> Array:
+        """Return the k that must slow down each polynomial, ∞ if it turns back, from `count` instants; shape (K,)."""
+        t = durations[:, None] * np.linspace(0.0, 1.0, count)
+        rows = np.repeat(pieces, count, axis=0)
+        law = [values.reshape(t.shape) for values in derivatives(rows, t.reshape(-1, 1))]
+        factors: Array = self.factors(*law).max(axis=1)
+        factors[law[1].min(axis=1) < -_KEPT * speed] = np.inf
+        return factors
 
 
 def _pieces(count: int, places: Array, speeds: Array, durations: Array) -> Array:

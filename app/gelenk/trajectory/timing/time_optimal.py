@@ -20,8 +20,7 @@ import numpy as np
 from gelenk.errors import InvalidField, TooLarge
 from gelenk.robot.arrays import Array, Flags
 from gelenk.trajectory.laws.time_scaling import LARGEST, check_limits
-from gelenk.trajectory.motion.intervals import composed, cut, rows
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, composed, cut
 from gelenk.trajectory.timing.reachability import controllable, fastest, stages
 
 Rows: TypeAlias = Callable[[Array], tuple[Array, Array]]
@@ -186,7 +185,7 @@ def _squared_speeds(task: _Task, nodes: Array) -> Array:
     stops = np.append(task.path.breaks[task.is_corner], 1.0)
     next_stops = stops[np.searchsorted(stops, nodes[:-1], side="right")]
     kept = _KEPT * (next_stops - nodes[1:]) / (next_stops - nodes[:-1])
-    alpha, beta = rows(cut(task.path, nodes), lengths, task.limits)
+    alpha, beta = _rows(cut(task.path, nodes), lengths, task.limits)
     if task.rows is not None:
         more = task.rows(nodes)
         alpha, beta = np.hstack((alpha, more[0])), np.hstack((beta, more[1]))
@@ -194,6 +193,37 @@ def _squared_speeds(task: _Task, nodes: Array) -> Array:
     caps = np.where(np.isin(nodes, stops[:-1]), 0.0, np.inf)
     caps[-1] = task.most_at_ends[1]
     return fastest(course, controllable(course, caps), task.most_at_ends[0])
+
+
+def _rows(pieces: Array, lengths: Array, limits: Array) -> tuple[Array, Array]:
+    """Return α and β of the constraints αu + βx ≤ 1 that the limits impose on each interval; shape (N, m) each.
+
+    With τ = (s - s_i)/Δ, q̇² = q'² (x + 2Δτu) and q̈ = q' u + q'' (x + 2Δτu) are polynomials in τ whose Bernstein
+    coefficients are linear in (u, x), and these bound it in the whole interval.
+
+    Args:
+        pieces: Coefficients of the path from each node on; shape (N, d + 1, n).
+        lengths: Δ; shape (N,).
+        limits: Of velocity and acceleration; shape (2, n).
+    """
+    size = pieces.shape[1] - 1
+    k = np.arange(size)[:, None]
+    length = lengths[:, None, None]
+    # In powers of τ: q' = Σ slope_k τᵏ, Δ q'' = Σ k slope_k τᵏ⁻¹.
+    slope = pieces[:, 1:] * (k + 1) * length**k
+    bend = np.concatenate((slope[:, 1:] * k[1:] / length, np.zeros_like(slope[:, :1])), axis=1)
+    square = np.zeros((len(pieces), 2 * size, pieces.shape[2]))
+    for j in range(size):
+        square[:, j : j + size] += slope[:, j : j + 1] * slope
+    velocity, acceleration = limits
+    forces = [bernstein(c) / acceleration for c in (slope * (2 * k + 1), bend)]
+    shifted = np.roll(square, 1, axis=1) * 2.0 * length  # The last coefficient is zero.
+    speeds = [bernstein(c) / velocity**2 for c in (shifted, square)]
+    alpha, beta = (
+        np.concatenate((force, -force, speed), axis=1).reshape(len(pieces), -1)
+        for force, speed in zip(forces, speeds, strict=True)
+    )
+    return alpha, beta
 
 
 def _switches(nodes: Array, x: Array) -> Array:
