@@ -7,8 +7,8 @@ from pydantic import Field
 from gelenk.contract.common import Answer, Payload
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Ratio, Steps
-from gelenk.course.actuators.encoders import TURN, Decoding, Required, Resolution
-from gelenk.course.actuators.gray import Code, Position
+from gelenk.course.actuators.encoders import TURN, Decoding, EncoderResolution, RequiredEncoder
+from gelenk.course.actuators.gray import Code, DiscPosition
 from gelenk.course.actuators.quadrature import Quadrature
 
 MAX_READINGS = 10_000
@@ -65,21 +65,21 @@ class EncoderRequest(Payload):
 class AbsoluteInfo(Answer):
     """Readings and codes of an absolute encoder."""
 
-    readings: list[Position] = Field(description="One entry per reading.")
+    readings: list[DiscPosition] = Field(description="One entry per reading.")
     unwrapped: list[int] = Field(
         description="The readings' numbers, counted on across the end of a turn, each step the shorter way; no unit."
     )
     motor_travel: float | None = Field(description="From the first to the last reading, [rad]; null without readings.")
     load_travel: float | None = Field(description="The same at the load, [rad].")
-    values: list[Position] = Field(description="One entry per value.")
-    table: list[Position] | None = Field(description="All positions; null if not requested.")
+    values: list[DiscPosition] = Field(description="One entry per value.")
+    table: list[DiscPosition] | None = Field(description="All positions; null if not requested.")
 
 
 class EncoderAnswer(Answer):
     """Resolution, counts and codes of an encoder."""
 
-    resolution: Resolution | None = Field(description="Null when only the required encoder is requested.")
-    required: Required | None = Field(description="Null without `wanted_resolution`.")
+    resolution: EncoderResolution | None = Field(description="Null when only the required encoder is requested.")
+    required: RequiredEncoder | None = Field(description="Null without `wanted_resolution`.")
     quadrature: Quadrature | None = Field(description="Null without `samples`.")
     absolute: AbsoluteInfo | None = Field(description="Null for an incremental encoder, or without `bits`.")
     steps: Steps

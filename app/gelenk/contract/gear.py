@@ -7,7 +7,7 @@ from pydantic import Field
 from gelenk.contract.common import Answer, Payload
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import AngularVelocity, Inertia, Ratio, Steps, Torque
-from gelenk.course.actuators.gear import GearSide, Inertias, PowerFlow
+from gelenk.course.actuators.gear import GearSide, PowerFlow, ReflectedInertias
 
 
 class GearRequest(Payload):
@@ -42,7 +42,7 @@ class GearAnswer(Answer):
     load: GearSide
     power_loss: float | None = Field(description="What the gear turns into heat, [W]; null where a power is missing.")
     power_flow: PowerFlow = Field(description="Which side drives; `none` without a torque.")
-    inertia: Inertias | None = Field(description="Null without both inertias.")
+    inertia: ReflectedInertias | None = Field(description="Null without both inertias.")
     back_driving: BackDrivingInfo
     steps: Steps
 

@@ -21,7 +21,7 @@ _ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
-class Resolution(Result):
+class EncoderResolution(Result):
     """Size of one count.
 
     Attributes:
@@ -44,7 +44,7 @@ class Resolution(Result):
 
 def resolution(
     counts: int, gear_ratio: float, sample_period: float | None = None, motor_velocity: float | None = None
-) -> Resolution:
+) -> EncoderResolution:
     """Compute the resolution of an encoder.
 
     Args:
@@ -55,7 +55,7 @@ def resolution(
     """
     motor = TURN / counts
     quantum = None if sample_period is None else motor / sample_period
-    return Resolution(
+    return EncoderResolution(
         counts,
         motor,
         motor / gear_ratio,
@@ -70,7 +70,7 @@ def _count_rate(counts: int, motor_velocity: float | None) -> float | None:
 
 
 @dataclass(frozen=True, slots=True)
-class Required(Result):
+class RequiredEncoder(Result):
     """The coarsest encoder with the wanted resolution.
 
     Attributes:
@@ -90,7 +90,7 @@ class Required(Result):
 
 def required(
     load_resolution: float, gear_ratio: float, decoding: Decoding, motor_velocity: float | None = None
-) -> Required:
+) -> RequiredEncoder:
     """Compute the encoder needed for a resolution at the load, [rad].
 
     A quotient within rounding of a whole number counts as that number: 0.01° needs 36000 counts, not 36001.
@@ -98,7 +98,7 @@ def required(
     motor = load_resolution * gear_ratio
     counts = max(1, math.ceil(TURN / motor * (1.0 - _ROUNDING)))
     bits, lines = max(1, (counts - 1).bit_length()), -(-counts // COUNTS_A_LINE[decoding])
-    return Required(motor, counts, bits, lines, _count_rate(counts, motor_velocity))
+    return RequiredEncoder(motor, counts, bits, lines, _count_rate(counts, motor_velocity))
 
 
 def resolution_steps(counts: int, gear_ratio: float, how: str, sample_period: float | None = None) -> tuple[Step, ...]:
@@ -120,7 +120,7 @@ def resolution_steps(counts: int, gear_ratio: float, how: str, sample_period: fl
     return angle, velocity
 
 
-def required_step(found: Required, decoding: Decoding) -> Step:
+def required_step(found: RequiredEncoder, decoding: Decoding) -> Step:
     """Return the worked solution for the coarsest encoder."""
     n, lines = found.counts_per_revolution, COUNTS_A_LINE[decoding]
     return step(

@@ -95,7 +95,7 @@ def _side(velocity: float | None, torque: float | None) -> GearSide:
 
 
 @dataclass(frozen=True, slots=True)
-class Inertias(Result):
+class ReflectedInertias(Result):
     """Rotor and load as one inertia.
 
     Attributes:
@@ -115,7 +115,7 @@ class Inertias(Result):
     acceleration_share: float
 
 
-def inertias(ratio: float, motor_inertia: float, load_inertia: float) -> Inertias:
+def inertias(ratio: float, motor_inertia: float, load_inertia: float) -> ReflectedInertias:
     """Compute the inertias of rotor and load, [kg m²], across a ratio.
 
     The load's acceleration N τ / (N² J_m + J_L) is largest at N* = √(J_L / J_m), where both contribute equally.
@@ -123,7 +123,7 @@ def inertias(ratio: float, motor_inertia: float, load_inertia: float) -> Inertia
     load, motor = load_inertia / ratio**2, motor_inertia * ratio**2
     optimal = math.sqrt(load_inertia / motor_inertia)
     share = 2.0 / (ratio / optimal + optimal / ratio)
-    return Inertias(motor_inertia + load, motor + load_inertia, load, motor, optimal, share)
+    return ReflectedInertias(motor_inertia + load, motor + load_inertia, load, motor, optimal, share)
 
 
 def back_driving_note(gear: Gear) -> str:
@@ -142,7 +142,7 @@ def back_driving_note(gear: Gear) -> str:
 
 
 def gear_steps(
-    gear: Gear, motor: GearSide, load: GearSide, flow: PowerFlow, inertia: Inertias | None
+    gear: Gear, motor: GearSide, load: GearSide, flow: PowerFlow, inertia: ReflectedInertias | None
 ) -> tuple[Step, ...]:
     """Return the worked solution of speeds, torques and inertias."""
     N, eta = tex(gear.ratio), tex(gear.efficiency)
@@ -164,7 +164,7 @@ def gear_steps(
     return tuple(steps)
 
 
-def _inertia_step(inertia: Inertias) -> Step:
+def _inertia_step(inertia: ReflectedInertias) -> Step:
     unit = "kg m^2"
     return step(
         "Inertias",

@@ -33,7 +33,7 @@ def binary(code: int) -> int:
 
 
 @dataclass(frozen=True, slots=True)
-class Position(Result):
+class DiscPosition(Result):
     """A position of an absolute encoder.
 
     Attributes:
@@ -49,17 +49,17 @@ class Position(Result):
     angle: float
 
 
-def position(value: int, bits: int) -> Position:
+def position(value: int, bits: int) -> DiscPosition:
     """Return the position of a number below 2^bits."""
-    return Position(value, f"{value:0{bits}b}", f"{gray(value):0{bits}b}", TURN * value / (1 << bits))
+    return DiscPosition(value, f"{value:0{bits}b}", f"{gray(value):0{bits}b}", TURN * value / (1 << bits))
 
 
-def table(bits: int) -> tuple[Position, ...]:
+def table(bits: int) -> tuple[DiscPosition, ...]:
     """Return all positions of a disc with at most `MOST_TABLE_BITS` tracks."""
     return tuple(position(value, bits) for value in range(1 << bits))
 
 
-def read_codes(codes: Sequence[str], code: Code, bits: int, field: str) -> tuple[Position, ...]:
+def read_codes(codes: Sequence[str], code: Code, bits: int, field: str) -> tuple[DiscPosition, ...]:
     """Decode readings, most significant digit first, into positions.
 
     Raises:
@@ -89,7 +89,7 @@ def unwrapped(values: Sequence[int], bits: int) -> list[int]:
     return result
 
 
-def code_step(example: Position) -> Step:
+def code_step(example: DiscPosition) -> Step:
     """Return the worked code of one position."""
     return step(
         "Gray code",
