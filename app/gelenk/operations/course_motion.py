@@ -1,14 +1,13 @@
 """Functions that the calculators of time laws, splines and time scaling share."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import numpy as np
 
 from gelenk.contract.course_motion import MAX_SAMPLED_NUMBERS, SampledRequest
-from gelenk.course.motion.check import MotionClaims, certified
-from gelenk.course.steps import Step
+from gelenk.course.motion.check import MotionCertificate, MotionClaims, certified
 from gelenk.errors import InvalidField, counted
 from gelenk.operations.outcome import Outcome, PictureFormat
 from gelenk.robot.arrays import Array
@@ -94,11 +93,11 @@ def _peaks(motion: PiecewisePolynomial) -> PeaksByOrder:
     return {order: peaks(motion, order) for order in (1, 2, 3)}
 
 
-def _certified(planned: PlannedMotion, found: PeaksByOrder) -> dict[str, Any]:
+def _certified(planned: PlannedMotion, found: PeaksByOrder) -> MotionCertificate:
     promise = MotionClaims(
         planned.times, planned.knots, planned.start_rates, planned.end_rates, planned.continuity, found
     )
-    return {**asdict(certified(planned.motion, promise)), "continuity": planned.continuity}
+    return certified(planned.motion, promise)
 
 
 def _answer(call: _Request, plan: Callable[[_Request], PlannedMotion]) -> dict[str, Any]:
@@ -177,11 +176,6 @@ def limit_warnings(found: PeaksByOrder, limits: ScalingLimits) -> list[str]:
                 for j in np.flatnonzero(ratios > 1.0 + _ROUNDING)
             ]
     return texts
-
-
-def told_steps(steps: Sequence[Step]) -> list[dict[str, Any]]:
-    """Return steps as JSON content."""
-    return [asdict(step) for step in steps]
 
 
 def limits_of(call: SampledRequest, joints: int) -> ScalingLimits:

@@ -17,7 +17,6 @@ from gelenk.operations.course_motion import (
     motion_outcome,
     row,
     table,
-    told_steps,
     unused,
 )
 from gelenk.operations.outcome import Outcome
@@ -58,7 +57,7 @@ def _plan(call: SplineRequest) -> PlannedMotion:
             "boundary": call.boundary,
             "system": _system(found),
             "knots": _knots(found),
-            "steps": told_steps((*spline_steps(found, call.boundary), peak_step(peaks[1], peaks[2]))),
+            "steps": (*spline_steps(found, call.boundary), peak_step(peaks[1], peaks[2])),
             "warnings": warnings,
         }
 

@@ -22,7 +22,6 @@ from gelenk.operations.course_motion import (
     row,
     spread,
     table,
-    told_steps,
     unused,
 )
 from gelenk.operations.outcome import Outcome
@@ -215,6 +214,6 @@ def _told(
         "profiles": None,
         "blends": None,
         **further,
-        "steps": told_steps(steps),
+        "steps": steps,
         "warnings": warnings,
     }

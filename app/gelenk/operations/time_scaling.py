@@ -1,5 +1,6 @@
 """POST /v1/course/time-scaling: the factor of time with which a motion keeps its limits."""
 
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,6 @@ from gelenk.operations.course_motion import (
     motion_outcome,
     needed,
     table,
-    told_steps,
     unused,
 )
 from gelenk.operations.outcome import Outcome
@@ -59,7 +59,7 @@ def _plan(call: TimeScalingRequest) -> PlannedMotion:
             "bounds": [_bound(bound) for bound in scaling.bounds],
             "binding": _bound(scaling.binding),
             "original_duration": motion.duration,
-            "steps": told_steps(scaling_steps(scaling, motion.duration)),
+            "steps": scaling_steps(scaling, motion.duration),
             "warnings": _warnings(motion, scaling, peaks, limits),
         }
 
@@ -105,15 +105,7 @@ def _factor(call: TimeScalingRequest, scaling: Scaling) -> float:
 
 
 def _bound(bound: Bound) -> dict[str, Any]:
-    return {
-        "quantity": bound.quantity,
-        "ratio": bound.ratio,
-        "factor": bound.factor,
-        "joint": bound.joint + 1,
-        "time": bound.time,
-        "peak": bound.peak,
-        "limit": bound.limit,
-    }
+    return {**asdict(bound), "joint": bound.joint + 1}
 
 
 def _warnings(motion: PiecewisePolynomial, scaling: Scaling, peaks: PeaksByOrder, limits: ScalingLimits) -> list[str]:
