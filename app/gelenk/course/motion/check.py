@@ -5,7 +5,6 @@ whose repeated means (de Casteljau) are the values within. Nothing is shared wit
 searches motions elsewhere.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from math import comb, factorial
 
@@ -41,7 +40,7 @@ class MotionClaims:
     start_rates: Array
     end_rates: Array
     continuity: int
-    peaks: Mapping[int, Peaks]
+    peaks: dict[int, Peaks]
 
 
 @dataclass(frozen=True, slots=True)
