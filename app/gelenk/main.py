@@ -28,7 +28,6 @@ from gelenk.http.access.tracing import TracedId, exporter_variables, telemetry
 from gelenk.http.derive.derive import derive_handler
 from gelenk.http.jobs.jobs import jobs_router
 from gelenk.http.jobs.long_works import LONG_WORK
-from gelenk.http.jobs.workspace import SampleLimits, workspace_route, workspace_work
 from gelenk.http.messages import openapi, problems
 from gelenk.http.messages.bodies import Bodies
 from gelenk.http.messages.routes import Application
@@ -37,9 +36,8 @@ from gelenk.http.robots.table import table_route
 from gelenk.http.service import Readiness, service_router
 from gelenk.http.workers.context import ContextSetup
 from gelenk.http.workers.pool_client import PARSED_HERE_BYTES, PoolClient
-from gelenk.jobs import workspace
 from gelenk.jobs.cluster import Cluster
-from gelenk.jobs.runner import Kind, Runner
+from gelenk.jobs.runner import Runner
 from gelenk.jobs.store import JobLimits, JobStore
 from gelenk.jobs.workers import PoolExecutor
 from gelenk.operations.outcome import Limits
@@ -68,9 +66,9 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         settings: Settings of the operator.
         pool: Worker pool for long requests and parts of jobs; created if left out.
     """
-    most, seconds = settings.max_answer_numbers, settings.request_seconds
+    seconds = settings.request_seconds
     quota = Quota(settings.client_robots, settings.client_robot_bytes)
-    limits = Limits(most, seconds, settings.job_bytes)
+    limits = Limits(settings.max_answer_numbers, seconds, settings.job_bytes, settings.max_job_samples)
     setup = ContextSetup(settings.catalogue_dir, settings.data_dir / "robots", limits, quota)
     library = setup.library()
     pool = pool or WorkerPool(
@@ -135,8 +133,6 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         if isinstance(endpoint, RobotEndpoint):
             app.operations[endpoint.name] = handler
     app.router.routes.append(table_route(pool_client, size))
-    samples = SampleLimits(settings.max_job_samples, most)
-    app.router.routes.append(workspace_route(runner, pool_client, samples, size))
     app.include_router(jobs_router(runner))
     app.include_router(service_router(readiness, metrics))
     documentation.install(app)
@@ -156,8 +152,7 @@ def _runner(settings: Settings, limits: Limits, pool: WorkerPool) -> Runner:
         job_bytes=settings.job_bytes,
         kept_seconds=settings.kept_job_days * 24 * 3600.0,
     )
-    kinds: dict[str, Kind] = {workspace.KIND: workspace_work}
-    kinds |= {name: partial(long.work, limits) for name, long in LONG_WORK.items()}
+    kinds = {name: partial(long.work, limits) for name, long in LONG_WORK.items()}
     store = JobStore(settings.data_dir / "jobs", kept)
     workers = PoolExecutor(pool)
     executor = Cluster(settings.ray_address) if settings.ray_address else workers

@@ -19,6 +19,7 @@ from gelenk.http.jobs.long_work import submitted
 from gelenk.http.jobs.long_works import LONG_WORK
 from gelenk.http.messages.npy import npy_response, read_npy
 from gelenk.http.messages.openapi import (
+    BY_THE_CREW,
     JOB_BEGUN,
     PreferHeader,
     RobotPath,
@@ -42,7 +43,7 @@ from gelenk.http.messages.payloads import (
     read_json,
     read_query,
 )
-from gelenk.http.messages.preference import wants_answer_later
+from gelenk.http.messages.preference import APPLIED, wants_answer_later
 from gelenk.http.messages.problems import UnsupportedMediaType
 from gelenk.http.messages.routes import DocumentedRoute, Handler
 from gelenk.http.workers.context import Context
@@ -88,7 +89,7 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
         limits: Limits on the work for an answer.
     """
     offered, accepted = _offered(endpoint), (JSON, NPY) if _has_npy_body(endpoint) else (JSON,)
-    can_be_job = isinstance(endpoint, RobotEndpoint) and bool(endpoint.job)
+    can_be_job, is_job = bool(getattr(endpoint, "job", "")), getattr(endpoint, "is_job", False)
 
     async def handle(request: BoundedRequest) -> Response:
         if request.media_type not in accepted:
@@ -100,9 +101,9 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
             robot = request.path_params.get("robot", "")
             return TaskRequest(buffers(pieces), robot, query, is_npy, wanted, endpoint.name)
 
-        if can_be_job and wants_answer_later(request.scope["headers"]):
+        if is_job or (can_be_job and wants_answer_later(request.scope["headers"])):
             planned = await pool_client.content(request, plan_job, task_request())
-            return await submitted(runner, endpoint.name, request, planned)
+            return await submitted(runner, endpoint.name, request, planned, {} if is_job else APPLIED)
         if request.length <= INLINE_BYTES and not pool_client.pool.is_starting:
             call, found = _parsed(endpoint, query, b"".join(pieces), is_npy), operation(endpoint.name)
             if wanted not in _PICTURES and not found.is_heavy(call):
@@ -144,7 +145,7 @@ def route(endpoint: Endpoint[Any, Any], handle: Handler, max_body_bytes: int) ->
 
     described: Callable[..., Any] = endpoint_alone
     types: dict[str, Any] = {"call": endpoint.request, "return": endpoint.answer}
-    statuses, contents = [400, 413, 415, 422], picture_content(endpoint.picture)
+    statuses, contents = [400, 413, 415, 422, *BY_THE_CREW], picture_content(endpoint.picture)
     body, responses, text = json_example(endpoint.example), {}, [endpoint.text]
     if isinstance(endpoint, RobotEndpoint) or endpoint.robot_field or endpoint.tag == "DH tables":
         statuses.append(404)
@@ -153,18 +154,21 @@ def route(endpoint: Endpoint[Any, Any], handle: Handler, max_body_bytes: int) ->
         contents = {**npy_content(endpoint.npy_answer), **csv_content(endpoint.table), **contents}
         if endpoint.options is not None:
             body |= npy_body(endpoint.npy_body, endpoint.options)
+        if endpoint.is_job:
+            statuses += [409, 507]
         if endpoint.job:
             described, types = endpoint_or_job, {**types, "prefer": PreferHeader}
             responses = {**JOB_BEGUN, **problem_responses(507)}
             text.append(_job_note(endpoint.job))
     described.__annotations__ = types
     return DocumentedRoute(
-        f"/{endpoint.path}",
         described,
         handle,
         max_body_bytes,
+        path=f"/{endpoint.path}",
         methods=["POST"],
-        operation_id=endpoint.operation_id or endpoint.name,
+        status_code=202 if getattr(endpoint, "is_job", False) else 200,
+        operation_id=endpoint.id,
         summary=endpoint.summary,
         description="\n\n".join(text),
         tags=[endpoint.tag],

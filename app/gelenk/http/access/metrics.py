@@ -91,7 +91,7 @@ class Metrics:
             self._count(self._over.popleft())
 
     def _count(self, exchange: RequestContext) -> None:
-        operation, robot = exchange.operation.name, self._label(exchange)
+        operation, robot = exchange.operation.id, self._label(exchange)
         self._bound(self._seconds, operation, robot).observe(exchange.seconds)
         self._bound(self._answers, operation, exchange.status or _LEFT).inc()
         if exchange.counts is not None:

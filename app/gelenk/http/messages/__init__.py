@@ -4,5 +4,5 @@
 - `payloads`, `npy`: read request bodies strictly and write responses, as JSON and as NumPy's npy.
 - `bodies`: limits how many bytes of large request bodies are held at a time. `preference`: the `Prefer` header.
 - `routes`: a route that FastAPI documents but that runs without FastAPI's overhead.
-- `openapi`: the OpenAPI document. `scopes`: the scope that each operation needs.
+- `openapi`: the OpenAPI document.
 """

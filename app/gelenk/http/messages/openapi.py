@@ -5,16 +5,17 @@ from copy import deepcopy
 from http import HTTPStatus
 from typing import Annotated, Any
 
-from fastapi import FastAPI, Header, Path
+from fastapi import FastAPI, Header, Path, Response
 from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel, TypeAdapter
 
+from gelenk.contract.endpoints import ROUTES
 from gelenk.contract.jobs import JobInfo
 from gelenk.contract.kinematics import ByName, Configuration
 from gelenk.contract.problem import Problem
-from gelenk.http.messages.payloads import CSV, NPY, PNG, SVG
+from gelenk.contract.resources import RESOURCES
+from gelenk.http.messages.payloads import CSV, MULTIPART, NPY, PNG, SVG
 from gelenk.http.messages.problems import MEDIA_TYPE
-from gelenk.http.messages.scopes import SCHEME, security_of
 
 RobotPath = Annotated[str, Path(description="Name of a robot.", openapi_examples={"panda": {"value": "panda"}})]
 UploadedRobotPath = Annotated[
@@ -52,6 +53,14 @@ _NAMED: dict[str, tuple[dict[str, Any], str]] = {
 }
 """Schemas used in many places, each described once under its name."""
 
+_RESOURCES = {resource.name: resource for resource in RESOURCES}
+_SCHEME = {
+    "type": "http",
+    "scheme": "bearer",
+    "description": "A key of this service, if keys are switched on; create one with `gelenk.keys`. Scopes: `read` "
+    "allows queries, `write` storing and removing robots and jobs, `admin` reading the metrics. No scope includes "
+    "another.",
+}
 _COMPONENT = "#/components/schemas/{model}"
 _PROBLEM = {"$ref": _COMPONENT.format(model="Problem")}
 
@@ -64,14 +73,48 @@ def problem_responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
     }
 
 
+def documentation(name: str) -> dict[str, Any]:
+    """Return the arguments of FastAPI's route that document one of the `RESOURCES`."""
+    resource = _RESOURCES[name]
+    body = {} if resource.example is None else json_example(resource.example)
+    return {
+        "path": f"/{resource.path}",
+        "methods": [resource.method],
+        "operation_id": resource.id,
+        "summary": resource.summary,
+        "description": resource.text,
+        "tags": [resource.tag],
+        "status_code": resource.status,
+        **({"response_class": Response} if resource.answer is None else {"response_model": resource.answer}),
+        "responses": {**resource.responses, **problem_responses(*resource.problems)},
+        "openapi_extra": {"requestBody": {"content": body | _form(resource.form)}} if body else None,
+    }
+
+
+def _form(fields: type[BaseModel] | None) -> dict[str, Any]:
+    """Return a form with these fields and an archive, as a further media type of a request."""
+    if fields is None:
+        return {}
+    schema = fields.model_json_schema()
+    for field in schema["properties"].values():
+        without_null(field)
+    schema["properties"]["archive"] = {
+        "type": "string",
+        "format": "binary",
+        "description": "Zip of one URDF and its meshes.",
+    }
+    schema["required"] = [*schema.get("required", []), "archive"]
+    return {MULTIPART: {"schema": schema}}
+
+
 def json_example(value: dict[str, Any]) -> dict[str, Any]:
     """Return the JSON content of a request, with an example body that works unchanged."""
     return {"application/json": {"example": value}}
 
 
 def npy_content(description: str) -> dict[str, Any]:
-    """Return an array as a further media type of a body."""
-    return {NPY: {"schema": {"type": "string", "format": "binary", "description": description}}}
+    """Return an array as a further media type of a body; nothing if the description is empty."""
+    return {NPY: {"schema": {"type": "string", "format": "binary", "description": description}}} if description else {}
 
 
 def npy_body(description: str, options: type[BaseModel]) -> dict[str, Any]:
@@ -147,13 +190,13 @@ def describe(app: FastAPI, has_keys: bool, queries: Sequence[type[BaseModel]] = 
             components["Problem"] = problem
             components.update({query.__name__: _query_schema(query) for query in queries})
             _name_what_is_shared(schema)
-            schema["components"]["securitySchemes"] = {"key": SCHEME}
-            for path, operations in schema["paths"].items():
-                for method, operation in operations.items():
+            schema["components"]["securitySchemes"] = {"key": _SCHEME}
+            for operations in schema["paths"].values():
+                for operation in operations.values():
                     _replace_validation_error(operation)
                     for parameter in operation.get("parameters", ()):
                         without_null(parameter["schema"])
-                    _add_refusals(operation, security_of(path, method, operation), has_keys)
+                    _add_refusals(operation, has_keys)
             app.openapi_schema = schema
         return app.openapi_schema
 
@@ -187,11 +230,11 @@ def _refer(part: Any) -> None:
         _refer(entry)
 
 
-def _add_refusals(operation: dict[str, Any], security: list[dict[str, list[str]]], has_keys: bool) -> None:
+def _add_refusals(operation: dict[str, Any], has_keys: bool) -> None:
     """Add the security of an operation, and the refusals that it may give before it runs; keys may be off."""
     statuses = [HTTPStatus.MISDIRECTED_REQUEST, HTTPStatus.FORBIDDEN]
-    if security:
-        operation["security"] = security if has_keys else [{}, *security]
+    if (scope := ROUTES[operation["operationId"]].scope) is not None:
+        operation["security"] = [*([] if has_keys else [{}]), {"key": [scope.value]}]
         statuses.append(HTTPStatus.UNAUTHORIZED)
     for status, response in problem_responses(*statuses).items():
         operation["responses"].setdefault(str(int(status)), response)

@@ -32,6 +32,7 @@ NPY = "application/x-npy"
 CSV = "text/csv"
 SVG = "image/svg+xml"
 PNG = "image/png"
+MULTIPART = "multipart/form-data"
 
 _STRING = re.compile(rb'"([^"\\]*+(?:\\.[^"\\]*+)*+)(?:"(\s*:)?|\\?\Z)', re.DOTALL)
 """A JSON string, and the colon after it if it is the name of a member.

@@ -20,13 +20,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from gelenk.http.messages import problems
 from gelenk.http.messages.bodies import Bodies
-from gelenk.http.messages.openapi import (
-    BY_THE_CREW,
-    problem_responses,
-)
-from gelenk.http.messages.payloads import (
-    BoundedRequest,
-)
+from gelenk.http.messages.payloads import BoundedRequest
 
 _OPERATION = re.compile(r"/v1/robots/(?P<robot>[^/]+)/(?P<operation>[a-z]+)")
 
@@ -37,10 +31,9 @@ class DocumentedRoute(APIRoute):
     """A route that FastAPI describes and `handler` answers."""
 
     def __init__(
-        self, path: str, endpoint: Callable[..., Any], handler: Handler, max_body_bytes: int, **documentation: Any
+        self, endpoint: Callable[..., Any], handler: Handler, max_body_bytes: int, **documentation: Any
     ) -> None:
-        documentation["responses"] = documentation.get("responses", {}) | problem_responses(*BY_THE_CREW)
-        super().__init__(path, endpoint, **documentation)
+        super().__init__(endpoint=endpoint, **documentation)
         self._handler = handler
         self._max_body_bytes = max_body_bytes
 

@@ -13,7 +13,6 @@ from gelenk.contract.common import ChainEnds
 from gelenk.contract.dh import DhTablePayload, table_content
 from gelenk.contract.pose import Pose
 from gelenk.contract.robots import (
-    EXAMPLE_DH,
     ArchiveReplacement,
     JointInfo,
     LimitsInfo,
@@ -22,22 +21,14 @@ from gelenk.contract.robots import (
     NewArchive,
     NewRobot,
     RobotInfo,
-    RobotList,
     RobotReplacement,
 )
 from gelenk.errors import InvalidArchive
-from gelenk.http.messages.openapi import (
-    BY_THE_CREW,
-    RobotPath,
-    UploadedRobotPath,
-    json_example,
-    problem_responses,
-    without_null,
-)
-from gelenk.http.messages.payloads import JSON, BoundedRequest, json_response, read_json
+from gelenk.http.messages.openapi import RobotPath, UploadedRobotPath, documentation
+from gelenk.http.messages.payloads import JSON, MULTIPART, BoundedRequest, json_response, read_json
 from gelenk.http.messages.problems import UnsupportedMediaType
 from gelenk.http.messages.routes import DocumentedRoute
-from gelenk.http.robots.meshes import MEDIA_TYPES, SANDBOXED, mesh_response
+from gelenk.http.robots.meshes import SANDBOXED, mesh_response
 from gelenk.http.robots.skeleton import skeleton_of
 from gelenk.http.workers.context import Context
 from gelenk.http.workers.pool_client import PoolClient
@@ -49,7 +40,6 @@ from gelenk.store.folders import writing
 from gelenk.store.library import Library, RobotUpload
 from gelenk.store.records import LoadedRobot
 
-MULTIPART = "multipart/form-data"
 WITHOUT_KEY = "clients without a key"
 """Owner of uploads without a key: addresses change, and where no key is needed all clients share one machine."""
 _PIECE = 256 * 1024
@@ -59,55 +49,22 @@ _LIST_SECONDS = 5.0
 
 def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
     """Return the router of operations that read or remove robots; workers read the untrusted descriptions."""
-    router = APIRouter(prefix="/v1/robots", tags=["Robots"])
+    router = APIRouter()
     listed = Listed(library, pool_client)
 
-    @router.get(
-        "",
-        operation_id="list_robots",
-        summary="All robots",
-        response_model=RobotList,
-        responses=problem_responses(*BY_THE_CREW),
-    )
+    @router.api_route(**documentation("list_robots"))
     async def list_robots(request: Request) -> Any:
-        """Lists the catalogue's robots, then the uploaded ones, each part sorted by name."""
         return await listed.answer(request)
 
-    @router.get(
-        "/{robot}",
-        operation_id="get_robot",
-        summary="A robot",
-        response_model=RobotInfo,
-        responses=problem_responses(404, 422, *BY_THE_CREW),
-    )
+    @router.api_route(**documentation("get_robot"))
     async def get_robot(robot: RobotPath, request: Request) -> Any:
-        """Joints, links, frames, chains, licence, and warnings about the description."""
         return await pool_client.answer(request, _described, TaskRequest(robot=robot))
 
-    @router.get(
-        "/{robot}/urdf",
-        operation_id="get_robot_urdf",
-        summary="A robot's URDF",
-        response_class=Response,
-        responses={
-            200: {"content": {"application/xml": {}}, "description": "The URDF"},
-            **problem_responses(404, 422, *BY_THE_CREW),
-        },
-    )
+    @router.api_route(**documentation("get_robot_urdf"))
     async def get_urdf(robot: RobotPath, request: Request) -> Response:
-        """The description as uploaded, or as generated from the DH table."""
         return await pool_client.answer(request, _urdf, TaskRequest(robot=robot))
 
-    @router.get(
-        "/{robot}/meshes/{path:path}",
-        operation_id="get_robot_mesh",
-        summary="A mesh file of a robot",
-        response_class=Response,
-        responses={
-            200: {"content": {kind: {} for kind in MEDIA_TYPES.values()}, "description": "The file"},
-            **problem_responses(404, 422, *BY_THE_CREW),
-        },
-    )
+    @router.api_route(**documentation("get_robot_mesh"))
     async def get_mesh(
         request: Request,
         robot: RobotPath,
@@ -121,23 +78,12 @@ def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
             ),
         ],
     ) -> Response:
-        """The file exactly as uploaded; the server does not inspect it.
-
-        A file that is stored compressed is sent compressed to clients whose `Accept-Encoding` names `gzip`.
-        """
         await pool_client.resident(request, robot)
         accepted = ",".join(request.headers.getlist("Accept-Encoding"))
         return await asyncio.to_thread(lambda: mesh_response(library.mesh(robot, path), path, accepted))
 
-    @router.delete(
-        "/{robot}",
-        operation_id="remove_robot",
-        summary="Remove an uploaded robot",
-        status_code=204,
-        responses=problem_responses(403, 404, 503, 507),
-    )
+    @router.api_route(**documentation("remove_robot"))
     def remove_robot(robot: UploadedRobotPath) -> Response:
-        """Removes the robot for every worker at once. The catalogue's robots are read-only."""
         library.remove(robot)
         return Response(status_code=204)
 
@@ -177,55 +123,13 @@ def upload_routes(pool_client: PoolClient, max_body_bytes: int) -> list[Document
     async def replace(request: BoundedRequest) -> Response:
         return await _receive(request, pool_client, request.path_params["robot"])
 
-    def add_robot(robot: NewRobot) -> RobotInfo:
-        """Adds a URDF (xacro expanded), a DH table, or, as a form, a zip of one URDF and its meshes.
+    def add_robot(robot: NewRobot) -> Any: ...
 
-        The answer is sent once the robot is safely on disk; every worker sees it at once. Adding the same robot under
-        the same name again returns 200, a different one 409; a default chain with an unknown frame returns 404.
-        Harmless oddities are accepted and listed in `warnings`.
-        """
-        raise NotImplementedError
-
-    def replace_robot(robot: UploadedRobotPath, content: RobotReplacement) -> RobotInfo:
-        """Replaces an uploaded robot atomically: requests see either the old one or the new one."""
-        raise NotImplementedError
+    def replace_robot(robot: UploadedRobotPath, content: RobotReplacement) -> Any: ...
 
     return [
-        DocumentedRoute(
-            "/v1/robots",
-            add_robot,
-            add,
-            max_body_bytes,
-            methods=["POST"],
-            operation_id="add_robot",
-            summary="Add a robot",
-            tags=["Robots"],
-            status_code=201,
-            responses={
-                200: {"model": RobotInfo, "description": "It was there"},
-                **problem_responses(400, 404, 409, 413, 415, 422, 503, 507),
-            },
-            openapi_extra={"requestBody": {"content": {**json_example(EXAMPLE_DH), **_form(NewArchive)}}},
-        ),
-        DocumentedRoute(
-            "/v1/robots/{robot}",
-            replace_robot,
-            replace,
-            max_body_bytes,
-            methods=["PUT"],
-            operation_id="replace_robot",
-            summary="Replace an uploaded robot",
-            tags=["Robots"],
-            responses=problem_responses(400, 403, 404, 413, 415, 422, 503, 507),
-            openapi_extra={
-                "requestBody": {
-                    "content": {
-                        **json_example({key: EXAMPLE_DH[key] for key in ("description", "dh")}),
-                        **_form(ArchiveReplacement),
-                    }
-                }
-            },
-        ),
+        DocumentedRoute(add_robot, add, max_body_bytes, **documentation("add_robot")),
+        DocumentedRoute(replace_robot, replace, max_body_bytes, **documentation("replace_robot")),
     ]
 
 
@@ -363,17 +267,3 @@ def _joint(joint: Joint) -> JointInfo:
         ),
         mimic=MimicInfo(joint=mimic.joint, multiplier=mimic.multiplier, offset=mimic.offset) if mimic else None,
     )
-
-
-def _form(fields: type[ArchiveReplacement]) -> dict[str, Any]:
-    """Return a form with these fields and an archive, as a further media type of a request."""
-    schema = fields.model_json_schema()
-    for field in schema["properties"].values():
-        without_null(field)
-    schema["properties"]["archive"] = {
-        "type": "string",
-        "format": "binary",
-        "description": "Zip of one URDF and its meshes.",
-    }
-    schema["required"] = [*schema.get("required", []), "archive"]
-    return {MULTIPART: {"schema": schema}}

@@ -1,6 +1,6 @@
 """The DH table of a robot's chain: GET /v1/robots/{robot}/dh."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import Query
 from starlette.datastructures import QueryParams
@@ -8,8 +8,8 @@ from starlette.responses import Response
 
 from gelenk.contract.common import FrameName
 from gelenk.contract.dh import Convention, SnapTolerance
-from gelenk.contract.dh_from_urdf import FromUrdfAnswer, FromUrdfOptions
-from gelenk.http.messages.openapi import RobotPath, problem_responses
+from gelenk.contract.dh_from_urdf import FromUrdfOptions
+from gelenk.http.messages.openapi import RobotPath, documentation
 from gelenk.http.messages.payloads import BoundedRequest, json_response, read_query
 from gelenk.http.messages.routes import DocumentedRoute
 from gelenk.http.workers.context import Context
@@ -21,14 +21,13 @@ from gelenk.operations.dh_from_urdf import table_answer
 def table_route(pool_client: PoolClient, max_body_bytes: int) -> DocumentedRoute:
     """Return the route; workers compute the tables, not the event loop."""
 
-    def robot_table(  # type: ignore[empty-body]
+    def robot_table(
         robot: RobotPath,
         convention: Annotated[Convention, Query(openapi_examples={"modified": {"value": "modified"}})] = "standard",
         base_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link0"}})] = None,
         tip_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link8"}})] = None,
         snap_tolerance: Annotated[SnapTolerance, Query(openapi_examples={"exact": {"value": 0.0}})] = 0.0,
-    ) -> FromUrdfAnswer:
-        """Returns the DH table of the default chain, or of the chain between the named frames, as `from-urdf` does."""
+    ) -> Any: ...
 
     async def get_table(request: BoundedRequest) -> Response:
         task_request = TaskRequest(
@@ -36,22 +35,10 @@ def table_route(pool_client: PoolClient, max_body_bytes: int) -> DocumentedRoute
         )
         return await pool_client.answer(request, _robot_table, task_request)
 
-    return DocumentedRoute(
-        "/v1/robots/{robot}/dh",
-        robot_table,
-        get_table,
-        max_body_bytes,
-        methods=["GET"],
-        operation_id="get_robot_dh",
-        summary="A robot's chain as a table",
-        tags=["DH tables"],
-        responses=problem_responses(404, 422),
-    )
+    return DocumentedRoute(robot_table, get_table, max_body_bytes, **documentation("get_robot_dh"))
 
 
 def _robot_table(context: Context, task_request: TaskRequest) -> Response:
-    options, loaded = (
-        read_query(FromUrdfOptions, QueryParams(task_request.query)),
-        context.library.get(task_request.robot),
-    )
+    options = read_query(FromUrdfOptions, QueryParams(task_request.query))
+    loaded = context.library.get(task_request.robot)
     return json_response(table_answer(loaded.robot, options, loaded.warnings))
