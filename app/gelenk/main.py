@@ -29,13 +29,12 @@ from gelenk.http.derive.derive import derive_handler
 from gelenk.http.jobs.jobs import jobs_router
 from gelenk.http.jobs.long_works import LONG_WORK
 from gelenk.http.messages import openapi, problems
-from gelenk.http.messages.bodies import Bodies
+from gelenk.http.messages.payloads import Bodies
 from gelenk.http.messages.routes import Application
-from gelenk.http.robots.robots import robots_router, upload_routes
-from gelenk.http.robots.table import table_route
+from gelenk.http.robots.robots import documented_routes, robots_router
 from gelenk.http.service import Readiness, service_router
-from gelenk.http.workers.context import ContextSetup
 from gelenk.http.workers.pool_client import PARSED_HERE_BYTES, PoolClient
+from gelenk.http.workers.task import Context
 from gelenk.jobs.cluster import Cluster
 from gelenk.jobs.runner import Runner
 from gelenk.jobs.store import JobLimits, JobStore
@@ -43,7 +42,7 @@ from gelenk.jobs.workers import PoolExecutor
 from gelenk.operations.outcome import Limits
 from gelenk.pool.pool import WorkerPool
 from gelenk.settings import Settings
-from gelenk.store.library import Quota
+from gelenk.store.library import Library, Quota
 
 DESCRIPTION = """
 Takes a URDF or a Denavit-Hartenberg table, converts each into the other, and computes forward and inverse kinematics,
@@ -69,12 +68,12 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     seconds = settings.request_seconds
     quota = Quota(settings.client_robots, settings.client_robot_bytes)
     limits = Limits(settings.max_answer_numbers, seconds, settings.job_bytes, settings.max_job_samples)
-    setup = ContextSetup(settings.catalogue_dir, settings.data_dir / "robots", limits, quota)
-    library = setup.library()
+    context = Context(settings.catalogue_dir, settings.data_dir / "robots", limits, quota)
+    library = Library(context.catalogue, context.uploads, quota)
     pool = pool or WorkerPool(
         settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes, settings.job_processes
     )
-    pool_client = PoolClient(pool, setup, library, seconds, settings.client_requests)
+    pool_client = PoolClient(pool, context, library, seconds, settings.client_requests)
     derivations = ThreadPoolExecutor(4, thread_name_prefix="derive")
     runner = _runner(settings, limits, pool)
     audit = AuditLog(settings.data_dir / "audit")
@@ -124,7 +123,7 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     problems.install(app)
     size = settings.max_body_bytes
     app.include_router(robots_router(library, pool_client))
-    app.router.routes.extend(upload_routes(pool_client, size))
+    app.router.routes.extend(documented_routes(pool_client, size))
     special = {"derive_dh": derive_handler(pool, derivations)}
     for endpoint in ENDPOINTS:
         handler = special.get(endpoint.name) or dispatch.handler(endpoint, pool_client, runner, limits)
@@ -132,7 +131,6 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         app.router.routes.append(dispatch.route(endpoint, handler, most_body))
         if isinstance(endpoint, RobotEndpoint):
             app.operations[endpoint.name] = handler
-    app.router.routes.append(table_route(pool_client, size))
     app.include_router(jobs_router(runner))
     app.include_router(service_router(readiness, metrics))
     documentation.install(app)

@@ -17,7 +17,7 @@ from starlette.testclient import TestClient
 from gelenk.contract.endpoint import Scope
 from gelenk.contract.trajectory_request import TrajectoryRequest
 from gelenk.http.access.keyring import new_key
-from gelenk.http.messages.preference import wants_answer_later
+from gelenk.http.messages.payloads import wants_answer_later
 from gelenk.ik import solve
 from gelenk.ik.search import search
 from gelenk.main import create_app

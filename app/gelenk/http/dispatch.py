@@ -36,19 +36,19 @@ from gelenk.http.messages.payloads import (
     NO_ARRAY,
     NPY,
     PNG,
+    PREFERENCE_APPLIED,
     SVG,
     BoundedRequest,
     csv_response,
     json_response,
     read_json,
     read_query,
+    wants_answer_later,
 )
-from gelenk.http.messages.preference import APPLIED, wants_answer_later
 from gelenk.http.messages.problems import UnsupportedMediaType
 from gelenk.http.messages.routes import DocumentedRoute, Handler
-from gelenk.http.workers.context import Context
 from gelenk.http.workers.pool_client import INLINE_BYTES, PoolClient
-from gelenk.http.workers.task import TaskRequest, buffers
+from gelenk.http.workers.task import Context, TaskRequest, buffers
 from gelenk.jobs.runner import Runner
 from gelenk.operations.operation import Operation, operation
 from gelenk.operations.outcome import Limits, Outcome, PictureFormat
@@ -103,7 +103,7 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
 
         if is_job or (can_be_job and wants_answer_later(request.scope["headers"])):
             planned = await pool_client.content(request, plan_job, task_request())
-            return await submitted(runner, endpoint.name, request, planned, {} if is_job else APPLIED)
+            return await submitted(runner, endpoint.name, request, planned, {} if is_job else PREFERENCE_APPLIED)
         if request.length <= INLINE_BYTES and not pool_client.pool.is_starting:
             call, found = _parsed(endpoint, query, b"".join(pieces), is_npy), operation(endpoint.name)
             if wanted not in _PICTURES and not found.is_heavy(call):

@@ -9,7 +9,7 @@ from starlette.requests import Request
 from starlette.types import Scope as AsgiScope
 
 from gelenk.contract.endpoint import RobotEndpoint, Route, Scope
-from gelenk.http.messages.preference import wants_answer_later
+from gelenk.http.messages.payloads import wants_answer_later
 from gelenk.operations.request_counts import RequestCounts
 
 _WELL_FORMED = re.compile(rb"[A-Za-z0-9_.-]{1,64}")

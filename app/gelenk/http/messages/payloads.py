@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import AsyncGenerator, Sequence
+from collections.abc import AsyncGenerator, Iterable, Sequence
 from typing import Any, Self, TypeVar
 
 import orjson
@@ -13,8 +13,7 @@ from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
 from gelenk.contract.common import Payload
-from gelenk.errors import TooLarge, quoted
-from gelenk.http.messages.bodies import SMALL, Bodies
+from gelenk.errors import NoRoomForBody, TooLarge, quoted
 from gelenk.http.messages.problems import InvalidPayload
 from gelenk.operations.rows import csv_head, csv_rows
 from gelenk.robot.arrays import Array
@@ -34,6 +33,10 @@ SVG = "image/svg+xml"
 PNG = "image/png"
 MULTIPART = "multipart/form-data"
 
+SMALL = 64 * 1024
+"""Smaller bodies are not counted: connections are limited, and the server buffers as much for each anyway, [bytes]."""
+PREFERENCE_APPLIED = {"Preference-Applied": "respond-async"}
+"""Header of a response that follows the preference of `wants_answer_later`."""
 _STRING = re.compile(rb'"([^"\\]*+(?:\\.[^"\\]*+)*+)(?:"(\s*:)?|\\?\Z)', re.DOTALL)
 """A JSON string, and the colon after it if it is the name of a member.
 
@@ -46,6 +49,27 @@ _WEIGHT = re.compile(r"0(\.\d{0,3})?|1(\.0{0,3})?", re.ASCII)
 _ANYTHING = frozenset({b"", b"*/*", b"application/json"})
 
 _Model = TypeVar("_Model", bound=Payload)
+
+
+class Bodies:
+    """Counts the bytes of large bodies that a process holds, from their arrival until their requests are answered.
+
+    Received bytes count, not announced ones: a client that announces many and sends none takes no room from others.
+
+    Args:
+        allowed: Maximum number of bytes over all bodies.
+
+    Attributes:
+        held: Bytes held now.
+    """
+
+    def __init__(self, allowed: int) -> None:
+        self._allowed, self.held = allowed, 0
+
+    def check_room(self, count: int) -> None:
+        """Check that there is room for `count` more bytes; raises NoRoomForBody otherwise."""
+        if self.held + count > self._allowed:
+            raise NoRoomForBody(self._allowed)
 
 
 class BoundedRequest(Request):
@@ -91,25 +115,21 @@ class BoundedRequest(Request):
         return self._count
 
     async def body(self) -> bytes:
-        """Return the whole body; raises as `pieces` does."""
+        """Return the whole body; raises as `stream` does."""
         return b"".join(await self.pieces())
 
     async def pieces(self) -> list[bytes]:
-        """Return the whole body in the pieces that it arrives in.
+        """Return the whole body in the pieces that it arrives in; raises as `stream` does."""
+        return [piece async for piece in self.stream()]
+
+    async def stream(self) -> AsyncGenerator[bytes, None]:
+        """Yield the body in pieces.
 
         Raises:
             TooLarge: The body is larger than allowed, or announces that it is.
             NoRoomForBody: Other large bodies take all the room.
             ClientDisconnect: The client has left.
         """
-        pieces, more = [], True
-        while more:
-            piece, more = await self._receive_chunk()
-            pieces.append(piece)
-        return pieces
-
-    async def stream(self) -> AsyncGenerator[bytes, None]:
-        """Yield the body in pieces; raises as `pieces` does."""
         more = True
         while more:
             chunk, more = await self._receive_chunk()
@@ -136,6 +156,12 @@ class BoundedRequest(Request):
             raise TooLarge("bytes in the body", count, self._max_bytes)
         if count > SMALL:
             self._bodies.check_room(count - self._held)
+
+
+def wants_answer_later(headers: Iterable[tuple[bytes, bytes]]) -> bool:
+    """Check whether a request's headers prefer that a job answers it: `Prefer: respond-async` (RFC 7240)."""
+    tokens = (token for name, value in headers if name == b"prefer" for token in value.split(b","))
+    return any(token.partition(b";")[0].strip().lower() == b"respond-async" for token in tokens)
 
 
 def preferred_type(accept: str, offered: Sequence[str]) -> str:

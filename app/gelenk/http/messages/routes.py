@@ -19,8 +19,7 @@ from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from gelenk.http.messages import problems
-from gelenk.http.messages.bodies import Bodies
-from gelenk.http.messages.payloads import BoundedRequest
+from gelenk.http.messages.payloads import Bodies, BoundedRequest
 
 _OPERATION = re.compile(r"/v1/robots/(?P<robot>[^/]+)/(?P<operation>[a-z]+)")
 

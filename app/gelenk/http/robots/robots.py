@@ -6,39 +6,26 @@ from dataclasses import dataclass, replace
 from io import BytesIO
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Path, Request, Response
-from starlette.datastructures import UploadFile
+from fastapi import APIRouter, Path, Query, Request, Response
+from starlette.datastructures import QueryParams, UploadFile
 
-from gelenk.contract.common import ChainEnds
-from gelenk.contract.dh import DhTablePayload, table_content
-from gelenk.contract.pose import Pose
-from gelenk.contract.robots import (
-    ArchiveReplacement,
-    JointInfo,
-    LimitsInfo,
-    MeshInfo,
-    MimicInfo,
-    NewArchive,
-    NewRobot,
-    RobotInfo,
-    RobotReplacement,
-)
+from gelenk.contract.common import FrameName
+from gelenk.contract.dh import Convention, SnapTolerance
+from gelenk.contract.dh_from_urdf import FromUrdfOptions
+from gelenk.contract.robots import ArchiveReplacement, NewArchive, NewRobot, RobotReplacement
 from gelenk.errors import InvalidArchive
 from gelenk.http.messages.openapi import RobotPath, UploadedRobotPath, documentation
-from gelenk.http.messages.payloads import JSON, MULTIPART, BoundedRequest, json_response, read_json
+from gelenk.http.messages.payloads import JSON, MULTIPART, BoundedRequest, json_response, read_json, read_query
 from gelenk.http.messages.problems import UnsupportedMediaType
 from gelenk.http.messages.routes import DocumentedRoute
+from gelenk.http.robots.info import info
 from gelenk.http.robots.meshes import SANDBOXED, mesh_response
-from gelenk.http.robots.skeleton import skeleton_of
-from gelenk.http.workers.context import Context
 from gelenk.http.workers.pool_client import PoolClient
-from gelenk.http.workers.task import TaskRequest, buffers
-from gelenk.robot.chain import Chain
-from gelenk.robot.description import Joint
+from gelenk.http.workers.task import Context, TaskRequest, buffers
+from gelenk.operations.dh_from_urdf import table_answer
 from gelenk.store.archive import unpacked
 from gelenk.store.folders import writing
 from gelenk.store.library import Library, RobotUpload
-from gelenk.store.records import LoadedRobot
 
 WITHOUT_KEY = "clients without a key"
 """Owner of uploads without a key: addresses change, and where no key is needed all clients share one machine."""
@@ -114,8 +101,8 @@ class Listed:
         return Response(content, media_type=JSON)
 
 
-def upload_routes(pool_client: PoolClient, max_body_bytes: int) -> list[DocumentedRoute]:
-    """Return the routes that add and replace robots: as JSON, or as a zip in a form."""
+def documented_routes(pool_client: PoolClient, max_body_bytes: int) -> list[DocumentedRoute]:
+    """Return the routes that add and replace robots, as JSON or as a zip in a form, and that of the DH table."""
 
     async def add(request: BoundedRequest) -> Response:
         return await _receive(request, pool_client, None)
@@ -127,7 +114,22 @@ def upload_routes(pool_client: PoolClient, max_body_bytes: int) -> list[Document
 
     def replace_robot(robot: UploadedRobotPath, content: RobotReplacement) -> Any: ...
 
+    def robot_table(
+        robot: RobotPath,
+        convention: Annotated[Convention, Query(openapi_examples={"modified": {"value": "modified"}})] = "standard",
+        base_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link0"}})] = None,
+        tip_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link8"}})] = None,
+        snap_tolerance: Annotated[SnapTolerance, Query(openapi_examples={"exact": {"value": 0.0}})] = 0.0,
+    ) -> Any: ...
+
+    async def get_table(request: BoundedRequest) -> Response:
+        task_request = TaskRequest(
+            robot=request.path_params["robot"], query=request.scope["query_string"].decode("latin-1")
+        )
+        return await pool_client.answer(request, _robot_table, task_request)
+
     return [
+        DocumentedRoute(robot_table, get_table, max_body_bytes, **documentation("get_robot_dh")),
         DocumentedRoute(add_robot, add, max_body_bytes, **documentation("add_robot")),
         DocumentedRoute(replace_robot, replace, max_body_bytes, **documentation("replace_robot")),
     ]
@@ -222,48 +224,7 @@ def _urdf(context: Context, task_request: TaskRequest) -> Response:
     return Response(context.library.get(task_request.robot).urdf, media_type="application/xml", headers=SANDBOXED)
 
 
-def info(loaded: LoadedRobot) -> RobotInfo:
-    """Return everything about a robot except its poses."""
-    record, robot = loaded.record, loaded.robot
-    description = robot.description
-    chain: Chain = robot.chain(None, None)
-    return RobotInfo(
-        name=record.name,
-        description=record.file.description,
-        source=record.source,
-        format=record.file.format,
-        default_chain=ChainEnds(base_frame=chain.base_frame, tip_frame=chain.tip_frame),
-        chains=record.file.chains,
-        root=description.root,
-        joints=[_joint(joint) for joint in description.joints],
-        joint_names=list(chain.joint_names),
-        dh=None if loaded.table is None else DhTablePayload.model_validate(table_content(loaded.table)),
-        degrees_of_freedom=len(description.movable),
-        links=list(description.frames),
-        frames=list(description.frames),
-        leaf_tips=list(description.leaves),
-        meshes=[MeshInfo(reference=reference, path=path) for reference, path in loaded.meshes.items()],
-        skeleton=skeleton_of(loaded),
-        licence=record.file.licence,
-        provenance=record.file.source,
-        warnings=list(loaded.warnings),
-    )
-
-
-def _joint(joint: Joint) -> JointInfo:
-    mimic = joint.mimic
-    return JointInfo(
-        name=joint.name,
-        type=joint.type,
-        parent=joint.parent,
-        child=joint.child,
-        origin=Pose(position=list(joint.origin.xyz), rpy=list(joint.origin.rpy)),
-        axis=None if joint.type in {"fixed", "floating"} else list(joint.axis),
-        limits=LimitsInfo(
-            lower=joint.limits.lower,
-            upper=joint.limits.upper,
-            velocity=joint.limits.velocity,
-            effort=joint.limits.effort,
-        ),
-        mimic=MimicInfo(joint=mimic.joint, multiplier=mimic.multiplier, offset=mimic.offset) if mimic else None,
-    )
+def _robot_table(context: Context, task_request: TaskRequest) -> Response:
+    options = read_query(FromUrdfOptions, QueryParams(task_request.query))
+    loaded = context.library.get(task_request.robot)
+    return json_response(table_answer(loaded.robot, options, loaded.warnings))

@@ -10,8 +10,7 @@ from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
 from gelenk.errors import ServiceStopping, TooManyRequests
-from gelenk.http.workers.context import Context, ContextSetup
-from gelenk.http.workers.task import Reply, TaskRequest, WorkerTask, answered
+from gelenk.http.workers.task import Context, Reply, TaskRequest, WorkerTask, answered
 from gelenk.operations.request_counts import REQUEST_COUNTS
 from gelenk.pool.pool import WorkerPool
 from gelenk.store.library import Library
@@ -36,14 +35,14 @@ class PoolClient:
 
     Args:
         pool: Worker pool.
-        setup: Settings for the contexts of the workers.
+        context: What the answers of the workers depend on.
         library: Library of robots of this process.
         seconds: Longest wait of a request for a worker, and longest run time, [s].
         share: Maximum number of requests of one client that wait or run.
     """
 
-    def __init__(self, pool: WorkerPool, setup: ContextSetup, library: Library, seconds: float, share: int) -> None:
-        self.pool, self._setup, self._library, self._seconds = pool, setup, library, seconds
+    def __init__(self, pool: WorkerPool, context: Context, library: Library, seconds: float, share: int) -> None:
+        self.pool, self._context, self._library, self._seconds = pool, context, library, seconds
         self._share = share
         self._requests: Counter[str] = Counter()
 
@@ -80,7 +79,7 @@ class PoolClient:
         if client and self._requests[client] >= self._share:
             raise TooManyRequests(self._share, self.pool.retry_after)
         self.pool.check_room(client)
-        work = self.pool.run(answered, (self._setup, task, task_request), self._seconds, client)
+        work = self.pool.run(answered, (self._context, task, task_request), self._seconds, client)
         self._requests[client] += 1
         try:
             return await while_wanted(request.receive, work)
