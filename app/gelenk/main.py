@@ -14,7 +14,7 @@ from fastapi.routing import iter_route_contexts
 
 from gelenk import __version__
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.endpoints import ENDPOINTS, ROBOT_ENDPOINTS
+from gelenk.contract.endpoints import ENDPOINTS
 from gelenk.http import dispatch, documentation, studio
 from gelenk.http.access.audit_log import AuditLog
 from gelenk.http.access.hosts import TrustedHosts, repeated
@@ -135,14 +135,12 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     app.include_router(service_router(readiness, metrics))
     documentation.install(app)
     studio.install(app)
-    queries = [endpoint.options for endpoint in ROBOT_ENDPOINTS if endpoint.options is not None]
-    openapi.describe(app, bool(settings.api_keys), queries)
+    openapi.describe(app, bool(settings.api_keys))
     app.entry = _middleware(app, settings, metrics, audit)
     return app
 
 
 def _runner(settings: Settings, limits: Limits, pool: WorkerPool) -> Runner:
-    """Build the runner of the jobs."""
     kept = JobLimits(
         kept=settings.kept_jobs,
         kept_bytes=settings.kept_job_bytes,

@@ -248,7 +248,6 @@ class JobStore:
         return replace(job, state="queued") if self._is_left(job) else job
 
     def _is_left(self, job: JobRecord) -> bool:
-        """Return whether a job is unfinished and its process has ended."""
         return not (job.is_final or self._owners.is_alive(job.owner))
 
     def _jobs(self, query: str = _ALL, *values: str) -> list[JobRecord]:
@@ -316,7 +315,6 @@ def write_result(folder: Path, name: str, content: Callable[[IO[bytes]], object]
 
 
 def _size(folder: Path) -> int:
-    """Return the total size of the files below a folder, [bytes]."""
     total = 0
     for parent, _, names in os.walk(folder):  # tolerates folders that are removed meanwhile
         for name in names:

@@ -149,7 +149,6 @@ def _put_together(job: tuple[WorkspaceWork, Parts, str | None]) -> Workspace | N
 
 
 def _files(asked: WorkspaceWork, found: Workspace, dexterity: Array | None, robot_digest: str | None) -> Files:
-    """Return the result files of a job: the array and its summary."""
     table = found.points if found.points is not None else found.voxel_rows(asked.plan)
     array = table if dexterity is None else np.column_stack((table, dexterity))
     told = _summary(asked, found, dexterity) | {"robot_digest": robot_digest}
@@ -238,7 +237,6 @@ def _sampled(job: tuple[SamplingPlan, int]) -> bytes:
 
 
 def _part(content: bytes) -> SampledPart:
-    """Unpack the result of `_sampled`."""
     values = unpacked(content)
     first, count, best = values["numbers"].tolist()
     near, far = values["distances"].tolist()
@@ -275,7 +273,6 @@ def _unpacked(pickled: bytes) -> tuple[RobotModel, Chain, Sampling, Orientations
 
 
 def _summary(asked: WorkspaceWork, found: Workspace, dexterity: Array | None) -> dict[str, Any]:
-    """Return the summary of a result, to be written as JSON."""
     chain, work, wish = asked.chain, asked.plan, asked.wish
     certificate = found.certificate
     return {

@@ -165,7 +165,6 @@ def _copy(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, sink: IO[bytes], lef
 
 
 def _chunks(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Iterator[bytes]:
-    """Yield the bytes of an entry in pieces."""
     try:
         with archive.open(entry) as source:
             while chunk := source.read(_CHUNK):

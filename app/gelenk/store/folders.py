@@ -235,7 +235,6 @@ def _beside(parent: Path) -> Iterator[Path]:
 
 
 def _orphans(folder: Path) -> list[Path]:
-    """Return what interrupted writers left in a folder."""
     left = [folder / name for name in os.listdir(folder) if name.startswith((_OLD, _NEW))]  # noqa: PTH208 - of thousands
     return [path for path in left if path.name.startswith(_OLD) or not is_locked(path / _LOCK)]
 
@@ -253,7 +252,6 @@ def is_locked(file: Path) -> bool:
 
 
 def _make(folder: Path) -> None:
-    """Create a folder and its parents durably."""
     if not folder.is_dir():
         _make(folder.parent)
         folder.mkdir(exist_ok=True)

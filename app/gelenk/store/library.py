@@ -167,7 +167,7 @@ class Library:
         return orjson.dumps(told)
 
     def _check_quota(self, new: RobotFile, old: RobotFile | None = None) -> None:
-        """Check that the owner's quota has room for a robot; one that it replaces, of the same owner, does not count."""
+        """Check that the owner's quota has room for a robot; one of the same owner that it replaces does not count."""
         if new.owner is None:
             return
         sizes = [entry.kept_bytes for entry in self._index.entries()[0] if entry.owner == new.owner]
@@ -305,7 +305,6 @@ class Library:
             self._loaded.pop(name, None)
 
     def _folders(self) -> list[Path]:
-        """Return the folders that may be uploaded robots."""
         return [path for name in sorted(self._index.names()) if (path := self.uploads / name).is_dir()]
 
     def _move_stale_versions(self, folder: Path, aside: Path) -> None:

@@ -119,7 +119,6 @@ class Metrics:
         self._raise_to(self._cpu, time.process_time())
 
     def _raise_to(self, counter: Counter, total: float) -> None:
-        """Raise a counter to a total that this process counts elsewhere."""
         counter.inc(total - self._told.get(counter, 0.0))
         self._told[counter] = total
 

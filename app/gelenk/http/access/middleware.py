@@ -97,7 +97,6 @@ class Middleware:
             log_request(exchange)
 
     def _refusal(self, exchange: RequestContext) -> Response | None:
-        """Return the first refusal among the checks, or None."""
         for check in self._checks:
             if (refusal := check(exchange)) is not None:
                 return refusal

@@ -22,7 +22,6 @@ from gelenk.store.records import LoadedRobot
 
 
 def _request(loaded: LoadedRobot, call: WorkspaceRequest, limits: Limits) -> dict[str, bytes]:
-    """Check a call and return its file."""
     if call.samples > limits.job_samples:
         raise TooLarge("samples", call.samples, limits.job_samples)
     numbers = call.samples * len(POINT_COLUMNS)
@@ -40,7 +39,6 @@ def _request(loaded: LoadedRobot, call: WorkspaceRequest, limits: Limits) -> dic
 
 
 def _work(_: Limits, folder: Path) -> Work:
-    """Return the function that computes the job whose request is in `folder`."""
     text = robot_text(folder)
     robot = robot_of(text)
     call = read_json(WorkspaceRequest, read_plain(folder / CALL))

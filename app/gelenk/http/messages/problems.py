@@ -208,7 +208,6 @@ def _allowed_methods(request: Request) -> list[str]:
 
 
 def _place(error: errors.KinematicsError) -> str | None:
-    """Return the place in the payload where the core found an error, if known."""
     match error:
         case errors.InvalidUrdf():
             return "#/urdf"
@@ -232,7 +231,6 @@ def _place_of(item: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _pointer(location: Sequence[int | str]) -> str:
-    """Return a JSON pointer into the payload, without the tags of unions."""
     parts = [str(part) for part in location if not str(part).startswith("<")]
     if parts[:1] == ["body"]:
         parts = parts[1:]
@@ -245,7 +243,6 @@ def _printable(text: str) -> str:
 
 
 def _shortened(value: Any) -> Any:
-    """Return facts of bounded size: long lists and texts are cut."""
     if isinstance(value, str):
         return _printable(value[:_LONGEST_FACT])
     if isinstance(value, list | tuple):
