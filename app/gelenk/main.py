@@ -95,7 +95,6 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         audit.close()
 
     app = Application(
-        settings.max_body_bytes,
         Bodies(max(settings.held_body_bytes, settings.max_body_bytes)),
         is_traced=bool(settings.otlp_endpoint),
         telemetry=telemetry(bool(settings.otlp_endpoint)),
@@ -128,9 +127,10 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     for endpoint in ENDPOINTS:
         handler = special.get(endpoint.name) or dispatch.handler(endpoint, pool_client, runner, limits)
         most_body = min(size, PARSED_HERE_BYTES) if endpoint.name in special else size
-        app.router.routes.append(dispatch.route(endpoint, handler, most_body))
+        route = dispatch.route(endpoint, handler, most_body)
+        app.router.routes.append(route)
         if isinstance(endpoint, RobotEndpoint):
-            app.operations[endpoint.name] = handler
+            app.operations[endpoint.name] = route
     app.include_router(jobs_router(runner))
     app.include_router(service_router(readiness, metrics))
     documentation.install(app)

@@ -98,10 +98,7 @@ def _event_id(job: JobRecord) -> str:
 async def _events(runner: Runner, job: JobRecord, state: Mapping[str, Any]) -> AsyncIterator[str]:
     """Yield the events of a job from now on; when its client has left, the server ends the iteration.
 
-    Args:
-        runner: Runner whose store holds the job.
-        job: Present state of the job.
-        state: State of the connection; it says when the service stops: the stream ends, and a browser reconnects.
+    The state of the connection says when the service stops: the stream ends, and a browser reconnects.
     """
     told, quiet = "", 0.0
     while True:

@@ -59,10 +59,7 @@ def as_bytes(content: bytes) -> NDArray[np.uint8]:
 async def submitted(runner: Runner, kind: str, request: Request, planned: bytes, headers: dict[str, str]) -> Response:
     """Submit a planned job and return the response, 202 with the job's address and these headers.
 
-    Raises:
-        JobExists: Another request has the name that this one chooses.
-        TooManyJobs: Too many jobs are waiting.
-        StorageFailed: The job cannot be stored.
+    Raises as `Runner.submit`.
     """
 
     def submit() -> Response:

@@ -78,9 +78,7 @@ class BoundedRequest(Request):
     It reads headers and body itself, more simply than Starlette does, because every call pays for that.
 
     Args:
-        scope: ASGI scope of the request.
-        receive: Receives the body.
-        send: Sends the response.
+        scope: As in Starlette's `Request`; so are `receive` and `send`.
         max_bytes: Maximum size of the body.
         bodies: Count of the large bodies of this process.
     """
@@ -169,10 +167,6 @@ def preferred_type(accept: str, offered: Sequence[str]) -> str:
 
     Of equal weights the more specific range wins, then the type offered first. That type is also returned if none is
     accepted: a response that can be read is better than none.
-
-    Args:
-        accept: Value of the header.
-        offered: Media types, the default one first.
     """
     ranges = [_weighted(part) for part in accept.lower().split(",")[:MAX_PARAMETERS]]
     best, best_rank = offered[0], (0.0, 0)
@@ -203,13 +197,7 @@ def json_response(content: Any, status: int = 200, headers: dict[str, str] | Non
 
 
 def csv_response(columns: Sequence[str], array: Array, headers: dict[str, str]) -> Response:
-    """Return a table as CSV (RFC 4180): a row of names, then numbers that read back exactly.
-
-    Args:
-        columns: Names of the columns; at least one.
-        array: Shape (N, columns).
-        headers: Headers of the response.
-    """
+    """Return an array of shape (N, columns) as CSV (RFC 4180): names, then numbers that read back exactly."""
     body = csv_head(columns) + b"".join(csv_rows(array))
     return Response(body, headers=headers, media_type=f"{CSV}; header=present")
 
@@ -219,6 +207,7 @@ def read_json(model: type[_Model], body: bytes) -> _Model:
 
     Raises:
         InvalidPayload: The body does not match the model.
+        TooLarge: It has more than `MAX_MEMBERS`.
     """
     if body.count(b":") > MAX_MEMBERS:
         raise TooLarge("members in the body", body.count(b":"), MAX_MEMBERS)
@@ -231,14 +220,7 @@ def read_json(model: type[_Model], body: bytes) -> _Model:
 
 
 def _check_members(body: bytes) -> None:
-    """Refuse an object with two members of the same name: JSON parsers differ in which of them counts.
-
-    Args:
-        body: JSON that has been parsed already.
-
-    Raises:
-        InvalidPayload: There is such an object.
-    """
+    """Refuse an object with two members of the same name in valid JSON: parsers differ in which of them counts."""
     # If no two names in the whole body are the same, as in most calls, there is no need to parse it again.
     for part in (body[:_FIRST], body) if len(body) > _FIRST else (body,):
         names = [name for name, colon in _STRING.findall(part) if colon]

@@ -47,12 +47,7 @@ class PoolClient:
         self._requests: Counter[str] = Counter()
 
     async def answer(self, request: Request, task: WorkerTask, task_request: TaskRequest) -> Response:
-        """Run a task in a worker and return its response.
-
-        Raises:
-            ClientDisconnect: The client has disconnected, which cancels the task.
-            KinematicsError: As for `WorkerPool.run`, and whatever the task raises.
-        """
+        """Run a task in a worker and return its response; raises as `WorkerPool.run` and `while_wanted`."""
         reply = await self._reply(request, task, task_request)
         REQUEST_COUNTS.set(reply[3])
         return Passed(reply)
@@ -62,11 +57,7 @@ class PoolClient:
         return b"".join((await self._reply(request, task, task_request))[2])
 
     async def resident(self, request: Request, name: str) -> LoadedRobot:
-        """Load a robot into this process, for quick calls; if it was uploaded, a worker tries first, as it may crash.
-
-        Raises:
-            KinematicsError: As for `answer`, and as for `Library.get`.
-        """
+        """Load a robot into this process, for quick calls; if it was uploaded, a worker tries first: it may crash."""
         found = self._library.loaded(name)
         if found is not None:
             return found
@@ -114,7 +105,6 @@ async def while_wanted(receive: Receive, work: Coroutine[Any, Any, _Result]) -> 
     Raises:
         ClientDisconnect: The client has disconnected.
         ServiceStopping: The server has cancelled the work because its shutdown can wait no longer.
-        Exception: Whatever the work raises.
     """
     doing, leaving = asyncio.ensure_future(work), asyncio.ensure_future(_left(receive))
     try:
