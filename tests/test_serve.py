@@ -26,8 +26,8 @@ import uvicorn
 import uvloop
 
 from gelenk import serve, supervisor
+from gelenk.contract.endpoint import Scope
 from gelenk.http.access.keyring import new_key
-from gelenk.http.messages.scopes import Scope
 from gelenk.settings import Settings
 
 HOST = "127.0.0.1"

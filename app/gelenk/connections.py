@@ -199,7 +199,6 @@ class BoundedProtocol(HttpToolsProtocol):
                 self._refuse(status, "head-too-large", f"{what} may have {most} bytes in all")
 
     def _begin_stage(self, *, in_head: bool = False, in_body: bool = False) -> None:
-        """Note that a head, a body or a pause begins."""
         self._stage, self._in_head, self._in_message = self._stage + 1, in_head, in_head or in_body
         self._other_bytes = self._chunks = 0
 

@@ -10,6 +10,8 @@ from string import Formatter
 from typing import Any, ClassVar, Protocol, dataclass_transform
 
 _QUOTED_LENGTH = 80
+_OPTIONAL = re.compile(r"<(?P<text>[^<>{]*\{(?P<field>\w+)[^<>]*)>")
+"""An optional part of a template."""
 
 
 def quoted(name: str) -> str:
@@ -61,8 +63,8 @@ class KinematicsError(Exception):
     A subclass declares its data as fields, like a dataclass, and its message as a template.
 
     Attributes:
-        template: One sentence for the caller: what is wrong, why, and what is allowed; see `_ErrorFormatter`. Empty in
-            a class of which only subclasses are raised.
+        template: One sentence for the caller: what is wrong, why, and what is allowed; see `_ErrorFormatter`. A part in
+            `<>` is left out if its first field is unknown. Empty in a class of which only subclasses are raised.
     """
 
     template: ClassVar[str] = ""
@@ -76,7 +78,10 @@ class KinematicsError(Exception):
     @property
     def detail(self) -> str:
         """Message for the caller: the filled template."""
-        return _ErrorFormatter().format(self.template, self)
+        return _ErrorFormatter().format(_OPTIONAL.sub(self._if_known, self.template), self)
+
+    def _if_known(self, part: re.Match[str]) -> str:
+        return "" if getattr(self, part["field"]) in (None, (), []) else part["text"]
 
     def facts(self) -> dict[str, object]:
         """Return the typed data of the error by field name."""
@@ -84,11 +89,6 @@ class KinematicsError(Exception):
 
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), tuple(getattr(self, field.name) for field in fields(self))
-
-
-def _prefix(*places: str | None) -> str:
-    """Join the places that are known, each followed by a colon."""
-    return "".join(f"{place}: " for place in places if place is not None)
 
 
 class InvalidInput(KinematicsError):
@@ -101,11 +101,7 @@ class InvalidUrdf(InvalidInput):
     reason: str
     element: str | None = None
     line: int | None = None
-    template = "{_place}{reason}"
-
-    @property
-    def _place(self) -> str:
-        return _prefix(None if self.line is None else f"line {self.line}", self.element)
+    template = "<line {line}: ><{element}: >{reason}"
 
 
 class InvalidDhTable(InvalidInput):
@@ -114,11 +110,11 @@ class InvalidDhTable(InvalidInput):
     reason: str
     joint: int | None = None
     parameter: str | None = None
-    template = "{_place}{reason}"
+    template = "<joint {_row} of the table: ><{parameter}: >{reason}"
 
     @property
-    def _place(self) -> str:
-        return _prefix(None if self.joint is None else f"joint {self.joint + 1} of the table", self.parameter)
+    def _row(self) -> int | None:
+        return None if self.joint is None else self.joint + 1
 
 
 class InvalidPose(InvalidInput):
@@ -128,16 +124,7 @@ class InvalidPose(InvalidInput):
     distance: float | None = None
     field: str | None = None
     index: int | None = None
-    template = "{_place}{reason}{_measured}"
-
-    @property
-    def _place(self) -> str:
-        field = None if self.field is None else quoted(self.field)
-        return _prefix(field, None if self.index is None else f"entry {self.index}")
-
-    @property
-    def _measured(self) -> str:
-        return "" if self.distance is None else f" (distance {self.distance:.3g})"
+    template = "<{field!q}: ><entry {index}: >{reason}< (distance {distance:.3g})>"
 
 
 class InvalidArchive(InvalidInput):
@@ -145,11 +132,7 @@ class InvalidArchive(InvalidInput):
 
     reason: str
     entry: str | None = None
-    template = "{_place}{reason}"
-
-    @property
-    def _place(self) -> str:
-        return _prefix(None if self.entry is None else f"entry {quoted(self.entry)}")
+    template = "<entry {entry!q}: >{reason}"
 
 
 class InvalidRobotFolder(InvalidInput):
@@ -297,11 +280,7 @@ class UnknownRobot(NotFound):
 
     robot: str
     close: tuple[str, ...] = ()
-    template = "there is no robot named {robot!q}{_hint}"
-
-    @property
-    def _hint(self) -> str:
-        return f"; did you mean {listed(self.close)}?" if self.close else ""
+    template = "there is no robot named {robot!q}<; did you mean {close!q}?>"
 
 
 class UnknownFrame(NotFound):
@@ -310,11 +289,7 @@ class UnknownFrame(NotFound):
     frame: str
     known: tuple[str, ...]
     field: str | None = None
-    template = "{_place}the robot has no frame {frame!q}; its frames are {known!q}"
-
-    @property
-    def _place(self) -> str:
-        return _prefix(None if self.field is None else quoted(self.field))
+    template = "<{field!q}: >the robot has no frame {frame!q}; its frames are {known!q}"
 
 
 class UnknownMesh(NotFound):

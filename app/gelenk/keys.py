@@ -8,8 +8,8 @@ import os
 import sys
 from pathlib import Path
 
+from gelenk.contract.endpoint import Scope
 from gelenk.http.access.keyring import InvalidKeys, Key, new_key, read_keys
-from gelenk.http.messages.scopes import Scope
 
 
 def main() -> None:

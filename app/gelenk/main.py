@@ -13,7 +13,7 @@ from fastapi.routing import iter_route_contexts
 
 from gelenk import __version__
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.endpoints import ENDPOINTS, ROBOT_ENDPOINTS
+from gelenk.contract.endpoints import ENDPOINTS
 from gelenk.http import dispatch, documentation, studio
 from gelenk.http.access.audit_log import AuditLog
 from gelenk.http.access.hosts import TrustedHosts, repeated
@@ -26,24 +26,21 @@ from gelenk.http.access.route_table import RouteTable
 from gelenk.http.access.tracing import TracedId, exporter_variables, telemetry
 from gelenk.http.jobs.jobs import jobs_router
 from gelenk.http.jobs.long_works import LONG_WORK
-from gelenk.http.jobs.workspace import SampleLimits, workspace_route, workspace_work
 from gelenk.http.messages import openapi, problems
-from gelenk.http.messages.bodies import Bodies
+from gelenk.http.messages.payloads import Bodies
 from gelenk.http.messages.routes import Application
-from gelenk.http.robots.robots import robots_router, upload_routes
-from gelenk.http.robots.table import table_route
+from gelenk.http.robots.robots import documented_routes, robots_router
 from gelenk.http.service import Readiness, service_router
-from gelenk.http.workers.context import ContextSetup
 from gelenk.http.workers.pool_client import PoolClient
-from gelenk.jobs import workspace
+from gelenk.http.workers.task import Context
 from gelenk.jobs.cluster import Cluster
-from gelenk.jobs.runner import Kind, Runner
+from gelenk.jobs.runner import Runner
 from gelenk.jobs.store import JobLimits, JobStore
 from gelenk.jobs.workers import PoolExecutor
 from gelenk.operations.outcome import Limits
 from gelenk.pool.pool import WorkerPool
 from gelenk.settings import Settings
-from gelenk.store.library import Quota
+from gelenk.store.library import Library, Quota
 
 DESCRIPTION = """
 Takes a URDF or a Denavit-Hartenberg table, converts each into the other, and computes forward and inverse kinematics,
@@ -66,15 +63,15 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         settings: Settings of the operator.
         pool: Worker pool for long requests and parts of jobs; created if left out.
     """
-    most, seconds = settings.max_answer_numbers, settings.request_seconds
+    seconds = settings.request_seconds
     quota = Quota(settings.client_robots, settings.client_robot_bytes)
-    limits = Limits(most, seconds, settings.job_bytes)
-    setup = ContextSetup(settings.catalogue_dir, settings.data_dir / "robots", limits, quota)
-    library = setup.library()
+    limits = Limits(settings.max_answer_numbers, seconds, settings.job_bytes, settings.max_job_samples)
+    context = Context(settings.catalogue_dir, settings.data_dir / "robots", limits, quota)
+    library = Library(context.catalogue, context.uploads, quota)
     pool = pool or WorkerPool(
         settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes, settings.job_processes
     )
-    pool_client = PoolClient(pool, setup, library, seconds, settings.client_requests)
+    pool_client = PoolClient(pool, context, library, seconds, settings.client_requests)
     runner = _runner(settings, limits, pool)
     audit = AuditLog(settings.data_dir / "audit")
     metrics = Metrics(library.catalogue_names, pool, runner.store.states)
@@ -94,7 +91,6 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         audit.close()
 
     app = Application(
-        settings.max_body_bytes,
         Bodies(max(settings.held_body_bytes, settings.max_body_bytes)),
         is_traced=bool(settings.otlp_endpoint),
         telemetry=telemetry(bool(settings.otlp_endpoint)),
@@ -122,27 +118,23 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     problems.install(app)
     size = settings.max_body_bytes
     app.include_router(robots_router(library, pool_client))
-    app.router.routes.extend(upload_routes(pool_client, size))
+    app.router.routes.extend(documented_routes(pool_client, size))
     for endpoint in ENDPOINTS:
         handler = dispatch.handler(endpoint, pool_client, runner, limits)
-        app.router.routes.append(dispatch.route(endpoint, handler, size))
+        route = dispatch.route(endpoint, handler, size)
+        app.router.routes.append(route)
         if isinstance(endpoint, RobotEndpoint):
-            app.operations[endpoint.name] = handler
-    app.router.routes.append(table_route(pool_client, size))
-    samples = SampleLimits(settings.max_job_samples, most)
-    app.router.routes.append(workspace_route(runner, pool_client, samples, size))
+            app.operations[endpoint.name] = route
     app.include_router(jobs_router(runner))
     app.include_router(service_router(readiness, metrics))
     documentation.install(app)
     studio.install(app)
-    queries = [endpoint.options for endpoint in ROBOT_ENDPOINTS if endpoint.options is not None]
-    openapi.describe(app, bool(settings.api_keys), queries)
+    openapi.describe(app, bool(settings.api_keys))
     app.entry = _middleware(app, settings, metrics, audit)
     return app
 
 
 def _runner(settings: Settings, limits: Limits, pool: WorkerPool) -> Runner:
-    """Build the runner of the jobs."""
     kept = JobLimits(
         kept=settings.kept_jobs,
         kept_bytes=settings.kept_job_bytes,
@@ -150,8 +142,7 @@ def _runner(settings: Settings, limits: Limits, pool: WorkerPool) -> Runner:
         job_bytes=settings.job_bytes,
         kept_seconds=settings.kept_job_days * 24 * 3600.0,
     )
-    kinds: dict[str, Kind] = {workspace.KIND: workspace_work}
-    kinds |= {name: partial(long.work, limits) for name, long in LONG_WORK.items()}
+    kinds = {name: partial(long.work, limits) for name, long in LONG_WORK.items()}
     store = JobStore(settings.data_dir / "jobs", kept)
     workers = PoolExecutor(pool)
     executor = Cluster(settings.ray_address) if settings.ray_address else workers

@@ -156,14 +156,7 @@ def is_loopback(host: str) -> bool:
 
 
 def _room_for_connections(processes: int) -> int:
-    """Return how many connections each process of the service may have open; each is a file to the system.
-
-    Args:
-        processes: Number of processes that each of them has for its work.
-
-    Raises:
-        SystemExit: There is room for hardly any.
-    """
+    """Return how many connections, files to the system, each process may have open, beside its own `processes`."""
     hard = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
     resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))  # the usual limit is for programs that use `select`
     own = _OWN_FILES + _FILES_A_PROCESS * processes

@@ -17,8 +17,8 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
+from gelenk.contract.endpoint import Scope
 from gelenk.http.access.keyring import new_key
-from gelenk.http.messages.scopes import Scope
 from tests.benchmarks.load import CROWD_NICENESS, FK, Call, asked, p99, request_of, serving
 from tests.benchmarks.table import Row
 

@@ -15,8 +15,8 @@ import yaml  # type: ignore[import-untyped]
 from prometheus_client.parser import text_string_to_metric_families
 from starlette.testclient import TestClient
 
+from gelenk.contract.endpoint import Scope
 from gelenk.http.access.keyring import new_key
-from gelenk.http.messages.scopes import Scope
 from tests.deploy.monitoring import PROMETHEUS, alerts, dashboard_queries, panels, program, read_yaml, selectors
 from tests.http.conftest import ready_client
 from tests.test_serve import HOST, free_port, get, service

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from gelenk.contract.endpoint import Scope
 from gelenk.http.access.keyring import new_key
-from gelenk.http.messages.scopes import Scope
 from tests.deploy import unit
 from tests.test_serve import get, service
 

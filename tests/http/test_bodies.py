@@ -15,8 +15,7 @@ from starlette.responses import Response
 
 from gelenk.connections import ConnectionLimits, Gate
 from gelenk.http.messages import problems
-from gelenk.http.messages.bodies import SMALL, Bodies
-from gelenk.http.messages.payloads import BoundedRequest
+from gelenk.http.messages.payloads import SMALL, Bodies, BoundedRequest
 from gelenk.main import create_app
 from gelenk.settings import Settings
 from tests.test_connections import answer, connected, served, wait_for

@@ -14,10 +14,10 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
+from gelenk.contract.endpoint import Scope
 from gelenk.contract.trajectory_request import TrajectoryRequest
 from gelenk.http.access.keyring import new_key
-from gelenk.http.messages.preference import wants_answer_later
-from gelenk.http.messages.scopes import Scope
+from gelenk.http.messages.payloads import wants_answer_later
 from gelenk.ik import solve
 from gelenk.ik.search import problem
 from gelenk.main import create_app

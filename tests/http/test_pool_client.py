@@ -10,8 +10,8 @@ import pytest
 from starlette.requests import Request
 from starlette.testclient import TestClient
 
+from gelenk.contract.endpoint import Scope
 from gelenk.http.access.keyring import new_key
-from gelenk.http.messages.scopes import Scope
 from gelenk.http.workers.pool_client import client_of
 from gelenk.main import create_app
 from gelenk.settings import Settings

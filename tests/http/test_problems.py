@@ -14,11 +14,11 @@ from starlette.requests import Request
 from starlette.testclient import TestClient
 
 from gelenk import errors
-from gelenk.http.messages.bodies import Bodies
 from gelenk.http.messages.npy import read_npy
+from gelenk.http.messages.payloads import Bodies
 from gelenk.http.messages.problems import status_of
-from gelenk.http.workers.context import ContextSetup
 from gelenk.http.workers.pool_client import PoolClient
+from gelenk.http.workers.task import Context
 from gelenk.jobs.job import Failure
 from gelenk.jobs.runner import Runner
 from gelenk.jobs.store import JobLimits, JobStore
@@ -164,8 +164,8 @@ def by_a_crew(function: Callable[[Any], object], argument: object, seconds: floa
 
 def of_a_client(share: int) -> None:
     request = Request({"type": "http", "headers": [], "client": ("10.0.0.7", 50000)})
-    setup = ContextSetup(CATALOGUE, CATALOGUE / "none", Limits(1, 1.0))
-    pool_client = PoolClient(WorkerPool(1, 1, 1), setup, setup.library(), 1.0, share)
+    setup = Context(CATALOGUE, CATALOGUE / "none", Limits(1, 1.0))
+    pool_client = PoolClient(WorkerPool(1, 1, 1), setup, setup.library, 1.0, share)
     asyncio.run(pool_client.resident(request, "somebody"))
 
 

@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
+from gelenk.contract.endpoint import Scope
 from gelenk.http.access.keyring import new_key
-from gelenk.http.messages.scopes import Scope
 from gelenk.main import create_app
 from gelenk.settings import Settings
 from gelenk.store.library import Library, RobotUpload

@@ -9,7 +9,7 @@ import pytest
 
 from gelenk.store import index
 from gelenk.store.library import Library, RobotUpload
-from gelenk.store.records import Record, Source, read_record
+from gelenk.store.records import Record, uploaded_record
 
 URDF = (
     b'<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous">'
@@ -86,11 +86,11 @@ def test_another_process_lists_robots_without_reading_each(
         one.add(upload(f"r{number}"))
     read: list[str] = []
 
-    def noted(folder: Path, source: Source) -> Record | None:
+    def noted(folder: Path) -> Record | None:
         read.append(folder.name)
-        return read_record(folder, source)
+        return uploaded_record(folder)
 
-    monkeypatch.setattr(index, "read_record", noted)
+    monkeypatch.setattr(index, "uploaded_record", noted)
     assert len(listed(other)) == 10
     one.replace(upload("r3", "another"))
     one.remove("r4")

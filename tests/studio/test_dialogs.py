@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Request, expect
 
+from gelenk.contract.endpoint import Scope
 from gelenk.http.access.keyring import new_key
-from gelenk.http.messages.scopes import Scope
 from tests.studio.browser import Studio
 from tests.studio.test_page import AXE
 from tests.studio.test_workspace import compute

@@ -2,6 +2,7 @@
 
 - `endpoint`: the declaration of an operation. `endpoints`: the table of all, from which routes, client, command line,
   scopes and reference are built. A module with an operation's name has its request, its answer and its `ENDPOINT`.
+  `resources`: operations on stored robots and jobs, and about the service.
 - `common`: the strict base of all payloads, names, chains. `kinematics`: configurations, matrices, certificates.
 - `pose`: poses in every notation. `dh`: Denavit-Hartenberg tables.
 - `quantities`, `course_motion`, `formulas`: shared by several calculators of the course.

@@ -1,6 +1,6 @@
 """The table of all operations, which server, client, command line, workers and reference use.
 
-It has the `ENDPOINT` of each module of this package that declares one.
+It has the `ENDPOINT` of each module of this package that declares one, and the `resources`.
 """
 
 import pkgutil
@@ -8,7 +8,8 @@ from importlib import import_module
 from typing import Any, get_args
 
 from gelenk import contract
-from gelenk.contract.endpoint import Endpoint, RobotEndpoint, Tag
+from gelenk.contract.endpoint import Endpoint, RobotEndpoint, Route, Tag
+from gelenk.contract.resources import RESOURCES
 
 
 def _declared() -> list[Endpoint[Any, Any]]:
@@ -22,8 +23,10 @@ _TAGS = get_args(Tag)
 ENDPOINTS: tuple[Endpoint[Any, Any], ...] = tuple(
     sorted(_declared(), key=lambda endpoint: (_TAGS.index(endpoint.tag), endpoint.name))
 )
-"""All operations, sorted by tag and name."""
+"""All operations with a request and an answer in JSON, sorted by tag and name."""
 ROBOT_ENDPOINTS: tuple[RobotEndpoint[Any, Any], ...] = tuple(
     endpoint for endpoint in ENDPOINTS if isinstance(endpoint, RobotEndpoint)
 )
 BY_NAME = {endpoint.name: endpoint for endpoint in ENDPOINTS}
+ROUTES: dict[str, Route] = {route.id: route for route in (*RESOURCES, *ENDPOINTS)}
+"""All operations of the API by their ids."""

@@ -1,11 +1,12 @@
-"""The numeric workspace: request and answer."""
+"""The numeric workspace: request, result, operation."""
 
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, Payload
-from gelenk.contract.jobs import JobName
+from gelenk.contract.endpoint import RobotEndpoint, Scope
+from gelenk.contract.jobs import JobInfo, JobName
 from gelenk.contract.kinematics import TaskDirections
 from gelenk.contract.pose import Vector3
 from gelenk.kinematics.judge.words import WorkspaceCertificate
@@ -216,3 +217,25 @@ class WorkspaceAnswer(Answer):
     array: ArrayInfo
     notes: list[str] = Field(description="Assumptions, and what is special about the chain.")
     certificate: WorkspaceCertificate
+
+
+ENDPOINT = RobotEndpoint(
+    name="workspace",
+    request=WorkspaceRequest,
+    answer=JobInfo,
+    is_job=True,
+    scope=Scope.WRITE,
+    summary="Workspace",
+    description="""
+    Samples the workspace of any chain within its joint limits, as a job.
+
+    The reply is immediate, with the job's address in `Location`; `GET` that, or its `/events`, until `state` is
+    `succeeded`, then get `/result`: as JSON a summary (extent, reach, volume, the largest manipulability, how well
+    a sample of it agrees with Pinocchio), as npy the positions or voxels, as SVG or PNG a picture.
+
+    The same request gives the same result, whatever the number of processes. Samples are uniform in joint space:
+    regions that few configurations lead to need more of them, and `late_share` shows whether there were enough. For
+    planar arms `/v1/course/workspace` gives the exact workspace.
+    """,
+    example={"kind": "cloud", "samples": 100_000, "tip_frame": "panda_link8", "job_id": "panda-workspace"},
+)

@@ -7,6 +7,7 @@ name and the request as it arrived.
 import asyncio
 import pickle
 from collections.abc import Callable
+from inspect import Parameter, Signature
 from typing import Any, cast
 
 from starlette.datastructures import QueryParams
@@ -18,36 +19,26 @@ from gelenk.errors import InvalidArray, InvalidField
 from gelenk.http.jobs.long_work import submitted
 from gelenk.http.jobs.long_works import LONG_WORK
 from gelenk.http.messages.npy import npy_response, read_npy
-from gelenk.http.messages.openapi import (
-    JOB_BEGUN,
-    PreferHeader,
-    RobotPath,
-    csv_content,
-    json_example,
-    npy_body,
-    npy_content,
-    picture_content,
-    problem_responses,
-)
+from gelenk.http.messages.openapi import PreferHeader, RobotPath, endpoint_documentation
 from gelenk.http.messages.payloads import (
     CSV,
     JSON,
     NO_ARRAY,
     NPY,
     PNG,
+    PREFERENCE_APPLIED,
     SVG,
     BoundedRequest,
     csv_response,
     json_response,
     read_json,
     read_query,
+    wants_answer_later,
 )
-from gelenk.http.messages.preference import wants_answer_later
 from gelenk.http.messages.problems import UnsupportedMediaType
 from gelenk.http.messages.routes import DocumentedRoute, Handler
-from gelenk.http.workers.context import Context
 from gelenk.http.workers.pool_client import INLINE_BYTES, PoolClient
-from gelenk.http.workers.task import TaskRequest, buffers
+from gelenk.http.workers.task import Context, TaskRequest, buffers
 from gelenk.jobs.runner import Runner
 from gelenk.operations.operation import Operation, operation
 from gelenk.operations.outcome import Limits, Outcome, PictureFormat
@@ -88,7 +79,7 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
         limits: Limits on the work for an answer.
     """
     offered, accepted = _offered(endpoint), (JSON, NPY) if _has_npy_body(endpoint) else (JSON,)
-    can_be_job = isinstance(endpoint, RobotEndpoint) and bool(endpoint.job)
+    can_be_job, is_job = bool(getattr(endpoint, "job", "")), getattr(endpoint, "is_job", False)
 
     async def handle(request: BoundedRequest) -> Response:
         if request.media_type not in accepted:
@@ -100,9 +91,9 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
             robot = request.path_params.get("robot", "")
             return TaskRequest(buffers(pieces), robot, query, is_npy, wanted, endpoint.name)
 
-        if can_be_job and wants_answer_later(request.scope["headers"]):
+        if is_job or (can_be_job and wants_answer_later(request.scope["headers"])):
             planned = await pool_client.content(request, plan_job, task_request())
-            return await submitted(runner, endpoint.name, request, planned)
+            return await submitted(runner, endpoint.name, request, planned, {} if is_job else PREFERENCE_APPLIED)
         if request.length <= INLINE_BYTES and not pool_client.pool.is_starting:
             call, found = _parsed(endpoint, query, b"".join(pieces), is_npy), operation(endpoint.name)
             if wanted not in _PICTURES and not found.is_heavy(call):
@@ -135,53 +126,21 @@ async def _on_the_loop(
 
 def route(endpoint: Endpoint[Any, Any], handle: Handler, max_body_bytes: int) -> DocumentedRoute:
     """Return the route of an endpoint: it documents the operation and refuses other methods."""
-
-    def endpoint_of_robot(robot: str, call: Any) -> Any: ...
-
-    def endpoint_or_job(robot: str, call: Any, prefer: str | None = None) -> Any: ...
-
-    def endpoint_alone(call: Any) -> Any: ...
-
-    described: Callable[..., Any] = endpoint_alone
-    types: dict[str, Any] = {"call": endpoint.request, "return": endpoint.answer}
-    statuses, contents = [400, 413, 415, 422], picture_content(endpoint.picture)
-    body, responses, text = json_example(endpoint.example), {}, [endpoint.text]
-    if isinstance(endpoint, RobotEndpoint) or endpoint.robot_field or endpoint.tag == "DH tables":
-        statuses.append(404)
+    types: dict[str, Any] = {"call": endpoint.request}
     if isinstance(endpoint, RobotEndpoint):
-        described, types = endpoint_of_robot, {"robot": RobotPath, **types}
-        contents = {**npy_content(endpoint.npy_answer), **csv_content(endpoint.table), **contents}
-        if endpoint.options is not None:
-            body |= npy_body(endpoint.npy_body, endpoint.options)
-        if endpoint.job:
-            described, types = endpoint_or_job, {**types, "prefer": PreferHeader}
-            responses = {**JOB_BEGUN, **problem_responses(507)}
-            text.append(_job_note(endpoint.job))
-    described.__annotations__ = types
-    return DocumentedRoute(
-        f"/{endpoint.path}",
-        described,
-        handle,
-        max_body_bytes,
-        methods=["POST"],
-        operation_id=endpoint.operation_id or endpoint.name,
-        summary=endpoint.summary,
-        description="\n\n".join(text),
-        tags=[endpoint.tag],
-        responses={
-            **({200: {"content": contents}} if contents else {}),
-            **problem_responses(*statuses),
-            **responses,
-        },
-        openapi_extra={"requestBody": {"content": body}},
-    )
+        types = {"robot": RobotPath, **types, **({"prefer": PreferHeader} if endpoint.job else {})}
 
+    def described(**_: Any) -> Any: ...
 
-def _job_note(more: str) -> str:
-    return (
-        "With `Prefer: respond-async` the call is checked and a job computes the same answer: the reply is 202 with "
-        f"the job's address in `Location`. Then there may be {more}."
+    described.__signature__ = Signature(  # type: ignore[attr-defined]
+        [
+            Parameter(
+                name, Parameter.KEYWORD_ONLY, annotation=kind, default=None if name == "prefer" else Parameter.empty
+            )
+            for name, kind in types.items()
+        ]
     )
+    return DocumentedRoute(described, handle, max_body_bytes, **endpoint_documentation(endpoint))
 
 
 def _has_npy_body(endpoint: Endpoint[Any, Any]) -> bool:
@@ -189,7 +148,6 @@ def _has_npy_body(endpoint: Endpoint[Any, Any]) -> bool:
 
 
 def _offered(endpoint: Endpoint[Any, Any]) -> tuple[str, ...]:
-    """Return the media types of the answer, the default first."""
     arrays = (NPY, *((CSV,) if endpoint.table else ())) if isinstance(endpoint, RobotEndpoint) else ()
     return (JSON, *arrays, *((SVG, PNG) if endpoint.picture else ()))
 

@@ -10,11 +10,10 @@ from http import HTTPStatus
 from pathlib import Path
 
 from fastapi import APIRouter, Request
-from starlette.responses import PlainTextResponse, Response
+from starlette.responses import Response
 
-from gelenk.contract.health import Health
 from gelenk.http.access.metrics import Metrics
-from gelenk.http.messages.openapi import problem_responses
+from gelenk.http.messages.openapi import documentation
 from gelenk.http.messages.payloads import json_response
 from gelenk.http.messages.problems import problem
 from gelenk.kinematics.warm_up import warm_up
@@ -80,26 +79,14 @@ class Readiness:
 
 def service_router(readiness: Readiness, metrics: Metrics) -> APIRouter:
     """Return the router of health, readiness and metrics."""
-    router = APIRouter(tags=["Service"])
+    router = APIRouter()
 
-    @router.get("/healthz", operation_id="health", summary="Is the process alive?", response_model=Health)
+    @router.api_route(**documentation("health"))
     async def health() -> Response:
-        """Answers as long as the process is alive."""
         return json_response({"status": "alive"})
 
-    @router.get(
-        "/readyz",
-        operation_id="readiness",
-        summary="Is it ready for work?",
-        response_model=Health,
-        responses=problem_responses(503),
-    )
+    @router.api_route(**documentation("readiness"))
     async def ready(request: Request) -> Response:
-        """503 with `waiting_for` and `reasons` until everything is ready; `failure` says what went wrong.
-
-        `kernels`: compiled at the first start. `crew`: processes for long work. `jobs`: no cluster runs them.
-        `storage`: nothing can be stored, because the disk is full or read-only; stored data can still be read.
-        """
         missing = await readiness.missing()
         if not missing:
             return json_response({"status": "ready"})
@@ -112,18 +99,8 @@ def service_router(readiness: Readiness, metrics: Metrics) -> APIRouter:
             response.headers["Retry-After"] = "1"
         return response
 
-    @router.get(
-        "/metrics",
-        operation_id="metrics",
-        summary="Metrics",
-        response_class=PlainTextResponse,
-        responses={200: {"description": "Prometheus's text format"}},
-    )
+    @router.api_route(**documentation("metrics"))
     async def tell_metrics() -> Response:
-        """Latencies and batch sizes by operation and robot, verdicts and iterations of inverse kinematics, queues.
-
-        Covers all worker processes together, in Prometheus's text format.
-        """
         metrics.publish()
         return Response(await asyncio.to_thread(metrics.text), media_type="text/plain; version=0.0.4; charset=utf-8")
 

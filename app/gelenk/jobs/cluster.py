@@ -80,7 +80,6 @@ class Cluster:
         return future
 
     def _drop(self, number: int, future: "Future[Any]") -> None:
-        """Stop a part that was cancelled."""
         if not future.cancelled():
             return
         with self._lock:
@@ -168,7 +167,6 @@ class Cluster:
         self._fail(error)
 
     def _fail(self, error: Exception) -> None:
-        """Let all parts in progress fail with an error."""
         futures, self._futures = list(self._futures.values()), {}
         for future in futures:
             with contextlib.suppress(InvalidStateError):

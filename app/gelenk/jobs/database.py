@@ -84,8 +84,7 @@ class Database:
     def transaction(self, is_durable: bool = True) -> Iterator[None]:
         """Run the context as one transaction, which excludes all other writers.
 
-        Args:
-            is_durable: Whether the changes are on disk when the context ends; otherwise the system decides when.
+        If it is durable, the changes are on disk when the context ends; otherwise the system decides when.
 
         Raises:
             StorageFailed: The file cannot be written; `StorageFull` if the disk has no room.

@@ -27,7 +27,6 @@ def import_earlier(root: Path, database: Database) -> None:
 
 
 def _read(path: Path) -> JobRecord | None:
-    """Return the job in a file; None if the file holds no valid job."""
     with suppress(OSError, ValueError, TypeError, KeyError):
         row = orjson.loads(folders.read_plain(path))
         job = JobRecord.from_row({**row, "failure": row["failure"] and orjson.dumps(row["failure"])})

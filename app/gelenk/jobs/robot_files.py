@@ -31,13 +31,7 @@ class RobotText(NamedTuple):
 
 
 def robot_files(name: str, robot: RobotModel, urdf: str) -> dict[str, bytes]:
-    """Return the files, by name, that store a robot in a request.
-
-    Args:
-        name: Name of the robot.
-        robot: The robot, for its default chain.
-        urdf: URDF of the robot.
-    """
+    """Return the files, by name, that store a robot in a request."""
     return {_URDF: urdf.encode(*_ENCODING), _ABOUT: orjson.dumps([name, *robot.default_chain])}
 
 
@@ -47,11 +41,7 @@ def robot_digest(request: Mapping[str, bytes]) -> str | None:
 
 
 def robot_text(folder: Path) -> RobotText:
-    """Return the robot stored in the folder of a request.
-
-    Raises:
-        OSError: A file cannot be read.
-    """
+    """Return the robot stored in the folder of a request."""
     name, base_frame, tip_frame = orjson.loads(read_plain(folder / _ABOUT))
     return RobotText(name, read_plain(folder / _URDF), (base_frame, tip_frame))
 

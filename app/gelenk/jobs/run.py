@@ -5,7 +5,7 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from concurrent.futures import TimeoutError as NotYet
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import IO, Any, Protocol, TypeAlias, TypeVar
 
 from gelenk.errors import JobFailed, UnknownJob
@@ -68,10 +68,10 @@ class Run:
     workers: PoolExecutor
     store: JobStore
     parts: Parts
-    _looked: float = field(default=0.0)
-    _written: float = field(default=0.0)
-    _progress: float = field(default=0.0)
-    _is_further: bool = field(default=False)
+    _looked: float = 0.0
+    _written: float = 0.0
+    _progress: float = 0.0
+    _is_further: bool = False
 
     def map(
         self,
@@ -93,12 +93,9 @@ class Run:
             size: Number of items per part, such as samples; used in the message about a failed part.
 
         Raises:
-            Cancelled: The job was cancelled or removed.
-            OutOfTime: The job has exceeded its time limit.
             TooLarge: The parts take more room than a job may use.
             StorageFailed: A part cannot be written.
-            JobFailed: The processes that computed a part died.
-            Exception: Any exception of the function.
+            Exception: As for `apart`.
         """
         waiting: deque[Future[bytes | int] | None] = deque()
         try:
@@ -135,25 +132,19 @@ class Run:
         The process has access to the disk and, unlike a thread of the service, does not delay the event loop.
 
         Raises:
+            JobFailed: The process died.
             Cancelled: The job was cancelled or removed.
             OutOfTime: The job has exceeded its time limit.
-            JobFailed: The process died.
             Exception: Any exception of the function.
         """
-        future = self.workers.submit(function, argument, self.until)
+        future: Future[_Result] = self.workers.submit(function, argument, self.until)
         try:
-            result: _Result = self._wait(future)
+            return self._wait(future)
         except ChildProcessError as error:
             raise JobFailed(str(error)) from error
-        return result
 
     def report(self, progress: float) -> None:
-        """Report the progress of the job, and check from time to time whether the job may continue.
-
-        Raises:
-            Cancelled: The job was cancelled or removed.
-            OutOfTime: The job has exceeded its time limit.
-        """
+        """Report the progress of the job; raise `Cancelled` or `OutOfTime` if it may not continue."""
         self._progress = max(self._progress, progress)
         if time.monotonic() > self._looked + _LOOK:
             self._look()
@@ -170,19 +161,17 @@ class Run:
 
     def _look(self) -> None:
         self._looked = time.monotonic()
+        news: dict[str, Any] = {}
+        if self._looked >= self._written + _WRITE:
+            self._written = self._looked
+            news = {"progress": max(self._progress, self.job.progress)}
+            if self._is_further:  # earlier attempts no longer count
+                news["attempts"] = 1
         try:
-            job = self.store.change(self.job, **self._news())
+            job = self.store.change(self.job, **news)
         except UnknownJob:
             raise Cancelled from None
         if job.is_final:
             raise Cancelled
         if self._looked > self.until:
             raise OutOfTime
-
-    def _news(self) -> dict[str, Any]:
-        """Return the fields to write, if it is time to; after progress, earlier attempts no longer count."""
-        if self._looked < self._written + _WRITE:
-            return {}
-        self._written = self._looked
-        further = {"attempts": 1} if self._is_further else {}
-        return {"progress": max(self._progress, self.job.progress), **further}

@@ -48,11 +48,11 @@ class Runner:
     """Runs the jobs of this process of the service, and gives access to the results of all jobs.
 
     Args:
-        store: Where jobs are kept.
-        kinds: What does a job, by its kind.
+        store: All jobs.
+        kinds: The kinds of jobs by their names.
         workers: The pool of this process, which puts results together and draws pictures of them.
-        running: How many jobs are done at a time; see `Turns` for when there are more.
-        seconds: How long a job may take from when it is started.
+        running: Number of jobs that run at a time; see `Turns` for when there are more.
+        seconds: Longest run time of a job, [s].
         executor: Computes their parts; the processes of this machine if left out.
         is_local: Whether these compute if the executor is lost; jobs wait otherwise.
     """
@@ -74,7 +74,7 @@ class Runner:
         self._turned = threading.Condition()
         self._threads: list[threading.Thread] = []
         self._lock = threading.Lock()
-        self._unsaid: dict[str, tuple[JobRecord, Failure]] = {}
+        self._unrecorded: dict[str, tuple[JobRecord, Failure]] = {}
         self._waiting: list[JobRecord] = []
         self._closed = threading.Event()
 
@@ -93,20 +93,10 @@ class Runner:
     def submit(
         self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None, client: str = ""
     ) -> JobRecord:
-        """Submit a job, or return the existing one with the same id and request.
-
-        Args:
-            kind: Name of the kind of job.
-            digest: Digest of the request.
-            request: Files of the request by name, for the kind of job to read.
-            job_id: Id of the job; random if omitted.
-            client: Client that submits the job.
+        """Submit a job, or return the existing one with the same id and request; see `JobStore.add`.
 
         Raises:
-            JobExists: A job with another request has this id.
-            TooManyJobs: Too many jobs are unfinished.
             ServiceStopping: The service is shutting down.
-            StorageFailed: The job cannot be written.
         """
         if self._closed.is_set():
             raise ServiceStopping
@@ -116,18 +106,14 @@ class Runner:
         return job
 
     def cancel(self, job_id: str, *, remove: bool = False) -> JobRecord:
-        """Cancel an unfinished job, whichever process runs it.
-
-        Args:
-            job_id: Id of the job.
-            remove: Whether to remove the job with its results if it is finished.
+        """Cancel an unfinished job, whichever process runs it; if `remove`, remove a finished one with its results.
 
         Returns:
-            The cancelled job, or the removed job as it was before.
+            The job as it is now, or as it was before it was removed.
 
         Raises:
             UnknownJob: No job has this id.
-            JobFinished: The job was already finished, or finished at this moment, and is kept.
+            JobFinished: The job was already finished, or finished at this moment, and stays.
         """
         was_final = self.store.get(job_id).is_final
         job = self.store.change(job_id, state="cancelled")
@@ -198,7 +184,9 @@ class Runner:
                         self._do_later(job)
                     while self._waiting:
                         self._do_later(self._waiting.pop(0))
-                self._say_again()
+                for job, failure in list(self._unrecorded.values()):
+                    self._record_failure(job, failure)
+                    self._clear(job)
                 self.store.tidy()
             except (KinematicsError, OSError) as error:
                 logger.warning("unfinished jobs cannot be resumed: %s", error)
@@ -238,7 +226,7 @@ class Runner:
     def _do(self, job: JobRecord) -> None:
         """Run a job to its end; record any error in the job instead of raising it."""
         try:
-            self._done(job, time.monotonic() + self._seconds)
+            self._run(job, time.monotonic() + self._seconds)
         except Unavailable as reason:
             self._postpone(job, reason)
         except (Cancelled, UnknownJob):
@@ -256,7 +244,7 @@ class Runner:
         finally:
             self._clear(job)
 
-    def _done(self, job: JobRecord, until: float) -> None:
+    def _run(self, job: JobRecord, until: float) -> None:
         if self.failure is not None:
             raise Unavailable(self.failure)
         job = self.store.start(job)
@@ -276,7 +264,6 @@ class Runner:
         self.store.change(job, state="succeeded", progress=1.0)
 
     def _clear(self, job: JobRecord) -> None:
-        """Remove the request and the parts of a job if the job has ended."""
         with contextlib.suppress(KinematicsError, OSError):
             now = self.store.get(job.id)
             if now.is_final and now.created == job.created:
@@ -292,26 +279,21 @@ class Runner:
             self._waiting.append(job)
 
     def _leave(self, job: JobRecord) -> None:
-        """Set a job back to queued, for a later run; the interrupted run does not count as an attempt."""
+        """Set a job back to queued; the interrupted run does not count as an attempt."""
         with contextlib.suppress(KinematicsError):
             self.store.change(job, state="queued", attempts=0)
 
     def _fail(self, job: JobRecord, failure: Failure) -> None:
-        """Mark a job as failed; if the disk cannot store even that, retry later."""
+        """Mark a job as failed; if the disk cannot store even that, `_take_up` tries again."""
         with contextlib.suppress(KinematicsError, OSError):
             self.store.parts(job).clear()  # the disk may be full
         try:
-            self.store.change(job, state="failed", failure=failure)
-        except UnknownJob:
-            return
+            self._record_failure(job, failure)
         except KinematicsError as error:
             logger.warning("job %s: %s", job.id, error.detail)
-            self._unsaid[job.id] = job, failure
+            self._unrecorded[job.id] = job, failure
 
-    def _say_again(self) -> None:
-        """Retry to mark jobs as failed that could not be marked before."""
-        for job, failure in list(self._unsaid.values()):
-            with contextlib.suppress(UnknownJob):
-                self.store.change(job, state="failed", failure=failure)
-            del self._unsaid[job.id]
-            self._clear(job)
+    def _record_failure(self, job: JobRecord, failure: Failure) -> None:
+        with contextlib.suppress(UnknownJob):
+            self.store.change(job, state="failed", failure=failure)
+        self._unrecorded.pop(job.id, None)

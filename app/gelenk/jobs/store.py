@@ -121,7 +121,7 @@ class JobStore:
             found = None if job_id is None else self._find(job_id)
             if found is not None and found.digest != digest:
                 raise JobExists(found.id)
-            if found is not None and not _was_interrupted(found):
+            if found is not None and not (found.failure and found.failure.error == JobInterrupted.__name__):
                 return self._as_seen(found), False
             self.check_room(client)
             self._remove_oldest()
@@ -135,11 +135,7 @@ class JobStore:
         return job, True
 
     def take_up(self) -> list[JobRecord]:
-        """Take over the unfinished jobs of processes that have ended, and return them, the oldest first.
-
-        Raises:
-            StorageFailed: Nothing can be written.
-        """
+        """Take over the unfinished jobs of processes that have ended, and return them, the oldest first."""
         if not any(self._is_left(job) for job in self._jobs(_UNFINISHED)):
             return []
         with folders.exclusive(self._root):
@@ -174,23 +170,13 @@ class JobStore:
         shutil.rmtree(self.request(job.id), ignore_errors=True)
 
     def get(self, job_id: str) -> JobRecord:
-        """Return the current record of a job.
-
-        Raises:
-            UnknownJob: No job has this id.
-        """
+        """Return the current record of a job; raises UnknownJob if no job has this id."""
         return self._as_seen(self._same(job_id))
 
     def start(self, job: JobRecord) -> JobRecord:
-        """Record the start of a job, on disk when this returns; a finished job is not changed.
-
-        Raises:
-            UnknownJob: The job was removed, or another process owns it now.
-            StorageFailed: The table cannot be written.
-        """
-        return self.change(
-            job, state="running", started=job.started or max(time.time(), job.created), attempts=job.attempts + 1
-        )
+        """Record the start of a job; see `change`."""
+        started = job.started or max(time.time(), job.created)
+        return self.change(job, state="running", started=started, attempts=job.attempts + 1)
 
     def change(self, which: JobRecord | str, **changes: Any) -> JobRecord:
         """Change fields of an unfinished job; a finished job is not changed.
@@ -220,12 +206,7 @@ class JobStore:
         return job
 
     def remove(self, job_id: str) -> None:
-        """Remove a job and its results.
-
-        Raises:
-            UnknownJob: No job has this id.
-            StorageFailed: The job cannot be removed.
-        """
+        """Remove a job and its results; raises UnknownJob if no job has this id."""
         with folders.exclusive(self._root):
             self._remove(self._same(job_id))
 
@@ -267,7 +248,6 @@ class JobStore:
         return replace(job, state="queued") if self._is_left(job) else job
 
     def _is_left(self, job: JobRecord) -> bool:
-        """Return whether a job is unfinished and its process has ended."""
         return not (job.is_final or self._owners.is_alive(job.owner))
 
     def _jobs(self, query: str = _ALL, *values: str) -> list[JobRecord]:
@@ -334,13 +314,7 @@ def write_result(folder: Path, name: str, content: Callable[[IO[bytes]], object]
             raise
 
 
-def _was_interrupted(job: JobRecord) -> bool:
-    """Return whether a job failed with `JobInterrupted`."""
-    return job.failure is not None and job.failure.error == JobInterrupted.__name__
-
-
 def _size(folder: Path) -> int:
-    """Return the total size of the files below a folder, [bytes]."""
     total = 0
     for parent, _, names in os.walk(folder):  # tolerates folders that are removed meanwhile
         for name in names:

@@ -18,7 +18,7 @@ from gelenk.kinematics.workspace.dexterity import Orientations, Over, excluded, 
 from gelenk.kinematics.workspace.sampling import Sampling
 from gelenk.kinematics.workspace.survey import POINT_COLUMNS, VOXEL_COLUMNS, Measures, Survey, Workspace
 from gelenk.kinematics.workspace.tip_motion import TipReach
-from gelenk.kinematics.workspace.voxels import MAX_VOXELS, VoxelTable, merged
+from gelenk.kinematics.workspace.voxels import MAX_VOXELS, Grid, VoxelTable, merged
 from gelenk.kinematics.workspace.workspace import PART, Plane, SampledPart, SamplingPlan, Wish, plan, sampled
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
@@ -100,30 +100,22 @@ def question(name: str, robot: RobotModel, chain: Chain, wish: Wish, over: Over,
 
 def _spread_notes(motion: TipReach, plane: Plane | None, asked: Orientations) -> list[str]:
     """Return notes on why a dexterity map may not be what users expect."""
-    missed = _missed_notes(motion, plane)
-    match asked.spread:
-        case "fixed":
-            return [*missed, "the tip never turns: only this orientation is tested"]
-        case "turns":
-            return [*missed, "the tip rotates about one direction only: only rotations about it are tested"]
-    return missed
-
-
-def _missed_notes(motion: TipReach, plane: Plane | None) -> list[str]:
-    """Return a note if the centres of voxels may lie off the curve, surface, line or plane on which the tip moves."""
+    notes = []
     if motion.kept_to is not None:
-        note = (
+        notes.append(
             f"orientations are asked for at the middles of the voxels, and these are beside the {motion.kept_to} that "
             "the tip keeps to: hardly any is reached, if one is at all"
         )
-        return [note]
-    if plane is None or not 0 < motion.dimensions < 3 or not motion.slice_notes(plane.normal):
-        return []
-    note = (
-        "orientations are asked for at the middles of the voxels: none is reached where the plane's origin is not "
-        "on what the tip keeps to"
-    )
-    return [note]
+    elif plane is not None and 0 < motion.dimensions < 3 and motion.slice_notes(plane.normal):
+        notes.append(
+            "orientations are asked for at the middles of the voxels: none is reached where the plane's origin is not "
+            "on what the tip keeps to"
+        )
+    if asked.spread == "fixed":
+        notes.append("the tip never turns: only this orientation is tested")
+    elif asked.spread == "turns":
+        notes.append("the tip rotates about one direction only: only rotations about it are tested")
+    return notes
 
 
 def work_of(asked: WorkspaceWork) -> Work:
@@ -157,7 +149,6 @@ def _put_together(job: tuple[WorkspaceWork, Parts, str | None]) -> Workspace | N
 
 
 def _files(asked: WorkspaceWork, found: Workspace, dexterity: Array | None, robot_digest: str | None) -> Files:
-    """Return the result files of a job: the array and its summary."""
     table = found.points if found.points is not None else found.voxel_rows(asked.plan)
     array = table if dexterity is None else np.column_stack((table, dexterity))
     told = _summary(asked, found, dexterity) | {"robot_digest": robot_digest}
@@ -220,12 +211,12 @@ def _dexterity(run: Run, asked: WorkspaceWork, found: Workspace) -> Array:
     """Compute the share of the orientations that are reached at the centre of each voxel; shape (M,)."""
     assert asked.asked is not None  # noqa: S101 - called for dexterity maps only
     centres = asked.plan.grid.centres(found.voxels.keys)
-    arm = pickle.dumps(_arm(asked))
+    pickled = pickle.dumps(asked)
     size = max(1, _POSES_AT_ONCE // len(asked.asked.rotations))
 
     def part(k: int) -> tuple[bytes, Array, Indices]:
         cells = slice(k * size, (k + 1) * size)
-        return arm, centres[cells], found.voxels.first[cells]
+        return pickled, centres[cells], found.voxels.first[cells]
 
     count = -(-len(centres) // size)
     run.map(_VOXELS, _shares, part, count, (_SAMPLING_SHARE, _DONE), size)
@@ -246,7 +237,6 @@ def _sampled(job: tuple[SamplingPlan, int]) -> bytes:
 
 
 def _part(content: bytes) -> SampledPart:
-    """Unpack the result of `_sampled`."""
     values = unpacked(content)
     first, count, best = values["numbers"].tolist()
     near, far = values["distances"].tolist()
@@ -258,61 +248,31 @@ def _part(content: bytes) -> SampledPart:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class _Arm:
-    """The input of inverse kinematics in another process.
-
-    Attributes:
-        description: Description of the robot.
-        ends: Base and tip frames of the chain.
-        lower: Lower bounds of the variables; shape (n,), [rad or m].
-        upper: Upper bounds of the variables; shape (n,), [rad or m].
-        sampling: The samples, which include a start configuration for each voxel.
-        orientations: The requested orientations.
-    """
-
-    description: Description
-    ends: tuple[str, str]
-    lower: Array
-    upper: Array
-    sampling: Sampling
-    orientations: Orientations
+def _shares(job: tuple[bytes, Array, Indices]) -> bytes:
+    """Compute the dexterity at some voxels and pack it, in a process of its own; see `shares`."""
+    pickled, centres, numbers = job
+    robot, chain, sampling, spread = _unpacked(pickled)
+    return packed(shares=shares(robot, chain, centres, sampling.chosen(numbers), spread))
 
 
-def _arm(asked: WorkspaceWork) -> _Arm:
+@lru_cache(maxsize=2)
+def _unpacked(pickled: bytes) -> tuple[RobotModel, Chain, Sampling, Orientations]:
     """Return the input of inverse kinematics; revolute joints without limits or a requested range stay unbounded."""
+    asked: WorkspaceWork = pickle.loads(pickled)  # noqa: S301 - written by this service
     assert asked.asked is not None  # noqa: S101
-    chain, ranges = asked.chain, asked.plan.sampling.ranges
+    ends = asked.chain.base_frame, asked.chain.tip_frame
+    robot = RobotModel(asked.description, ends)
+    chain, sampling = robot.chain(*ends), asked.plan.sampling
     sliding = {int(variable) for prismatic, variable in chain.flat.joints if prismatic}
     bound = np.array(
         [i in sliding or name in (asked.wish.ranges or {}) for i, name in enumerate(chain.joint_names)], dtype=bool
     )
-    return _Arm(
-        asked.description,
-        (chain.base_frame, chain.tip_frame),
-        np.where(bound, ranges.lower, chain.lower),
-        np.where(bound, ranges.upper, chain.upper),
-        asked.plan.sampling,
-        asked.asked,
-    )
-
-
-def _shares(job: tuple[bytes, Array, Indices]) -> bytes:
-    """Compute the dexterity at some voxels and pack it, in a process of its own; see `shares`."""
-    pickled, centres, numbers = job
-    robot, chain, arm = _unpacked(pickled)
-    return packed(shares=shares(robot, chain, centres, arm.sampling.chosen(numbers), arm.orientations))
-
-
-@lru_cache(maxsize=2)
-def _unpacked(pickled: bytes) -> tuple[RobotModel, Chain, _Arm]:
-    arm: _Arm = pickle.loads(pickled)  # noqa: S301 - written by this service
-    robot = RobotModel(arm.description, arm.ends)
-    return robot, replace(robot.chain(*arm.ends), lower=arm.lower, upper=arm.upper), arm
+    lower = np.where(bound, sampling.ranges.lower, chain.lower)
+    upper = np.where(bound, sampling.ranges.upper, chain.upper)
+    return robot, replace(chain, lower=lower, upper=upper), sampling, asked.asked
 
 
 def _summary(asked: WorkspaceWork, found: Workspace, dexterity: Array | None) -> dict[str, Any]:
-    """Return the summary of a result, to be written as JSON."""
     chain, work, wish = asked.chain, asked.plan, asked.wish
     return {
         "robot": asked.name,
@@ -328,18 +288,20 @@ def _summary(asked: WorkspaceWork, found: Workspace, dexterity: Array | None) ->
         "joint_ranges": np.column_stack((work.sampling.ranges.lower, work.sampling.ranges.upper)).tolist(),
         "bounding_box": None if found.bounds is None else dict(zip(("lower", "upper"), found.bounds, strict=True)),
         "reach": None if found.reach is None else dict(zip(("min", "max"), found.reach, strict=True)),
-        "voxels": _voxels(work, found),
+        "voxels": _voxels(work.grid, found),
         "measure": _measure(asked, found),
         "dexterity": None if dexterity is None else _dexterity_summary(asked, found, dexterity),
-        "array": {"shape": [found.count if wish.kind == "cloud" else len(found.voxels), len(asked.columns)]}
-        | {"columns": asked.columns},
+        "array": {
+            "shape": [found.count if wish.kind == "cloud" else len(found.voxels), len(asked.columns)],
+            "columns": asked.columns,
+        },
         "notes": work.notes,
         "certificate": found.certificate,
     }
 
 
-def _voxels(work: SamplingPlan, found: Workspace) -> dict[str, Any]:
-    grid, count = work.grid, len(found.voxels)
+def _voxels(grid: Grid, found: Workspace) -> dict[str, Any]:
+    count = len(found.voxels)
     return {
         "size": grid.size,
         "dimensions": grid.dimensions,

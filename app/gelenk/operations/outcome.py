@@ -21,11 +21,13 @@ class Limits:
         answer_numbers: Maximum count of numbers in one answer.
         seconds: Time limit of a request, [s]; a search with a time limit of its own ends before.
         job_bytes: Maximum disk space of the parts of a job.
+        job_samples: Maximum number of configurations of a workspace.
     """
 
     answer_numbers: int
     seconds: float
     job_bytes: int = JobLimits().job_bytes
+    job_samples: int = 10_000_000
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,9 +23,7 @@ from gelenk.operations.course_motion import (
 from gelenk.operations.outcome import Outcome
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.laws import POLYNOMIALS
-from gelenk.trajectory.laws.time_scaling import Bound
-from gelenk.trajectory.laws.time_scaling import Scaling
-from gelenk.trajectory.laws.time_scaling import uniform_scaling
+from gelenk.trajectory.laws.time_scaling import Bound, Scaling, uniform_scaling
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline, through_samples
 from gelenk.trajectory.motion.time_laws import between

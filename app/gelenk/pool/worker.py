@@ -87,7 +87,6 @@ def serve(priority: Priority, stream: socket.socket) -> None:
 
 
 def _seldom_needed() -> set[str]:
-    """Return which of the modules in `SELDOM_NEEDED` are loaded."""
     return sys.modules.keys() & {*SELDOM_NEEDED}
 
 

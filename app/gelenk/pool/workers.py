@@ -173,7 +173,6 @@ class Workers:
         return MemoryError() if math.isinf(limit) else WorkerOutOfMemory(int(limit))
 
     def _rest(self, worker: WorkerProcess) -> None:
-        """Keep an idle worker for the next call."""
         if self._is_closed:
             worker.close()
             return
@@ -201,7 +200,6 @@ class Workers:
             self._look = asyncio.get_running_loop().call_later(_LOOK_SECONDS, self._hand_out)
 
     def _end(self, worker: WorkerProcess) -> None:
-        """End a worker that is not needed."""
         self._remove(worker)
         _in_thread(worker.close)
 
@@ -255,7 +253,6 @@ class Workers:
 
 
 def _close(started: "Future[WorkerProcess]") -> None:
-    """Close a worker whose start was cancelled."""
     if started.exception() is None:
         started.result().close()
 

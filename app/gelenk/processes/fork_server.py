@@ -91,7 +91,6 @@ class ForkServer:
         self._is_running = False
 
     def _handle_request(self) -> None:
-        """Receive and handle one request."""
         content, descriptors, _, _ = socket.recv_fds(self._control, 1, 2)
         if content == WARM_UP:
             self._start_warm_up(socket.socket(fileno=descriptors[0]))
@@ -115,19 +114,16 @@ class ForkServer:
 
     def _compile_in_child(self, compute: Callable[[], None]) -> bool:
         """Compile in a separate process, so that its end frees the gigabyte used; return False if it cannot start."""
-        parent = os.getpid()
+
+        def compile_and_end() -> None:
+            _set_title("compiler")
+            self._try("the kernels", compute)
+
         try:
-            pid = os.fork()
+            self._compilers.add(_forked(compile_and_end))
         except OSError as error:
             logger.error("the kernels are compiled in every process, which takes memory: %s", error.strerror)
             return False
-        if pid == 0:
-            _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-            if os.getppid() == parent:  # otherwise the parent ended before the signal was set
-                _set_title("compiler")
-                self._try("the kernels", compute)
-            os._exit(0)
-        self._compilers.add(pid)
         return True
 
     def _continue_warm_up(self) -> None:
@@ -151,34 +147,29 @@ class ForkServer:
 
     def _fork(self, connection: int, lifeline: socket.socket) -> None:
         """Fork a child; if that fails, close its lifeline without sending a process id."""
-        parent = os.getpid()
         try:
-            pid = os.fork()
+            pid = _forked(partial(self._run_child, connection, lifeline))
         except OSError as error:
             logger.error("no process could be started: %s", error.strerror)
-            os.close(connection)
             lifeline.close()
             return
-        if pid == 0:
-            lifeline.close()
-            self._run_child(connection, parent)
-        os.close(connection)
+        finally:
+            os.close(connection)
         self._lifelines[pid] = lifeline
         self._selector.register(lifeline, selectors.EVENT_READ, partial(self._kill_child, pid))
         self._report(lifeline, pid)
 
-    def _run_child(self, connection: int, parent: int) -> NoReturn:
+    def _run_child(self, connection: int, lifeline: socket.socket) -> NoReturn:
         """In the child: receive a function over the connection, run it, and exit."""
         code = 1
         try:
-            _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-            if os.getppid() == parent:  # otherwise the parent ended before the signal was set
-                self._release()
-                to_requester = socket.socket(fileno=connection)
-                name, target = wire.receive(to_requester)
-                _set_title(name)
-                target(to_requester)
-                code = 0
+            lifeline.close()
+            self._release()
+            to_requester = socket.socket(fileno=connection)
+            name, target = wire.receive(to_requester)
+            _set_title(name)
+            target(to_requester)
+            code = 0
         except SystemExit as error:
             code = error.code if isinstance(error.code, int) else 1
         except (EOFError, OSError):
@@ -232,12 +223,25 @@ class ForkServer:
             lifeline.sendall(NUMBER.pack(number))
 
 
+def _forked(run: Callable[[], None]) -> int:
+    """Fork a child that runs a function, and ends with this process at the latest; return its process id."""
+    parent = os.getpid()
+    pid = os.fork()
+    if pid == 0:
+        try:
+            _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+            if os.getppid() == parent:  # otherwise the parent ended before the signal was set
+                run()
+        finally:
+            os._exit(0)
+    return pid
+
+
 def _set_title(name: str) -> None:
     """Set the name of this process to `gelenk-` and the given name, at most eight letters."""
     _prctl(_PR_SET_NAME, f"gelenk-{name}".encode("ascii"))
 
 
 def _prctl(what: int, value: object) -> None:
-    """Set an attribute of this process by `prctl`, on Linux only."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(what, value)

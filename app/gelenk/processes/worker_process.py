@@ -145,14 +145,7 @@ class ForkServerClient:
         self._lock = threading.Lock()
 
     def start(self) -> bool:
-        """Start the fork server if it is not running; only `warm_up` loads the kernels.
-
-        Returns:
-            Whether this call started it.
-
-        Raises:
-            OSError: The fork server could not be started.
-        """
+        """Start the fork server if it is not running, and return whether it was not; `warm_up` loads the kernels."""
         with self._lock:
             if self._process is not None and self._process.poll() is not None:
                 self.close()
@@ -176,9 +169,6 @@ class ForkServerClient:
 
         Returns:
             A socket that becomes readable when the kernels are loaded.
-
-        Raises:
-            OSError: The fork server has ended.
         """
         ours, theirs = socket.socketpair()
         with theirs:

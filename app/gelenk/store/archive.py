@@ -72,7 +72,8 @@ def unpacked(file: BinaryIO, max_unpacked: int = MAX_UNPACKED, root: Path | None
 
 
 def _unpack(archive: zipfile.ZipFile, store: IO[bytes], max_unpacked: int) -> UnpackedRobot:
-    _check_count(archive)
+    if (count := len(archive.infolist())) > MAX_ENTRIES:  # the number in the end record may be false
+        raise TooLarge("entries in the archive", count, MAX_ENTRIES)
     entries = [entry for entry in archive.infolist() if not entry.filename.endswith("/")]
     _check_overlap(entries, archive.start_dir)
     descriptions = [entry for entry in entries if entry.filename.lower().endswith(".urdf")]
@@ -111,13 +112,6 @@ def _check_directory(file: BinaryIO) -> None:
         raise TooLarge("entries in the archive", count, MAX_ENTRIES)
     if directory > MAX_DIRECTORY:
         raise TooLarge("bytes in the archive's list of entries", directory, MAX_DIRECTORY)
-
-
-def _check_count(archive: zipfile.ZipFile) -> None:
-    """Count the entries themselves, because the number in the end record may be false."""
-    count = len(archive.infolist())
-    if count > MAX_ENTRIES:
-        raise TooLarge("entries in the archive", count, MAX_ENTRIES)
 
 
 def _check_entry(entry: zipfile.ZipInfo) -> None:
@@ -171,7 +165,6 @@ def _copy(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, sink: IO[bytes], lef
 
 
 def _chunks(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Iterator[bytes]:
-    """Yield the bytes of an entry in pieces."""
     try:
         with archive.open(entry) as source:
             while chunk := source.read(_CHUNK):

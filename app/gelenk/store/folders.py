@@ -63,7 +63,6 @@ def open_plain(path: Path, mode: str = "rb") -> IO[Any]:
 
     Raises:
         FileNotFoundError: The path is missing, or is a pipe, a device, a socket or a folder.
-        OSError: The file cannot be opened.
     """
     try:
         file = open(path, mode, opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK, 0o666))  # noqa: SIM115
@@ -108,7 +107,7 @@ def why_not(root: Path) -> str | None:
 
 
 def probe(root: Path) -> None:
-    """Write a file below `root` that is gone when this returns; raises as `writing` does."""
+    """Write a file below `root` that is gone when this returns; raises as `writing`."""
     with nameless(root) as file:
         file.write(bytes(_PROBE))
         file.flush()
@@ -118,10 +117,7 @@ def probe(root: Path) -> None:
 def nameless(root: Path | None) -> Iterator[IO[bytes]]:
     """Open an unnamed file on the disk of `root` for the duration of the context; it disappears with the process too.
 
-    If no folder is given, the file is on the disk for temporary files.
-
-    Raises:
-        StorageFailed: See `writing`.
+    If no folder is given, the file is on the disk for temporary files. Raises as `writing`.
     """
     with writing():
         if root is not None:
@@ -132,11 +128,7 @@ def nameless(root: Path | None) -> Iterator[IO[bytes]]:
 
 @contextmanager
 def exclusive(root: Path) -> Iterator[None]:
-    """Lock writing below `root`, which is created if missing, against all other processes and threads.
-
-    Raises:
-        StorageFailed: See `writing`.
-    """
+    """Lock writing below `root`, created if missing, against all other processes and threads; raises as `writing`."""
     with writing():
         _make(root)
         with open_plain(root / _LOCK, "w") as lock:
@@ -149,10 +141,8 @@ def staging(root: Path) -> Iterator[Path]:
     """Create a folder for new files, or for those to be removed; the context removes it with its content.
 
     It first removes what interrupted writers left in `root`, so that a process killed again and again while writing
-    does not fill the disk. Only while moving that away it holds `exclusive`, which the caller must not hold.
-
-    Raises:
-        StorageFailed: See `writing`.
+    does not fill the disk. Only while moving that away it holds `exclusive`, which the caller must not hold. Raises as
+    `writing`.
     """
     folder = root / f"{_NEW}{uuid.uuid4().hex}"
     with ExitStack() as stack:
@@ -185,14 +175,7 @@ def create_folder(root: Path, name: str, files: Mapping[str, Content]) -> None:
 
 
 def replace_file(folder: Path, name: str, content: bytes, is_durable: bool = True) -> None:
-    """Replace a file, or create it, atomically.
-
-    Args:
-        folder: Folder of the file.
-        name: Name of the file.
-        content: New content.
-        is_durable: Whether the file is on disk when this returns; otherwise the system decides when to write it.
-    """
+    """Replace a file, or create it, atomically; unless durable, the system decides when to write it to disk."""
     with _beside(folder) as new:
         write_tree(new, {name: content}, is_durable)
         (new / name).replace(folder / name)
@@ -228,11 +211,7 @@ def discard(path: Path) -> None:
 
 
 def write_tree(folder: Path, files: Mapping[str, Content], is_durable: bool = True) -> None:
-    """Write files below a new folder; if durable, sync files and folders after all are written, which is faster.
-
-    Raises:
-        StorageFailed: See `writing`.
-    """
+    """Write files below a new folder, and then sync files and folders if durable; raises as `writing`."""
     paths = [folder / name for name in files]
     parents = sorted({folder, *(path.parent for path in paths)})
     with writing():
@@ -256,7 +235,6 @@ def _beside(parent: Path) -> Iterator[Path]:
 
 
 def _orphans(folder: Path) -> list[Path]:
-    """Return what interrupted writers left in a folder."""
     left = [folder / name for name in os.listdir(folder) if name.startswith((_OLD, _NEW))]  # noqa: PTH208 - of thousands
     return [path for path in left if path.name.startswith(_OLD) or not is_locked(path / _LOCK)]
 
@@ -274,7 +252,6 @@ def is_locked(file: Path) -> bool:
 
 
 def _make(folder: Path) -> None:
-    """Create a folder and its parents durably."""
     if not folder.is_dir():
         _make(folder.parent)
         folder.mkdir(exist_ok=True)

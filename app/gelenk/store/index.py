@@ -18,9 +18,9 @@ from typing import Any, NamedTuple
 import orjson
 
 from gelenk.contract.robots import RobotFile
-from gelenk.errors import KinematicsError, StorageFailed
+from gelenk.errors import StorageFailed
 from gelenk.store import folders
-from gelenk.store.records import ROBOT_FILE, Source, Stamp, read_record, stamp_of
+from gelenk.store.records import ROBOT_FILE, Source, Stamp, stamp_of, uploaded_record
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 _FILE = ".index"
@@ -122,10 +122,7 @@ class Index:
         return None
 
     def _read(self, name: str) -> IndexEntry | RobotFile | None:
-        try:
-            record = read_record(self._uploads / name, "uploaded")
-        except (KinematicsError, OSError):
-            return None
+        record = uploaded_record(self._uploads / name)
         if record is None:
             return None
         stamp = record.signature[0]

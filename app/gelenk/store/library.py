@@ -39,7 +39,17 @@ from gelenk.store import folders
 from gelenk.store.folders import Content, FileRange
 from gelenk.store.index import NAME, Index, summary
 from gelenk.store.meshes import MeshFiles, flat
-from gelenk.store.records import ROBOT_FILE, LoadedRobot, Record, Source, describe, load, mesh_file, read_record
+from gelenk.store.records import (
+    ROBOT_FILE,
+    LoadedRobot,
+    Record,
+    Source,
+    describe,
+    load,
+    mesh_file,
+    read_record,
+    uploaded_record,
+)
 
 _MEMORY = 512 * 1024 * 1024
 """Memory for loaded robots, in estimated bytes; Pinocchio's workspace grows with the cube of the joints."""
@@ -157,23 +167,14 @@ class Library:
         return orjson.dumps(told)
 
     def _check_quota(self, new: RobotFile, old: RobotFile | None = None) -> None:
-        """Check that the owner's quota has room for a robot; one that it replaces, of the same owner, no longer counts.
-
-        Raises:
-            QuotaExceeded: The owner would have too many robots or bytes.
-        """
+        """Check that the owner's quota has room for a robot; one of the same owner that it replaces does not count."""
         if new.owner is None:
             return
-        mine = [entry for entry in self._index.entries()[0] if entry.owner == new.owner]
-        replaced = [old] if old is not None and old.owner == new.owner else []
+        sizes = [entry.kept_bytes for entry in self._index.entries()[0] if entry.owner == new.owner]
+        replaced = [old.kept_bytes] if old is not None and old.owner == new.owner else []
         for what, used, more, allowed in (
-            ("robots", len(mine), 1 - len(replaced), self._quota.robots),
-            (
-                "bytes of robots",
-                sum(entry.kept_bytes for entry in mine),
-                new.kept_bytes - sum(file.kept_bytes for file in replaced),
-                self._quota.robot_bytes,
-            ),
+            ("robots", len(sizes), 1 - len(replaced), self._quota.robots),
+            ("bytes of robots", sum(sizes), new.kept_bytes - sum(replaced), self._quota.robot_bytes),
         ):
             if more > 0 and used + more > allowed:
                 raise QuotaExceeded(new.owner, what, used, more, allowed)
@@ -225,12 +226,7 @@ class Library:
         return found
 
     def mesh(self, name: str, path: str) -> Path:
-        """Return the path of a robot's mesh file.
-
-        Raises:
-            UnknownRobot: No robot has this name.
-            UnknownMesh: The robot has no such file.
-        """
+        """Return the path of a robot's mesh file; raises UnknownMesh if there is none, otherwise as `get`."""
         file = mesh_file(self.get(name), path)
         if file is None:
             raise UnknownMesh(path)
@@ -277,9 +273,7 @@ class Library:
         Raises:
             UnknownRobot: No robot has this name.
             ReadOnlyRobot: The robot belongs to the catalogue.
-            InvalidInput: The upload does not describe a robot.
-            QuotaExceeded: The owner would have too many bytes.
-            StorageFailed: The robot cannot be written.
+            KinematicsError: As for `add`.
         """
         folder = self._writable(upload.name)
         file, version, contents = _files(upload)
@@ -287,7 +281,8 @@ class Library:
             folders.write_tree(staging / version, contents)
             with folders.exclusive(self.uploads):
                 self._writable(upload.name)
-                self._check_quota(file, _file_of(folder))
+                old = uploaded_record(folder)
+                self._check_quota(file, old.file if old else None)
                 folders.sweep(folder)
                 folders.move(staging / version, folder / version)
                 try:
@@ -300,13 +295,7 @@ class Library:
                         path.rename(staging / uuid.uuid4().hex)
 
     def remove(self, name: str) -> None:
-        """Remove an uploaded robot.
-
-        Raises:
-            UnknownRobot: No robot has this name.
-            ReadOnlyRobot: The robot belongs to the catalogue.
-            StorageFailed: The robot cannot be removed.
-        """
+        """Remove an uploaded robot; raises as `replace`."""
         self._writable(name)
         with folders.exclusive(self.uploads):
             self._writable(name)
@@ -316,16 +305,11 @@ class Library:
             self._loaded.pop(name, None)
 
     def _folders(self) -> list[Path]:
-        """Return the folders that may be uploaded robots."""
         return [path for name in sorted(self._index.names()) if (path := self.uploads / name).is_dir()]
 
     def _move_stale_versions(self, folder: Path, aside: Path) -> None:
         """Move versions away that a killed replacement wrote, or had not yet removed."""
-        try:
-            record = read_record(folder, "uploaded")
-        except (KinematicsError, OSError):
-            return
-        if record is not None:
+        if (record := uploaded_record(folder)) is not None:
             for path in folder.iterdir():
                 if _VERSION.fullmatch(path.name) and path != record.model_path.parent:
                     path.rename(aside / uuid.uuid4().hex)
@@ -420,30 +404,11 @@ def _digest(upload: RobotUpload) -> str:
 
 
 def _stands(folder: Path, wanted: RobotFile) -> bool:
-    """Return whether an identical robot is stored: same digest and settings, whatever the names of its files.
-
-    Raises:
-        RobotExists: Another robot is stored there.
-    """
-    if folder.exists() and not _holds(folder, wanted):
+    """Return whether an identical robot is stored, whatever the names of its files; RobotExists for another one."""
+    if not folder.exists():
+        return False
+    record, apart = uploaded_record(folder), {"model", "meshes", "owner", "kept_bytes", "left_out"}
+    is_same = record is not None and record.file.model_dump(exclude=apart) == wanted.model_dump(exclude=apart)
+    if not is_same:
         raise RobotExists(folder.name)
-    return folder.exists()
-
-
-def _file_of(folder: Path) -> RobotFile | None:
-    """Return the contents of a folder's `robot.json`; None if it cannot be read."""
-    try:
-        record = read_record(folder, "uploaded")
-    except (KinematicsError, OSError):
-        return None
-    return record.file if record is not None else None
-
-
-def _holds(folder: Path, wanted: RobotFile) -> bool:
-    file = _file_of(folder)
-    apart = {"model", "meshes", "owner", "kept_bytes", "left_out"}
-    return (
-        file is not None
-        and file.digest is not None
-        and file.model_dump(exclude=apart) == wanted.model_dump(exclude=apart)
-    )
+    return True

@@ -7,6 +7,7 @@ then its only `*.urdf` or its `dh.json` is the robot.
 import importlib.metadata
 import os
 import stat
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path, PurePosixPath
@@ -17,7 +18,7 @@ from pydantic import ValidationError
 from gelenk.contract.dh import DhTablePayload
 from gelenk.contract.robots import RobotFile
 from gelenk.dh.tables.convert import describe_dh
-from gelenk.errors import InvalidRobotFolder, InvalidUrdf, TooLarge, counted, quoted
+from gelenk.errors import InvalidRobotFolder, InvalidUrdf, KinematicsError, TooLarge, counted, quoted
 from gelenk.robot.description import Description
 from gelenk.robot.dh import DhTable
 from gelenk.robot.robot import RobotModel
@@ -57,7 +58,7 @@ class Record:
 
     def is_current(self) -> bool:
         """Return whether both files are unchanged; two `stat` calls, fast enough for an event loop."""
-        return self.signature == _signature(self.file_path, self.model_path)
+        return self.signature == (stamp_of(self.file_path), stamp_of(self.model_path))
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,6 +110,13 @@ def read_record(folder: Path, source: Source) -> Record | None:
         raise InvalidRobotFolder(f"it cannot be read: {reason}", folder.name) from error
 
 
+def uploaded_record(folder: Path) -> Record | None:
+    """Return the record of an uploaded robot; None if it is missing or cannot be read."""
+    with suppress(KinematicsError, OSError):
+        return read_record(folder, "uploaded")
+    return None
+
+
 def _read_record(folder: Path, source: Source) -> Record | None:
     path = folder / ROBOT_FILE
     stamp = stamp_of(path)
@@ -128,11 +136,10 @@ def _read_record(folder: Path, source: Source) -> Record | None:
         if not (folder / name).resolve().is_relative_to(inside):
             raise InvalidRobotFolder(f"the path {quoted(name)} leads out of the folder", f"{folder.name}/{ROBOT_FILE}")
     model = folder / file.model
-    meshes = folder / file.meshes if file.meshes else None
-    signature = (stamp, stamp_of(model))
-    if signature[1] is None:
+    if (model_stamp := stamp_of(model)) is None:
         raise FileNotFoundError(file.model)
-    return Record(folder.name, source, file, path, model, meshes, signature)
+    meshes = folder / file.meshes if file.meshes else None
+    return Record(folder.name, source, file, path, model, meshes, (stamp, model_stamp))
 
 
 def load(record: Record) -> LoadedRobot:
@@ -170,9 +177,7 @@ def describe(name: str, format_: str, content: bytes, strict: bool = False) -> t
     try:
         table = DhTablePayload.model_validate_json(content).table()
     except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        where = ".".join(str(part) for part in first["loc"])
-        raise InvalidRobotFolder(f"not a DH table: {where}: {first['msg']}", "dh.json") from error
+        raise InvalidRobotFolder(f"not a DH table: {_first_fault(error)}", "dh.json") from error
     described = describe_dh(name, table)
     text = write_urdf(described)
     read = read_urdf(text)
@@ -208,17 +213,16 @@ def stamp_of(path: Path | str) -> Stamp | None:
     return status.st_mtime_ns, status.st_ino, status.st_size
 
 
-def _signature(file_path: Path, model_path: Path) -> Signature:
-    return stamp_of(file_path), stamp_of(model_path)
-
-
 def _robot_file(path: Path) -> RobotFile:
     try:
         return RobotFile.model_validate_json(read_plain(path))
     except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        where = ".".join(str(part) for part in first["loc"])
-        raise InvalidRobotFolder(f"{where}: {first['msg']}", f"{path.parent.name}/{ROBOT_FILE}") from error
+        raise InvalidRobotFolder(_first_fault(error), f"{path.parent.name}/{ROBOT_FILE}") from error
+
+
+def _first_fault(error: ValidationError) -> str:
+    first = error.errors(include_url=False)[0]
+    return f"{'.'.join(map(str, first['loc']))}: {first['msg']}"
 
 
 def _without_robot_file(folder: Path) -> RobotFile | None:

@@ -12,8 +12,8 @@ import orjson
 from fastapi import FastAPI
 from starlette.types import Message
 
+from gelenk.contract.endpoint import Scope
 from gelenk.http.access.keyring import new_key
-from gelenk.http.messages.scopes import Scope
 from gelenk.main import create_app
 from gelenk.settings import Settings
 

@@ -16,11 +16,10 @@ from urllib.parse import quote
 import pytest
 from starlette.types import Message
 
+from gelenk.contract.endpoints import ROUTES
 from gelenk.errors import StorageFailed
 from gelenk.http.access.audit_log import AuditLog
 from gelenk.http.access.request_context import RequestContext
-from gelenk.http.access.route_table import Route
-from gelenk.http.messages.scopes import Scope
 from gelenk.store import folders
 from gelenk.supervisor import STILL_STARTING
 from tests.http.access import asking
@@ -151,7 +150,7 @@ def test_a_disk_that_refuses_does_not_refuse_the_write(
 
 def written_by(name: str) -> RequestContext:
     scope = {"type": "http", "method": "POST", "path": "/v1/robots", "headers": [], "client": ("192.0.2.7", 1)}
-    exchange = RequestContext.of(scope, Route("add_robot", Scope.WRITE), None)
+    exchange = RequestContext.of(scope, ROUTES["add_robot"], None)
     exchange.key, exchange.status, exchange.was_let_in = name, 201, True
     return exchange
 

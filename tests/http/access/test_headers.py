@@ -7,7 +7,7 @@ from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
 from gelenk.http import studio
-from gelenk.http.access.headers import COMMON
+from gelenk.http.access.middleware import COMMON
 from tests.http.access.asking import HOST, application, ask, bearer, keys_for
 
 ENTRIES, KEYS = keys_for("read")

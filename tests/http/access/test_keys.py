@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from gelenk import keys
+from gelenk.contract.endpoint import Scope
 from gelenk.http.access import keyring
 from gelenk.http.access.keyring import InvalidKeys, Keyring, new_key, read_keys
-from gelenk.http.messages.scopes import Scope
 from tests.http.access.asking import HOST, application, ask, bearer
 from tests.test_faults import wait_for
 

@@ -1,8 +1,9 @@
 """Access control: which requests are allowed, the headers of every response, and the logs.
 
-- `request_context`: a request and its response so far. `middleware`: passes requests through the checks, in order.
+- `request_context`: a request and its response so far.
+- `middleware`: passes requests through the checks, in order; adds the headers that all responses share.
 - `route_table`: finds the operation for a path.
 - `hosts`, `origins`, `keys`: the checks; `keyring` holds the keys.
-- `headers`: headers that all responses share. `audit_log`: the request log, and the audit log of writes.
+- `audit_log`: the request log, and the audit log of writes.
 - `metrics`: counts for Prometheus. `tracing`: optional OpenTelemetry.
 """

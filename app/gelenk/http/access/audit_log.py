@@ -46,7 +46,7 @@ def _facts(exchange: RequestContext) -> dict[str, Any]:
         "client": exchange.client,
         "method": exchange.scope["method"],
         "path": exchange.scope["path"][:_LONGEST_PATH],
-        "operation": exchange.operation.name,
+        "operation": exchange.operation.id,
         "status": exchange.status or _LEFT,
     }
 

@@ -20,7 +20,6 @@ ONCE = frozenset(
 )
 """Header fields that affect handling and hold a single value."""
 _HOST = re.compile(rb"([\w.-]+|\[[0-9a-f:.]+\])(:\d{0,5})?", re.IGNORECASE)
-_MOST_REMEMBERED = 64
 
 
 def repeated(exchange: RequestContext) -> Response | None:
@@ -44,30 +43,20 @@ class TrustedHosts:
         self._any = "*" in names
         self._names = {*names, *LOCAL}
         self._endings = tuple(name[1:] for name in names if name.startswith("*."))
-        self._remembered: set[bytes] = set()
 
     def __call__(self, exchange: RequestContext) -> Response | None:
         """Return the refusal, or None to let the request pass."""
-        given = exchange.headers.get(b"host", b"")
-        if given in self._remembered and self._stands_once(exchange):
-            return None
-        if not _HOST.fullmatch(given) or not self._stands_once(exchange):
+        given = [value for name, value in exchange.scope["headers"] if name == b"host"]
+        if len(given) != 1 or not _HOST.fullmatch(given[0]):
             detail = "a request names the host that it is for, once: a name or an address, and a port where it has one"
             return problem(exchange.request, HTTPStatus.BAD_REQUEST, "invalid-host", detail)
-        name = _without_port(given.decode("latin-1").lower())
+        name = _without_port(given[0].decode("latin-1").lower())
         if self._any or name in self._names or name.endswith(self._endings):
-            if len(self._remembered) < _MOST_REMEMBERED:
-                self._remembered.add(given)
             return None
         if name == _bracketed(exchange.scope.get("server")):
             return None
         detail = f"the service does not answer for the host {quoted(name)}; GELENK_TRUSTED_HOSTS adds names"
         return problem(exchange.request, HTTPStatus.MISDIRECTED_REQUEST, "unknown-host", detail)
-
-    @staticmethod
-    def _stands_once(exchange: RequestContext) -> bool:
-        names: list[bytes] = [name for name, _ in exchange.scope["headers"]]
-        return names.count(b"host") == 1
 
 
 def _without_port(host: str) -> str:

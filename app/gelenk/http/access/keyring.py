@@ -14,7 +14,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from gelenk.http.messages.scopes import Scope
+from gelenk.contract.endpoint import Scope
 
 MAX_KEYS = 1000
 _MAX_BYTES = 512 * 1024

@@ -5,10 +5,11 @@ from http import HTTPStatus
 
 from starlette.responses import Response
 
+from gelenk.contract.endpoint import Scope
 from gelenk.http.access.keyring import Keyring
 from gelenk.http.access.request_context import RequestContext
+from gelenk.http.access.route_table import UNKNOWN
 from gelenk.http.messages.problems import problem
-from gelenk.http.messages.scopes import Scope
 
 _PATIENCE = 0.5
 """Longest wait of a request while the key file is checked, [s]."""
@@ -29,7 +30,7 @@ class KeyCheck:
     def __call__(self, exchange: RequestContext) -> Response | None:
         """Return the refusal, or None to let the request pass."""
         operation = exchange.operation
-        if operation.is_open:
+        if operation.scope is None and operation is not UNKNOWN:
             return None
         is_overdue = self._keyring.is_overdue
         if self._keyring.is_due:

@@ -91,7 +91,7 @@ class Metrics:
             self._count(self._over.popleft())
 
     def _count(self, exchange: RequestContext) -> None:
-        operation, robot = exchange.operation.name, self._label(exchange)
+        operation, robot = exchange.operation.id, self._label(exchange)
         self._bound(self._seconds, operation, robot).observe(exchange.seconds)
         self._bound(self._answers, operation, exchange.status or _LEFT).inc()
         if exchange.counts is not None:
@@ -119,7 +119,6 @@ class Metrics:
         self._raise_to(self._cpu, time.process_time())
 
     def _raise_to(self, counter: Counter, total: float) -> None:
-        """Raise a counter to a total that this process counts elsewhere."""
         counter.inc(total - self._told.get(counter, 0.0))
         self._told[counter] = total
 

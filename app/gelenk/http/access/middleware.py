@@ -3,13 +3,13 @@
 import asyncio
 import time
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import TypeAlias
 
 from starlette.responses import Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from gelenk.http.access.audit_log import AuditLog, log_request
-from gelenk.http.access.headers import completed
 from gelenk.http.access.metrics import Metrics
 from gelenk.http.access.request_context import RequestContext
 from gelenk.http.access.route_table import RouteTable
@@ -18,6 +18,18 @@ from gelenk.operations.request_counts import REQUEST_COUNTS
 
 AccessRule: TypeAlias = Callable[[RequestContext], Response | None]
 """Checks a request; returns the refusal, or None to let the request pass."""
+
+
+Headers: TypeAlias = list[tuple[bytes, bytes]]
+
+COMMON: Headers = [
+    (b"content-security-policy", b"default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"),
+    (b"x-content-type-options", b"nosniff"),
+    (b"referrer-policy", b"no-referrer"),
+    (b"x-frame-options", b"DENY"),
+    (b"cross-origin-resource-policy", b"same-origin"),
+]
+"""Headers of every response that does not set them itself: pages have their own policies."""
 
 
 class Middleware:
@@ -65,9 +77,10 @@ class Middleware:
             if message["type"] == "http.response.start":
                 exchange.status = message["status"]
                 own = (b"x-request-id", exchange.request_id.encode())
-                message["headers"] = completed(message.get("headers", ()), [own, *exchange.answer_headers])
+                headers = [*message.get("headers", ()), own, *exchange.answer_headers]
+                message["headers"] = headers + _lacking(tuple([name for name, _ in headers]))
                 if exchange.is_audited:
-                    await asyncio.to_thread(self._audit.write, exchange, _location(message["headers"]))
+                    await asyncio.to_thread(self._audit.write, exchange, _location(headers))
             await send(message)
 
         self._metrics.begin()
@@ -84,7 +97,6 @@ class Middleware:
             log_request(exchange)
 
     def _refusal(self, exchange: RequestContext) -> Response | None:
-        """Return the first refusal among the checks, or None."""
         for check in self._checks:
             if (refusal := check(exchange)) is not None:
                 return refusal
@@ -94,3 +106,9 @@ class Middleware:
 
 def _location(headers: Sequence[tuple[bytes, bytes]]) -> str | None:
     return next((value.decode("latin-1") for name, value in headers if name == b"location"), None)
+
+
+@lru_cache(256)
+def _lacking(names: tuple[bytes, ...]) -> Headers:
+    """Return the common headers that are not among `names`; responses have few sets of names."""
+    return [header for header in COMMON if header[0] not in {name.lower() for name in names}]

@@ -8,9 +8,8 @@ from random import getrandbits
 from starlette.requests import Request
 from starlette.types import Scope as AsgiScope
 
-from gelenk.http.access.route_table import Route
-from gelenk.http.messages.preference import wants_answer_later
-from gelenk.http.messages.scopes import AS_JOBS, Scope
+from gelenk.contract.endpoint import RobotEndpoint, Route, Scope
+from gelenk.http.messages.payloads import wants_answer_later
 from gelenk.operations.request_counts import RequestCounts
 
 _WELL_FORMED = re.compile(rb"[A-Za-z0-9_.-]{1,64}")
@@ -55,8 +54,9 @@ class RequestContext:
         given = headers.get(b"x-request-id", b"")
         request_id = given.decode("ascii") if _WELL_FORMED.fullmatch(given) else f"{getrandbits(128):032x}"
         scope["request_id"] = request_id
-        if b"prefer" in headers and operation.name in AS_JOBS and wants_answer_later(scope["headers"]):
-            operation = replace(operation, scope=Scope.WRITE)
+        can_be_job = isinstance(operation, RobotEndpoint) and operation.job
+        if b"prefer" in headers and can_be_job and wants_answer_later(scope["headers"]):
+            operation = replace(operation, scope=Scope.WRITE)  # a job is stored
         return cls(scope, operation, robot, headers, request_id, time.perf_counter())
 
     @property

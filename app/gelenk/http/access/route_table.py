@@ -5,37 +5,22 @@ It combines the expressions of the routes themselves, so that the operation that
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import lru_cache
 
 from fastapi.routing import RouteContext
 
-from gelenk.http.messages.scopes import Scope, scope_of
+from gelenk.contract.endpoint import Route, Scope
+from gelenk.contract.endpoints import ROUTES
 
+OPEN_PATHS = frozenset(
+    {"/", "/studio", "/docs", "/redoc", "/documentation/bundles", "/documentation/own", "/openapi.json"}
+)
+"""Pages, their files and the schema: the same for everyone, and a browser sends no key for them."""
 _MOST_REMEMBERED = 1024
 _LONGEST_REMEMBERED = 128
 _NAMED_GROUP = re.compile(r"\(\?P<(\w+)>")
 
-
-@dataclass(frozen=True, slots=True)
-class Route:
-    """An operation of the service.
-
-    Attributes:
-        name: Operation id; for a page, its path.
-        scope: Scope that a key needs for it; None if it needs no key.
-    """
-
-    name: str
-    scope: Scope | None
-
-    @property
-    def is_open(self) -> bool:
-        """Whether it needs no key."""
-        return self.scope is None and self is not UNKNOWN
-
-
-UNKNOWN = Route("unknown", None)
+UNKNOWN = Route(name="unknown", path="", tag="Service", summary="", scope=None)
 """A path or method that does not exist; where keys are on, any valid key may learn that."""
 
 
@@ -71,9 +56,10 @@ class RouteTable:
 
 
 def _operation(route: RouteContext) -> Route:
-    operation_id, tags = getattr(route, "operation_id", None), getattr(route, "tags", None)
-    path, methods = route.path or "", frozenset(route.methods or ("GET",))
-    return Route(operation_id or path, scope_of(operation_id, path, methods, frozenset(tags or ())))
+    """Return the declaration of an operation; a page, which has none, needs a key unless it is one of `OPEN_PATHS`."""
+    path = route.path or ""
+    page = Route(name=path, path=path, tag="Service", summary="", scope=None if path in OPEN_PATHS else Scope.WRITE)
+    return ROUTES.get(getattr(route, "operation_id", None) or "", page)
 
 
 def _numbered(number: int, pattern: str) -> str:

@@ -1,6 +1,5 @@
 """Jobs as JSON and as responses."""
 
-from datetime import UTC, datetime
 from typing import Any
 
 import orjson
@@ -9,6 +8,7 @@ from fastapi import Response
 from gelenk.errors import kind_of
 from gelenk.http.messages.payloads import JSON
 from gelenk.jobs.job import JobRecord
+from gelenk.logs import moment
 
 NO_STORE = {"Cache-Control": "no-store"}
 
@@ -26,9 +26,9 @@ def job_content(job: JobRecord) -> dict[str, Any]:
         "kind": job.kind,
         "state": job.state,
         "progress": job.progress,
-        "created": _moment(job.created),
-        "started": _moment(job.started),
-        "finished": _moment(job.finished),
+        "created": moment(job.created),
+        "started": None if job.started is None else moment(job.started),
+        "finished": None if job.finished is None else moment(job.finished),
         "attempts": job.attempts,
         "robot_digest": job.robot_digest,
         "error": None,
@@ -37,9 +37,3 @@ def job_content(job: JobRecord) -> dict[str, Any]:
         kind = f"urn:gelenk:{kind_of(type(failure.error_again()))}"
         content["error"] = {"type": kind, "detail": failure.detail, "facts": failure.facts}
     return content
-
-
-def _moment(seconds: float | None) -> str | None:
-    if seconds is None:
-        return None
-    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")

@@ -16,7 +16,6 @@ from starlette.responses import Response
 from gelenk.contract.common import Payload
 from gelenk.http.jobs.info import job_response
 from gelenk.http.messages.payloads import CSV, JSON, NPY, PNG, SVG
-from gelenk.http.messages.preference import APPLIED
 from gelenk.http.workers.pool_client import client_of
 from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import robot_files
@@ -28,6 +27,8 @@ _Request = TypeVar("_Request", bound=Payload)
 
 RESULTS = {JSON: "result.json", NPY: "result.npy", CSV: "result.csv", SVG: "result.svg", PNG: "result.png"}
 """File of a result by its media type, for every kind of job."""
+CALL = "call.json"
+"""File of a request that holds the call, perhaps with a name for the job in `job_id`."""
 HEADERS = "headers.json"
 """File with further headers of these results, by media type."""
 
@@ -55,19 +56,18 @@ def as_bytes(content: bytes) -> NDArray[np.uint8]:
     return np.frombuffer(content, np.uint8)
 
 
-async def submitted(runner: Runner, kind: str, request: Request, planned: bytes) -> Response:
-    """Submit a planned job and return the response, 202 with the job's address.
+async def submitted(runner: Runner, kind: str, request: Request, planned: bytes, headers: dict[str, str]) -> Response:
+    """Submit a planned job and return the response, 202 with the job's address and these headers.
 
-    Raises:
-        TooManyJobs: Too many jobs are waiting.
-        StorageFailed: The job cannot be stored.
+    Raises as `Runner.submit`.
     """
 
     def submit() -> Response:
         files = {name: content.tobytes() for name, content in unpacked(planned).items()}
-        job = runner.submit(kind, hashlib.sha256(planned).hexdigest(), files, client=client_of(request))
+        job_id = orjson.loads(files[CALL]).get("job_id")
+        job = runner.submit(kind, hashlib.sha256(planned).hexdigest(), files, job_id, client_of(request))
         location = f"{request.scope.get('root_path', '')}/v1/jobs/{job.id}"
-        return job_response(job, 202, {"Location": location, **APPLIED})
+        return job_response(job, 202, {"Location": location, **headers})
 
     return await asyncio.to_thread(submit)
 

@@ -2,7 +2,11 @@
 
 from typing import Any
 
-from gelenk.http.jobs import inverse_job, trajectory_job
+from gelenk.http.jobs import inverse_job, trajectory_job, workspace
 from gelenk.http.jobs.long_work import LongWork
 
-LONG_WORK: dict[str, LongWork[Any]] = {"ik": inverse_job.WORK, "trajectory": trajectory_job.WORK}
+LONG_WORK: dict[str, LongWork[Any]] = {
+    "ik": inverse_job.WORK,
+    "trajectory": trajectory_job.WORK,
+    "workspace": workspace.WORK,
+}

@@ -1,8 +1,7 @@
 """What every route shares: bodies, answers, errors and the OpenAPI document.
 
 - `problems`: every error as RFC 9457 problem details, with the one table from error class to status.
-- `payloads`, `npy`: read request bodies strictly and write responses, as JSON and as NumPy's npy.
-- `bodies`: limits how many bytes of large request bodies are held at a time. `preference`: the `Prefer` header.
+- `payloads`, `npy`: read requests strictly and within bounds, and write responses, as JSON and as NumPy's npy.
 - `routes`: a route that FastAPI documents but that runs without FastAPI's overhead.
-- `openapi`: the OpenAPI document. `scopes`: the scope that each operation needs.
+- `openapi`: the OpenAPI document.
 """

@@ -1,20 +1,22 @@
 """Parts of the OpenAPI document that FastAPI cannot read from signatures: problems, npy bodies, examples."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping
 from copy import deepcopy
 from http import HTTPStatus
 from typing import Annotated, Any
 
-from fastapi import FastAPI, Header, Path
+from fastapi import FastAPI, Header, Path, Response
 from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel, TypeAdapter
 
+from gelenk.contract.endpoint import Endpoint, RobotEndpoint, Route
+from gelenk.contract.endpoints import ROBOT_ENDPOINTS, ROUTES
 from gelenk.contract.jobs import JobInfo
 from gelenk.contract.kinematics import ByName, Configuration
 from gelenk.contract.problem import Problem
-from gelenk.http.messages.payloads import CSV, NPY, PNG, SVG
+from gelenk.contract.resources import RESOURCES
+from gelenk.http.messages.payloads import CSV, JSON, MULTIPART, NPY, PNG, SVG
 from gelenk.http.messages.problems import MEDIA_TYPE
-from gelenk.http.messages.scopes import SCHEME, security_of
 
 RobotPath = Annotated[str, Path(description="Name of a robot.", openapi_examples={"panda": {"value": "panda"}})]
 UploadedRobotPath = Annotated[
@@ -29,7 +31,7 @@ PreferHeader = Annotated[
     ),
 ]
 
-JOB_BEGUN: dict[int | str, dict[str, Any]] = {
+_JOB_STARTED: dict[int, dict[str, Any]] = {
     202: {
         "model": JobInfo,
         "description": "The job that `Prefer: respond-async` asks for",
@@ -40,7 +42,11 @@ JOB_BEGUN: dict[int | str, dict[str, Any]] = {
     }
 }
 
-BY_THE_CREW = (429, 500, 503, 504)
+_JOB_NOTE = (
+    "\n\nWith `Prefer: respond-async` the call is checked and a job computes the same answer: the reply is 202 with "
+    "the job's address in `Location`. Then there may be {}."
+)
+_BY_WORKER = (429, 500, 503, 504)
 """Statuses that any operation run by the worker pool may return."""
 
 _NAMED: dict[str, tuple[dict[str, Any], str]] = {
@@ -52,6 +58,14 @@ _NAMED: dict[str, tuple[dict[str, Any], str]] = {
 }
 """Schemas used in many places, each described once under its name."""
 
+_RESOURCES = {resource.name: resource for resource in RESOURCES}
+_SCHEME = {
+    "type": "http",
+    "scheme": "bearer",
+    "description": "A key of this service, if keys are switched on; create one with `gelenk.keys`. Scopes: `read` "
+    "allows queries, `write` storing and removing robots and jobs, `admin` reading the metrics. No scope includes "
+    "another.",
+}
 _COMPONENT = "#/components/schemas/{model}"
 _PROBLEM = {"$ref": _COMPONENT.format(model="Problem")}
 
@@ -64,50 +78,103 @@ def problem_responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
     }
 
 
-def json_example(value: dict[str, Any]) -> dict[str, Any]:
-    """Return the JSON content of a request, with an example body that works unchanged."""
-    return {"application/json": {"example": value}}
+def documentation(name: str) -> dict[str, Any]:
+    """Return the arguments of FastAPI's route that document one of the `RESOURCES`."""
+    resource = _RESOURCES[name]
+    body = {} if resource.example is None else {JSON: {"example": resource.example}, **_form(resource.form)}
+    return _documentation(resource, resource.answer, resource.status, resource.responses, resource.problems, body)
 
 
-def npy_content(description: str) -> dict[str, Any]:
-    """Return an array as a further media type of a body."""
-    return {NPY: {"schema": {"type": "string", "format": "binary", "description": description}}}
+def endpoint_documentation(endpoint: Endpoint[Any, Any]) -> dict[str, Any]:
+    """Return the arguments of FastAPI's route that document one of the `ENDPOINTS`."""
+    problems, responses = [400, 413, 415, 422, *_BY_WORKER], {}
+    contents = _contents({SVG: endpoint.picture, PNG: endpoint.picture})
+    body: dict[str, Any] = {JSON: {"example": endpoint.example}}
+    status, notes = 200, ""
+    if isinstance(endpoint, RobotEndpoint) or endpoint.robot_field or endpoint.tag == "DH tables":
+        problems.append(404)
+    if isinstance(endpoint, RobotEndpoint):
+        contents = _contents({NPY: endpoint.npy_answer, CSV: endpoint.table}) | contents
+        if endpoint.options is not None:
+            body |= _npy_body(endpoint.npy_body, endpoint.options)
+        if endpoint.is_job:
+            status = 202
+            problems += [409, 507]
+        if endpoint.job:
+            responses = _JOB_STARTED
+            problems.append(507)
+            notes = _JOB_NOTE.format(endpoint.job)
+    if contents:
+        responses = {200: {"content": contents}, **responses}
+    return _documentation(endpoint, endpoint.answer, status, responses, problems, body, notes)
 
 
-def npy_body(description: str, options: type[BaseModel]) -> dict[str, Any]:
+def _documentation(
+    route: Route,
+    answer: Any,
+    status: int,
+    responses: Mapping[int, Any],
+    problems: Iterable[int],
+    body: dict[str, Any],
+    notes: str = "",
+) -> dict[str, Any]:
+    return {
+        "path": f"/{route.path}",
+        "methods": [route.method],
+        "operation_id": route.id,
+        "summary": route.summary,
+        "description": route.text + notes,
+        "tags": [route.tag],
+        "status_code": status,
+        **({"response_class": Response} if answer is None else {"response_model": answer}),
+        "responses": {**responses, **problem_responses(*problems)},
+        "openapi_extra": {"requestBody": {"content": body}} if body else None,
+    }
+
+
+def _form(fields: type[BaseModel] | None) -> dict[str, Any]:
+    if fields is None:
+        return {}
+    schema = fields.model_json_schema()
+    for field in schema["properties"].values():
+        _without_null(field)
+    schema["properties"]["archive"] = {
+        "type": "string",
+        "format": "binary",
+        "description": "Zip of one URDF and its meshes.",
+    }
+    schema["required"] = [*schema.get("required", []), "archive"]
+    return {MULTIPART: {"schema": schema}}
+
+
+def _contents(descriptions: dict[str, str]) -> dict[str, Any]:
+    """Return further media types of a body by their descriptions; those without one are left out."""
+    return {
+        kind: {
+            "schema": {"type": "string", **({} if kind == CSV else {"format": "binary"}), "description": description}
+        }
+        for kind, description in descriptions.items()
+        if description
+    }
+
+
+def _npy_body(description: str, options: type[BaseModel]) -> dict[str, Any]:
     """Return an array as a further media type of a request, and the fields that the query may have beside it.
 
     OpenAPI cannot limit query parameters to one media type: they would be offered beside a JSON body too, which
     refuses them because they are fields of the body. Generators (openapi-python-client, openapi-typescript) would make
     each an argument of the function for both bodies. So the fields form a named schema, of which both generators make
     a type, and `x-query` refers to it.
-
-    Args:
-        description: Content of the array.
-        options: Fields of the query.
     """
     names = ", ".join(f"`{name}`" for name in options.model_fields)
     told = (
         f"{description} The query takes the fields of `{options.__name__}`, a list by repeating its name and an object "
         f"as JSON: {names}."
     )
-    (content,) = npy_content(told).values()
-    return {NPY: {**content, "x-query": {"$ref": _COMPONENT.format(model=options.__name__)}}}
+    return {NPY: {**_contents({NPY: told})[NPY], "x-query": {"$ref": _COMPONENT.format(model=options.__name__)}}}
 
 
-def csv_content(description: str) -> dict[str, Any]:
-    """Return a table as a further media type of a response; nothing if the description is empty."""
-    return {CSV: {"schema": {"type": "string", "description": description}}} if description else {}
-
-
-def picture_content(description: str) -> dict[str, Any]:
-    """Return images as further media types of a response; nothing if the description is empty."""
-    if not description:
-        return {}
-    return {kind: {"schema": {"type": "string", "format": "binary", "description": description}} for kind in (SVG, PNG)}
-
-
-def without_null(schema: dict[str, Any]) -> None:
+def _without_null(schema: dict[str, Any]) -> None:
     """Remove null from the schema of a parameter or of a form's field: neither can express it."""
     choices = schema.get("anyOf", [])
     given = [choice for choice in choices if choice != {"type": "null"}]
@@ -119,14 +186,8 @@ def without_null(schema: dict[str, Any]) -> None:
             del schema["default"]
 
 
-def describe(app: FastAPI, has_keys: bool, queries: Sequence[type[BaseModel]] = ()) -> None:
-    """Make the application build its OpenAPI document once, with problems instead of FastAPI's validation error.
-
-    Args:
-        app: The application.
-        has_keys: Whether its operations need keys.
-        queries: Query parameters beside an array body.
-    """
+def describe(app: FastAPI, has_keys: bool) -> None:
+    """Make the application build its OpenAPI document once, with problems instead of FastAPI's validation error."""
 
     def openapi() -> dict[str, Any]:
         if app.openapi_schema is None:
@@ -145,15 +206,16 @@ def describe(app: FastAPI, has_keys: bool, queries: Sequence[type[BaseModel]] = 
             problem = Problem.model_json_schema(ref_template=_COMPONENT)
             components.update(problem.pop("$defs"))
             components["Problem"] = problem
+            queries = [endpoint.options for endpoint in ROBOT_ENDPOINTS if endpoint.options is not None]
             components.update({query.__name__: _query_schema(query) for query in queries})
             _name_what_is_shared(schema)
-            schema["components"]["securitySchemes"] = {"key": SCHEME}
-            for path, operations in schema["paths"].items():
-                for method, operation in operations.items():
+            schema["components"]["securitySchemes"] = {"key": _SCHEME}
+            for operations in schema["paths"].values():
+                for operation in operations.values():
                     _replace_validation_error(operation)
                     for parameter in operation.get("parameters", ()):
-                        without_null(parameter["schema"])
-                    _add_refusals(operation, security_of(path, method, operation), has_keys)
+                        _without_null(parameter["schema"])
+                    _add_refusals(operation, has_keys)
             app.openapi_schema = schema
         return app.openapi_schema
 
@@ -163,7 +225,7 @@ def describe(app: FastAPI, has_keys: bool, queries: Sequence[type[BaseModel]] = 
 def _query_schema(query: type[BaseModel]) -> dict[str, Any]:
     schema = query.model_json_schema(ref_template=_COMPONENT)
     for field in schema["properties"].values():
-        without_null(field)
+        _without_null(field)
     return schema
 
 
@@ -187,11 +249,11 @@ def _refer(part: Any) -> None:
         _refer(entry)
 
 
-def _add_refusals(operation: dict[str, Any], security: list[dict[str, list[str]]], has_keys: bool) -> None:
+def _add_refusals(operation: dict[str, Any], has_keys: bool) -> None:
     """Add the security of an operation, and the refusals that it may give before it runs; keys may be off."""
     statuses = [HTTPStatus.MISDIRECTED_REQUEST, HTTPStatus.FORBIDDEN]
-    if security:
-        operation["security"] = security if has_keys else [{}, *security]
+    if (scope := ROUTES[operation["operationId"]].scope) is not None:
+        operation["security"] = [*([] if has_keys else [{}]), {"key": [scope.value]}]
         statuses.append(HTTPStatus.UNAUTHORIZED)
     for status, response in problem_responses(*statuses).items():
         operation["responses"].setdefault(str(int(status)), response)

@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import AsyncGenerator, Sequence
+from collections.abc import AsyncGenerator, Iterable, Sequence
 from typing import Any, Self, TypeVar
 
 import orjson
@@ -13,8 +13,7 @@ from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
 from gelenk.contract.common import Payload
-from gelenk.errors import TooLarge, quoted
-from gelenk.http.messages.bodies import SMALL, Bodies
+from gelenk.errors import NoRoomForBody, TooLarge, quoted
 from gelenk.http.messages.problems import InvalidPayload
 from gelenk.operations.rows import csv_head, csv_rows
 from gelenk.robot.arrays import Array
@@ -32,7 +31,12 @@ NPY = "application/x-npy"
 CSV = "text/csv"
 SVG = "image/svg+xml"
 PNG = "image/png"
+MULTIPART = "multipart/form-data"
 
+SMALL = 64 * 1024
+"""Smaller bodies are not counted: connections are limited, and the server buffers as much for each anyway, [bytes]."""
+PREFERENCE_APPLIED = {"Preference-Applied": "respond-async"}
+"""Header of a response that follows the preference of `wants_answer_later`."""
 _STRING = re.compile(rb'"([^"\\]*+(?:\\.[^"\\]*+)*+)(?:"(\s*:)?|\\?\Z)', re.DOTALL)
 """A JSON string, and the colon after it if it is the name of a member.
 
@@ -47,15 +51,34 @@ _ANYTHING = frozenset({b"", b"*/*", b"application/json"})
 _Model = TypeVar("_Model", bound=Payload)
 
 
+class Bodies:
+    """Counts the bytes of large bodies that a process holds, from their arrival until their requests are answered.
+
+    Received bytes count, not announced ones: a client that announces many and sends none takes no room from others.
+
+    Args:
+        allowed: Maximum number of bytes over all bodies.
+
+    Attributes:
+        held: Bytes held now.
+    """
+
+    def __init__(self, allowed: int) -> None:
+        self._allowed, self.held = allowed, 0
+
+    def check_room(self, count: int) -> None:
+        """Check that there is room for `count` more bytes; raises NoRoomForBody otherwise."""
+        if self.held + count > self._allowed:
+            raise NoRoomForBody(self._allowed)
+
+
 class BoundedRequest(Request):
     """A request whose body is never read beyond the limit; leaving its context returns its bytes to `bodies`.
 
     It reads headers and body itself, more simply than Starlette does, because every call pays for that.
 
     Args:
-        scope: ASGI scope of the request.
-        receive: Receives the body.
-        send: Sends the response.
+        scope: As in Starlette's `Request`; so are `receive` and `send`.
         max_bytes: Maximum size of the body.
         bodies: Count of the large bodies of this process.
     """
@@ -90,25 +113,21 @@ class BoundedRequest(Request):
         return self._count
 
     async def body(self) -> bytes:
-        """Return the whole body; raises as `pieces` does."""
+        """Return the whole body; raises as `stream` does."""
         return b"".join(await self.pieces())
 
     async def pieces(self) -> list[bytes]:
-        """Return the whole body in the pieces that it arrives in.
+        """Return the whole body in the pieces that it arrives in; raises as `stream` does."""
+        return [piece async for piece in self.stream()]
+
+    async def stream(self) -> AsyncGenerator[bytes, None]:
+        """Yield the body in pieces.
 
         Raises:
             TooLarge: The body is larger than allowed, or announces that it is.
             NoRoomForBody: Other large bodies take all the room.
             ClientDisconnect: The client has left.
         """
-        pieces, more = [], True
-        while more:
-            piece, more = await self._receive_chunk()
-            pieces.append(piece)
-        return pieces
-
-    async def stream(self) -> AsyncGenerator[bytes, None]:
-        """Yield the body in pieces; raises as `pieces` does."""
         more = True
         while more:
             chunk, more = await self._receive_chunk()
@@ -137,15 +156,17 @@ class BoundedRequest(Request):
             self._bodies.check_room(count - self._held)
 
 
+def wants_answer_later(headers: Iterable[tuple[bytes, bytes]]) -> bool:
+    """Check whether a request's headers prefer that a job answers it: `Prefer: respond-async` (RFC 7240)."""
+    tokens = (token for name, value in headers if name == b"prefer" for token in value.split(b","))
+    return any(token.partition(b";")[0].strip().lower() == b"respond-async" for token in tokens)
+
+
 def preferred_type(accept: str, offered: Sequence[str]) -> str:
     """Return the media type of a response by the caller's `Accept` (RFC 9110, 12.5.1).
 
     Of equal weights the more specific range wins, then the type offered first. That type is also returned if none is
     accepted: a response that can be read is better than none.
-
-    Args:
-        accept: Value of the header.
-        offered: Media types, the default one first.
     """
     ranges = [_weighted(part) for part in accept.lower().split(",")[:MAX_PARAMETERS]]
     best, best_rank = offered[0], (0.0, 0)
@@ -176,13 +197,7 @@ def json_response(content: Any, status: int = 200, headers: dict[str, str] | Non
 
 
 def csv_response(columns: Sequence[str], array: Array, headers: dict[str, str]) -> Response:
-    """Return a table as CSV (RFC 4180): a row of names, then numbers that read back exactly.
-
-    Args:
-        columns: Names of the columns; at least one.
-        array: Shape (N, columns).
-        headers: Headers of the response.
-    """
+    """Return an array of shape (N, columns) as CSV (RFC 4180): names, then numbers that read back exactly."""
     body = csv_head(columns) + b"".join(csv_rows(array))
     return Response(body, headers=headers, media_type=f"{CSV}; header=present")
 
@@ -192,6 +207,7 @@ def read_json(model: type[_Model], body: bytes) -> _Model:
 
     Raises:
         InvalidPayload: The body does not match the model.
+        TooLarge: It has more than `MAX_MEMBERS`.
     """
     if body.count(b":") > MAX_MEMBERS:
         raise TooLarge("members in the body", body.count(b":"), MAX_MEMBERS)
@@ -204,14 +220,7 @@ def read_json(model: type[_Model], body: bytes) -> _Model:
 
 
 def _check_members(body: bytes) -> None:
-    """Refuse an object with two members of the same name: JSON parsers differ in which of them counts.
-
-    Args:
-        body: JSON that has been parsed already.
-
-    Raises:
-        InvalidPayload: There is such an object.
-    """
+    """Refuse an object with two members of the same name in valid JSON: parsers differ in which of them counts."""
     # If no two names in the whole body are the same, as in most calls, there is no need to parse it again.
     for part in (body[:_FIRST], body) if len(body) > _FIRST else (body,):
         names = [name for name, colon in _STRING.findall(part) if colon]

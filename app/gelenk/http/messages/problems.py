@@ -4,7 +4,7 @@ A problem never repeats the payload: a client's names are shortened and escaped 
 """
 
 import logging
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from http import HTTPStatus
 from typing import Any
 
@@ -83,7 +83,10 @@ class InvalidPayload(Exception):
         if found and found[0]["type"] == "json_invalid":
             reason = str(found[0].get("ctx", {}).get("error", found[0]["msg"]))
             return cls(False, [{"pointer": "#", "detail": f"the body is not JSON: {reason}"}], 1)
-        places = [{"pointer": _pointer(item["loc"]), "detail": _sentence(item["msg"])} for item in found[:_MOST_ERRORS]]
+        places = [
+            {"pointer": _pointer(item["loc"]), "detail": item["msg"].removeprefix("Value error, ")[:_MOST_TEXT]}
+            for item in found[:_MOST_ERRORS]
+        ]
         return cls(True, places, len(found))
 
 
@@ -127,17 +130,35 @@ def status_of(error: type[errors.KinematicsError]) -> HTTPStatus:
 
 def install(app: FastAPI) -> None:
     """Answer every error of the application with a problem."""
-    for kind, handler in _HANDLERS:
-        app.add_exception_handler(kind, handler)
+    for kind in (
+        *(errors.KinematicsError, InvalidPayload, ValidationError, RequestValidationError, UnsupportedMediaType),
+        *(HTTPException, ClientDisconnect, Exception),
+    ):
+        app.add_exception_handler(kind, answer)
 
 
 def answer(request: Request, error: Exception) -> Response:
-    """Return the response to any error, without an application to look up its handler."""
-    return next(handler for kind, handler in _HANDLERS if isinstance(error, kind))(request, error)
+    """Return the response to any error."""
+    match error:
+        case errors.KinematicsError():
+            return _kinematics(request, error)
+        case InvalidPayload():
+            return _payload(request, error)
+        case ValidationError() | RequestValidationError():
+            return _payload(request, InvalidPayload.of(error))
+        case UnsupportedMediaType():
+            status, facts = HTTPStatus.UNSUPPORTED_MEDIA_TYPE, {"allowed": error.allowed}
+            return problem(request, status, "unsupported-media-type", str(error), facts)
+        case HTTPException():
+            return _http(request, error)
+        case ClientDisconnect():
+            return Response(status_code=499)  # no client waits for it
+    logger.error("unexpected error at %s %s", request.method, errors.quoted(request.url.path), exc_info=error)
+    detail = "something went wrong in the service; see its log"
+    return problem(request, HTTPStatus.INTERNAL_SERVER_ERROR, "internal-error", detail)
 
 
-def _kinematics(request: Request, error: Exception) -> Response:
-    assert isinstance(error, errors.KinematicsError)  # noqa: S101 - it is registered for this class
+def _kinematics(request: Request, error: errors.KinematicsError) -> Response:
     facts = error.facts()
     if (pointer := _place(error)) is not None:
         facts["pointer"] = pointer
@@ -152,8 +173,7 @@ def _kinematics(request: Request, error: Exception) -> Response:
     return response
 
 
-def _payload(request: Request, error: Exception) -> Response:
-    assert isinstance(error, InvalidPayload)  # noqa: S101
+def _payload(request: Request, error: InvalidPayload) -> Response:
     if not error.is_json:
         return problem(request, HTTPStatus.BAD_REQUEST, "malformed-json", str(error))
     first = f"{error.places[0]['pointer']}: {error.places[0]['detail']}" if error.places else str(error)
@@ -162,25 +182,13 @@ def _payload(request: Request, error: Exception) -> Response:
     return problem(request, HTTPStatus.UNPROCESSABLE_ENTITY, "invalid-payload", first + more, facts)
 
 
-def _validation(request: Request, error: Exception) -> Response:
-    assert isinstance(error, ValidationError | RequestValidationError)  # noqa: S101
-    return _payload(request, InvalidPayload.of(error))
-
-
-def _media_type(request: Request, error: Exception) -> Response:
-    assert isinstance(error, UnsupportedMediaType)  # noqa: S101
-    status = HTTPStatus.UNSUPPORTED_MEDIA_TYPE
-    return problem(request, status, "unsupported-media-type", str(error), {"allowed": error.allowed})
-
-
-def _http(request: Request, error: Exception) -> Response:
-    assert isinstance(error, HTTPException)  # noqa: S101
+def _http(request: Request, error: HTTPException) -> Response:
     status = HTTPStatus(error.status_code)
-    details = {
-        HTTPStatus.NOT_FOUND: "there is nothing at this path; /docs lists all paths",
-        HTTPStatus.METHOD_NOT_ALLOWED: f"{request.method} is not allowed here",
-    }
-    detail = details.get(status, str(error.detail))
+    detail = str(error.detail)
+    if status == HTTPStatus.NOT_FOUND:
+        detail = "there is nothing at this path; /docs lists all paths"
+    elif status == HTTPStatus.METHOD_NOT_ALLOWED:
+        detail = f"{request.method} is not allowed here"
     kind = status.phrase.lower().replace(" ", "-").replace("'", "")
     response = problem(request, status, kind, detail)
     response.headers.update(error.headers or {})
@@ -199,18 +207,7 @@ def _allowed_methods(request: Request) -> list[str]:
     return sorted(allowed | ({"HEAD"} if "GET" in allowed else set()))
 
 
-def _unexpected(request: Request, error: Exception) -> Response:
-    logger.error("unexpected error at %s %s", request.method, errors.quoted(request.url.path), exc_info=error)
-    detail = "something went wrong in the service; see its log"
-    return problem(request, HTTPStatus.INTERNAL_SERVER_ERROR, "internal-error", detail)
-
-
-def _sentence(message: str) -> str:
-    return str(message).removeprefix("Value error, ")[:_MOST_TEXT]
-
-
 def _place(error: errors.KinematicsError) -> str | None:
-    """Return the place in the payload where the core found an error, if known."""
     match error:
         case errors.InvalidUrdf():
             return "#/urdf"
@@ -225,16 +222,15 @@ def _place(error: errors.KinematicsError) -> str | None:
     index, field = getattr(error, "index", None), getattr(error, "field", None)
     if field is None:
         return None
-    return _of_field(field) if index is None else f"{_of_field(field)}/{index}"
+    pointer = "#/" + field.replace(".", "/")  # segments.1.via
+    return pointer if index is None else f"{pointer}/{index}"
 
 
-def _of_field(field: str) -> str:
-    """`segments.1.via` → `#/segments/1/via`."""
-    return "#/" + field.replace(".", "/")
+def _place_of(item: Mapping[str, Any]) -> dict[str, str]:
+    return {"pointer": _pointer(item["loc"]), "detail": item["msg"].removeprefix("Value error, ")[:_MOST_TEXT]}
 
 
 def _pointer(location: Sequence[int | str]) -> str:
-    """Return a JSON pointer into the payload, without the tags of unions."""
     parts = [str(part) for part in location if not str(part).startswith("<")]
     if parts[:1] == ["body"]:
         parts = parts[1:]
@@ -247,7 +243,6 @@ def _printable(text: str) -> str:
 
 
 def _shortened(value: Any) -> Any:
-    """Return facts of bounded size: long lists and texts are cut."""
     if isinstance(value, str):
         return _printable(value[:_LONGEST_FACT])
     if isinstance(value, list | tuple):
@@ -258,20 +253,3 @@ def _shortened(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _shortened(item) for key, item in value.items()}
     return value
-
-
-def _left(_: Request, error: Exception) -> Response:
-    assert isinstance(error, ClientDisconnect)  # noqa: S101
-    return Response(status_code=499)  # no client waits for it
-
-
-_HANDLERS: tuple[tuple[type[Exception], Callable[[Request, Exception], Response]], ...] = (
-    (errors.KinematicsError, _kinematics),
-    (InvalidPayload, _payload),
-    (ValidationError, _validation),
-    (RequestValidationError, _validation),
-    (UnsupportedMediaType, _media_type),
-    (HTTPException, _http),
-    (ClientDisconnect, _left),
-    (Exception, _unexpected),
-)

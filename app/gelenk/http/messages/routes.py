@@ -17,14 +17,7 @@ from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from gelenk.http.messages import problems
-from gelenk.http.messages.bodies import Bodies
-from gelenk.http.messages.openapi import (
-    BY_THE_CREW,
-    problem_responses,
-)
-from gelenk.http.messages.payloads import (
-    BoundedRequest,
-)
+from gelenk.http.messages.payloads import Bodies, BoundedRequest
 
 _OPERATION = re.compile(r"/v1/robots/(?P<robot>[^/]+)/(?P<operation>[a-z]+)")
 
@@ -35,10 +28,9 @@ class DocumentedRoute(APIRoute):
     """A route that FastAPI describes and `handler` answers."""
 
     def __init__(
-        self, path: str, endpoint: Callable[..., Any], handler: Handler, max_body_bytes: int, **documentation: Any
+        self, endpoint: Callable[..., Any], handler: Handler, max_body_bytes: int, **documentation: Any
     ) -> None:
-        documentation["responses"] = documentation.get("responses", {}) | problem_responses(*BY_THE_CREW)
-        super().__init__(path, endpoint, **documentation)
+        super().__init__(endpoint=endpoint, **documentation)
         self._handler = handler
         self._max_body_bytes = max_body_bytes
 
@@ -47,28 +39,29 @@ class DocumentedRoute(APIRoute):
         if scope["method"] not in (self.methods or ()):
             await super().handle(scope, receive, send)
             return
-        bodies: Bodies = scope["app"].bodies
+        request = BoundedRequest(scope, receive, send, self._max_body_bytes, scope["app"].bodies)
         try:
-            with BoundedRequest(scope, receive, send, self._max_body_bytes, bodies) as request:
+            with request:
                 response = await self._handler(request)
         except ClientDisconnect:
             return
+        except Exception as error:
+            response = problems.answer(request, error)
         await response(scope, receive, send)
 
 
 class Application(FastAPI):
     """FastAPI, with the operations on a robot dispatched first.
 
-    `operations` are the handlers of POST /v1/robots/{robot}/{operation}. Any other request, also a wrong method or an
+    `operations` are the routes of POST /v1/robots/{robot}/{operation}. Any other request, also a wrong method or an
     unknown operation, goes through FastAPI, and so do all requests if they are traced (`is_traced`). Requests arrive
     at `entry`, which leads to `answer`.
     """
 
-    def __init__(self, max_body_bytes: int, bodies: Bodies, is_traced: bool = False, **description: Any) -> None:
+    def __init__(self, bodies: Bodies, is_traced: bool = False, **description: Any) -> None:
         super().__init__(**description)
-        self._max_body_bytes, self._is_traced = max_body_bytes, is_traced
-        self.bodies = bodies
-        self.operations: dict[str, Handler] = {}
+        self.bodies, self._is_traced = bodies, is_traced
+        self.operations: dict[str, DocumentedRoute] = {}
         self.entry: ASGIApp = self.answer
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -87,17 +80,10 @@ class Application(FastAPI):
         if scope["type"] == "http" and scope["method"] == "POST" and not self._is_traced:
             scope["root_path"] = self.root_path
             match = _OPERATION.fullmatch(scope["path"].removeprefix(self.root_path))
-            handler = self.operations.get(match["operation"]) if match else None
-            if match and handler:
-                scope["path_params"] = {"robot": match["robot"]}
-                try:
-                    with BoundedRequest(scope, receive, send, self._max_body_bytes, self.bodies) as request:
-                        response = await handler(request)
-                except ClientDisconnect:
-                    return
-                except Exception as error:
-                    response = problems.answer(request, error)
-                await response(scope, receive, send)
+            route = self.operations.get(match["operation"]) if match else None
+            if match and route:
+                scope["app"], scope["path_params"] = self, {"robot": match["robot"]}
+                await route.handle(scope, receive, send)
                 return
         await super().__call__(scope, receive, send)
 

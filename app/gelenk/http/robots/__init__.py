@@ -1,5 +1,4 @@
 """Robots as resources.
 
-- `robots`: the collection and its members; `table`: a robot's DH table; `meshes`: its files.
-- `skeleton`: shapes for a robot without visuals.
+- `robots`: the collection and its members. `info`: what the service says about a robot. `meshes`: its files.
 """

@@ -9,20 +9,12 @@ from typing import IO, cast
 from starlette.background import BackgroundTask
 from starlette.responses import Response, StreamingResponse
 
+from gelenk.contract.resources import MESH_TYPES
 from gelenk.errors import UnknownMesh
 from gelenk.store.folders import open_plain
 
 SANDBOXED = {"Content-Security-Policy": "default-src 'none'; sandbox", "X-Content-Type-Options": "nosniff"}
 """Headers of files from clients: no browser shows them as a page of the service."""
-MEDIA_TYPES = {
-    ".stl": "model/stl",
-    ".obj": "model/obj",
-    ".dae": "model/vnd.collada+xml",
-    ".mtl": "model/mtl",
-    ".png": "image/png",
-    ".jpg": "image/jpeg",
-    ".jpeg": "image/jpeg",
-}
 _PIECE = 256 * 1024
 
 
@@ -52,7 +44,7 @@ def mesh_response(file: Path, path: str, accepted: str) -> Response:
             stream = cast(IO[bytes], gzip.open(kept))  # noqa: SIM115 (holds nothing but `kept`)
     return StreamingResponse(
         iter(lambda: stream.read(_PIECE), b""),
-        media_type=MEDIA_TYPES[Path(path).suffix.lower()],
+        media_type=MESH_TYPES[Path(path).suffix.lower()],
         headers=headers,
         background=BackgroundTask(kept.close),
     )

@@ -6,50 +6,27 @@ from dataclasses import dataclass, replace
 from io import BytesIO
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Path, Request, Response
-from starlette.datastructures import UploadFile
+from fastapi import APIRouter, Path, Query, Request, Response
+from starlette.datastructures import QueryParams, UploadFile
 
-from gelenk.contract.common import ChainEnds
-from gelenk.contract.dh import DhTablePayload, table_content
-from gelenk.contract.pose import Pose
-from gelenk.contract.robots import (
-    EXAMPLE_DH,
-    ArchiveReplacement,
-    JointInfo,
-    LimitsInfo,
-    MeshInfo,
-    MimicInfo,
-    NewArchive,
-    NewRobot,
-    RobotInfo,
-    RobotList,
-    RobotReplacement,
-)
+from gelenk.contract.common import FrameName
+from gelenk.contract.dh import Convention, SnapTolerance
+from gelenk.contract.dh_from_urdf import FromUrdfOptions
+from gelenk.contract.robots import ArchiveReplacement, NewArchive, NewRobot, RobotReplacement
 from gelenk.errors import InvalidArchive
-from gelenk.http.messages.openapi import (
-    BY_THE_CREW,
-    RobotPath,
-    UploadedRobotPath,
-    json_example,
-    problem_responses,
-    without_null,
-)
-from gelenk.http.messages.payloads import JSON, BoundedRequest, json_response, read_json
+from gelenk.http.messages.openapi import RobotPath, UploadedRobotPath, documentation
+from gelenk.http.messages.payloads import JSON, MULTIPART, BoundedRequest, json_response, read_json, read_query
 from gelenk.http.messages.problems import UnsupportedMediaType
 from gelenk.http.messages.routes import DocumentedRoute
-from gelenk.http.robots.meshes import MEDIA_TYPES, SANDBOXED, mesh_response
-from gelenk.http.robots.skeleton import skeleton_of
-from gelenk.http.workers.context import Context
+from gelenk.http.robots.info import info
+from gelenk.http.robots.meshes import SANDBOXED, mesh_response
 from gelenk.http.workers.pool_client import PoolClient
-from gelenk.http.workers.task import TaskRequest, buffers
-from gelenk.robot.chain import Chain
-from gelenk.robot.description import Joint
+from gelenk.http.workers.task import Context, TaskRequest, buffers
+from gelenk.operations.dh_from_urdf import table_answer
 from gelenk.store.archive import unpacked
 from gelenk.store.folders import writing
 from gelenk.store.library import Library, RobotUpload
-from gelenk.store.records import LoadedRobot
 
-MULTIPART = "multipart/form-data"
 WITHOUT_KEY = "clients without a key"
 """Owner of uploads without a key: addresses change, and where no key is needed all clients share one machine."""
 _PIECE = 256 * 1024
@@ -59,55 +36,22 @@ _LIST_SECONDS = 5.0
 
 def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
     """Return the router of operations that read or remove robots; workers read the untrusted descriptions."""
-    router = APIRouter(prefix="/v1/robots", tags=["Robots"])
+    router = APIRouter()
     listed = Listed(library, pool_client)
 
-    @router.get(
-        "",
-        operation_id="list_robots",
-        summary="All robots",
-        response_model=RobotList,
-        responses=problem_responses(*BY_THE_CREW),
-    )
+    @router.api_route(**documentation("list_robots"))
     async def list_robots(request: Request) -> Any:
-        """Lists the catalogue's robots, then the uploaded ones, each part sorted by name."""
         return await listed.answer(request)
 
-    @router.get(
-        "/{robot}",
-        operation_id="get_robot",
-        summary="A robot",
-        response_model=RobotInfo,
-        responses=problem_responses(404, 422, *BY_THE_CREW),
-    )
+    @router.api_route(**documentation("get_robot"))
     async def get_robot(robot: RobotPath, request: Request) -> Any:
-        """Joints, links, frames, chains, licence, and warnings about the description."""
         return await pool_client.answer(request, _described, TaskRequest(robot=robot))
 
-    @router.get(
-        "/{robot}/urdf",
-        operation_id="get_robot_urdf",
-        summary="A robot's URDF",
-        response_class=Response,
-        responses={
-            200: {"content": {"application/xml": {}}, "description": "The URDF"},
-            **problem_responses(404, 422, *BY_THE_CREW),
-        },
-    )
+    @router.api_route(**documentation("get_robot_urdf"))
     async def get_urdf(robot: RobotPath, request: Request) -> Response:
-        """The description as uploaded, or as generated from the DH table."""
         return await pool_client.answer(request, _urdf, TaskRequest(robot=robot))
 
-    @router.get(
-        "/{robot}/meshes/{path:path}",
-        operation_id="get_robot_mesh",
-        summary="A mesh file of a robot",
-        response_class=Response,
-        responses={
-            200: {"content": {kind: {} for kind in MEDIA_TYPES.values()}, "description": "The file"},
-            **problem_responses(404, 422, *BY_THE_CREW),
-        },
-    )
+    @router.api_route(**documentation("get_robot_mesh"))
     async def get_mesh(
         request: Request,
         robot: RobotPath,
@@ -121,23 +65,12 @@ def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
             ),
         ],
     ) -> Response:
-        """The file exactly as uploaded; the server does not inspect it.
-
-        A file that is stored compressed is sent compressed to clients whose `Accept-Encoding` names `gzip`.
-        """
         await pool_client.resident(request, robot)
         accepted = ",".join(request.headers.getlist("Accept-Encoding"))
         return await asyncio.to_thread(lambda: mesh_response(library.mesh(robot, path), path, accepted))
 
-    @router.delete(
-        "/{robot}",
-        operation_id="remove_robot",
-        summary="Remove an uploaded robot",
-        status_code=204,
-        responses=problem_responses(403, 404, 503, 507),
-    )
+    @router.api_route(**documentation("remove_robot"))
     def remove_robot(robot: UploadedRobotPath) -> Response:
-        """Removes the robot for every worker at once. The catalogue's robots are read-only."""
         library.remove(robot)
         return Response(status_code=204)
 
@@ -168,8 +101,8 @@ class Listed:
         return Response(content, media_type=JSON)
 
 
-def upload_routes(pool_client: PoolClient, max_body_bytes: int) -> list[DocumentedRoute]:
-    """Return the routes that add and replace robots: as JSON, or as a zip in a form."""
+def documented_routes(pool_client: PoolClient, max_body_bytes: int) -> list[DocumentedRoute]:
+    """Return the routes that add and replace robots, as JSON or as a zip in a form, and that of the DH table."""
 
     async def add(request: BoundedRequest) -> Response:
         return await _receive(request, pool_client, None)
@@ -177,55 +110,28 @@ def upload_routes(pool_client: PoolClient, max_body_bytes: int) -> list[Document
     async def replace(request: BoundedRequest) -> Response:
         return await _receive(request, pool_client, request.path_params["robot"])
 
-    def add_robot(robot: NewRobot) -> RobotInfo:
-        """Adds a URDF (xacro expanded), a DH table, or, as a form, a zip of one URDF and its meshes.
+    def add_robot(robot: NewRobot) -> Any: ...
 
-        The answer is sent once the robot is safely on disk; every worker sees it at once. Adding the same robot under
-        the same name again returns 200, a different one 409; a default chain with an unknown frame returns 404.
-        Harmless oddities are accepted and listed in `warnings`.
-        """
-        raise NotImplementedError
+    def replace_robot(robot: UploadedRobotPath, content: RobotReplacement) -> Any: ...
 
-    def replace_robot(robot: UploadedRobotPath, content: RobotReplacement) -> RobotInfo:
-        """Replaces an uploaded robot atomically: requests see either the old one or the new one."""
-        raise NotImplementedError
+    def robot_table(
+        robot: RobotPath,
+        convention: Annotated[Convention, Query(openapi_examples={"modified": {"value": "modified"}})] = "standard",
+        base_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link0"}})] = None,
+        tip_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link8"}})] = None,
+        snap_tolerance: Annotated[SnapTolerance, Query(openapi_examples={"exact": {"value": 0.0}})] = 0.0,
+    ) -> Any: ...
+
+    async def get_table(request: BoundedRequest) -> Response:
+        task_request = TaskRequest(
+            robot=request.path_params["robot"], query=request.scope["query_string"].decode("latin-1")
+        )
+        return await pool_client.answer(request, _robot_table, task_request)
 
     return [
-        DocumentedRoute(
-            "/v1/robots",
-            add_robot,
-            add,
-            max_body_bytes,
-            methods=["POST"],
-            operation_id="add_robot",
-            summary="Add a robot",
-            tags=["Robots"],
-            status_code=201,
-            responses={
-                200: {"model": RobotInfo, "description": "It was there"},
-                **problem_responses(400, 404, 409, 413, 415, 422, 503, 507),
-            },
-            openapi_extra={"requestBody": {"content": {**json_example(EXAMPLE_DH), **_form(NewArchive)}}},
-        ),
-        DocumentedRoute(
-            "/v1/robots/{robot}",
-            replace_robot,
-            replace,
-            max_body_bytes,
-            methods=["PUT"],
-            operation_id="replace_robot",
-            summary="Replace an uploaded robot",
-            tags=["Robots"],
-            responses=problem_responses(400, 403, 404, 413, 415, 422, 503, 507),
-            openapi_extra={
-                "requestBody": {
-                    "content": {
-                        **json_example({key: EXAMPLE_DH[key] for key in ("description", "dh")}),
-                        **_form(ArchiveReplacement),
-                    }
-                }
-            },
-        ),
+        DocumentedRoute(robot_table, get_table, max_body_bytes, **documentation("get_robot_dh")),
+        DocumentedRoute(add_robot, add, max_body_bytes, **documentation("add_robot")),
+        DocumentedRoute(replace_robot, replace, max_body_bytes, **documentation("replace_robot")),
     ]
 
 
@@ -318,62 +224,7 @@ def _urdf(context: Context, task_request: TaskRequest) -> Response:
     return Response(context.library.get(task_request.robot).urdf, media_type="application/xml", headers=SANDBOXED)
 
 
-def info(loaded: LoadedRobot) -> RobotInfo:
-    """Return everything about a robot except its poses."""
-    record, robot = loaded.record, loaded.robot
-    description = robot.description
-    chain: Chain = robot.chain(None, None)
-    return RobotInfo(
-        name=record.name,
-        description=record.file.description,
-        source=record.source,
-        format=record.file.format,
-        default_chain=ChainEnds(base_frame=chain.base_frame, tip_frame=chain.tip_frame),
-        chains=record.file.chains,
-        root=description.root,
-        joints=[_joint(joint) for joint in description.joints],
-        joint_names=list(chain.joint_names),
-        dh=None if loaded.table is None else DhTablePayload.model_validate(table_content(loaded.table)),
-        degrees_of_freedom=len(description.movable),
-        links=list(description.frames),
-        frames=list(description.frames),
-        leaf_tips=list(description.leaves),
-        meshes=[MeshInfo(reference=reference, path=path) for reference, path in loaded.meshes.items()],
-        skeleton=skeleton_of(loaded),
-        licence=record.file.licence,
-        provenance=record.file.source,
-        warnings=list(loaded.warnings),
-    )
-
-
-def _joint(joint: Joint) -> JointInfo:
-    mimic = joint.mimic
-    return JointInfo(
-        name=joint.name,
-        type=joint.type,
-        parent=joint.parent,
-        child=joint.child,
-        origin=Pose(position=list(joint.origin.xyz), rpy=list(joint.origin.rpy)),
-        axis=None if joint.type in {"fixed", "floating"} else list(joint.axis),
-        limits=LimitsInfo(
-            lower=joint.limits.lower,
-            upper=joint.limits.upper,
-            velocity=joint.limits.velocity,
-            effort=joint.limits.effort,
-        ),
-        mimic=MimicInfo(joint=mimic.joint, multiplier=mimic.multiplier, offset=mimic.offset) if mimic else None,
-    )
-
-
-def _form(fields: type[ArchiveReplacement]) -> dict[str, Any]:
-    """Return a form with these fields and an archive, as a further media type of a request."""
-    schema = fields.model_json_schema()
-    for field in schema["properties"].values():
-        without_null(field)
-    schema["properties"]["archive"] = {
-        "type": "string",
-        "format": "binary",
-        "description": "Zip of one URDF and its meshes.",
-    }
-    schema["required"] = [*schema.get("required", []), "archive"]
-    return {MULTIPART: {"schema": schema}}
+def _robot_table(context: Context, task_request: TaskRequest) -> Response:
+    options = read_query(FromUrdfOptions, QueryParams(task_request.query))
+    loaded = context.library.get(task_request.robot)
+    return json_response(table_answer(loaded.robot, options, loaded.warnings))

@@ -1,5 +1,4 @@
 """Runs requests in worker processes.
 
-- `pool_client`: sends requests to the worker pool.
-- `task`: runs in a worker; `context`: its robots and limits.
+- `pool_client`: sends requests to the worker pool. `task`: runs in a worker.
 """

@@ -10,8 +10,7 @@ from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
 from gelenk.errors import ServiceStopping, TooManyRequests
-from gelenk.http.workers.context import Context, ContextSetup
-from gelenk.http.workers.task import Reply, TaskRequest, WorkerTask, answered
+from gelenk.http.workers.task import Context, Reply, TaskRequest, WorkerTask, answered
 from gelenk.operations.request_counts import REQUEST_COUNTS
 from gelenk.pool.pool import WorkerPool
 from gelenk.store.library import Library
@@ -36,24 +35,19 @@ class PoolClient:
 
     Args:
         pool: Worker pool.
-        setup: Settings for the contexts of the workers.
+        context: What the answers of the workers depend on.
         library: Library of robots of this process.
         seconds: Longest wait of a request for a worker, and longest run time, [s].
         share: Maximum number of requests of one client that wait or run.
     """
 
-    def __init__(self, pool: WorkerPool, setup: ContextSetup, library: Library, seconds: float, share: int) -> None:
-        self.pool, self._setup, self._library, self._seconds = pool, setup, library, seconds
+    def __init__(self, pool: WorkerPool, context: Context, library: Library, seconds: float, share: int) -> None:
+        self.pool, self._context, self._library, self._seconds = pool, context, library, seconds
         self._share = share
         self._requests: Counter[str] = Counter()
 
     async def answer(self, request: Request, task: WorkerTask, task_request: TaskRequest) -> Response:
-        """Run a task in a worker and return its response.
-
-        Raises:
-            ClientDisconnect: The client has disconnected, which cancels the task.
-            KinematicsError: As for `WorkerPool.run`, and whatever the task raises.
-        """
+        """Run a task in a worker and return its response; raises as `WorkerPool.run` and `while_wanted`."""
         reply = await self._reply(request, task, task_request)
         REQUEST_COUNTS.set(reply[3])
         return Passed(reply)
@@ -63,11 +57,7 @@ class PoolClient:
         return b"".join((await self._reply(request, task, task_request))[2])
 
     async def resident(self, request: Request, name: str) -> LoadedRobot:
-        """Load a robot into this process, for quick calls; if it was uploaded, a worker tries first, as it may crash.
-
-        Raises:
-            KinematicsError: As for `answer`, and as for `Library.get`.
-        """
+        """Load a robot into this process, for quick calls; if it was uploaded, a worker tries first: it may crash."""
         found = self._library.loaded(name)
         if found is not None:
             return found
@@ -80,7 +70,7 @@ class PoolClient:
         if client and self._requests[client] >= self._share:
             raise TooManyRequests(self._share, self.pool.retry_after)
         self.pool.check_room(client)
-        work = self.pool.run(answered, (self._setup, task, task_request), self._seconds, client)
+        work = self.pool.run(answered, (self._context, task, task_request), self._seconds, client)
         self._requests[client] += 1
         try:
             return await while_wanted(request.receive, work)
@@ -115,7 +105,6 @@ async def while_wanted(receive: Receive, work: Coroutine[Any, Any, _Result]) -> 
     Raises:
         ClientDisconnect: The client has disconnected.
         ServiceStopping: The server has cancelled the work because its shutdown can wait no longer.
-        Exception: Whatever the work raises.
     """
     doing, leaving = asyncio.ensure_future(work), asyncio.ensure_future(_left(receive))
     try:

@@ -4,17 +4,44 @@ It must be a module-level function, because it is sent by name.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
+from pathlib import Path
 from pickle import PickleBuffer
 from typing import TypeAlias
 
 from starlette.responses import Response
 
 from gelenk.http.messages.payloads import JSON
-from gelenk.http.workers.context import Context, ContextSetup
+from gelenk.operations.outcome import Limits
 from gelenk.operations.request_counts import REQUEST_COUNTS, RequestCounts
 from gelenk.processes.wire import pieces_of
+from gelenk.store.library import Library, Quota
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """What answers depend on besides the request; sent along with each task.
+
+    Attributes:
+        catalogue: Folder of the robots that come with the project.
+        uploads: Folder of the uploaded robots.
+        limits: Limits on the work for an answer.
+        quota: Limits on what one client may store.
+    """
+
+    catalogue: Path
+    uploads: Path
+    limits: Limits
+    quota: Quota = field(default_factory=Quota)
+
+    @property
+    def library(self) -> Library:
+        """All robots, in the one library of this process."""
+        return _library(self.catalogue, self.uploads, self.quota)
+
+
+_library = lru_cache(maxsize=1)(Library)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,14 +80,9 @@ Reply: TypeAlias = tuple[int, list[tuple[bytes, bytes]], list[PickleBuffer], Req
 """Status code, headers, body in pieces, and counts for the metrics."""
 
 
-def answered(order: tuple[ContextSetup, WorkerTask, TaskRequest]) -> Reply:
+def answered(order: tuple[Context, WorkerTask, TaskRequest]) -> Reply:
     """Run a task in this worker process and return the parts of its response."""
-    setup, task, task_request = order
+    context, task, task_request = order
     REQUEST_COUNTS.set(None)
-    response = task(_context(setup), task_request)
+    response = task(context, task_request)
     return response.status_code, response.raw_headers, pieces_of(bytes(response.body)), REQUEST_COUNTS.get()
-
-
-@lru_cache(maxsize=1)
-def _context(setup: ContextSetup) -> Context:
-    return setup.context()

@@ -1,0 +1,278 @@
+"""The operations on stored robots and jobs, and about the service itself."""
+
+from typing import Any
+
+from gelenk.contract.dh_from_urdf import FromUrdfAnswer
+from gelenk.contract.endpoint import Resource, Scope
+from gelenk.contract.health import Health
+from gelenk.contract.ik import InverseAnswer
+from gelenk.contract.jobs import JobInfo
+from gelenk.contract.robots import EXAMPLE_DH, ArchiveReplacement, NewArchive, RobotInfo, RobotList
+from gelenk.contract.trajectory_answer import TrajectoryAnswer
+from gelenk.contract.workspace import WorkspaceAnswer
+
+MESH_TYPES = {
+    ".stl": "model/stl",
+    ".obj": "model/obj",
+    ".dae": "model/vnd.collada+xml",
+    ".mtl": "model/mtl",
+    ".png": "image/png",
+    ".jpg": "image/jpeg",
+    ".jpeg": "image/jpeg",
+}
+"""Media types of the files of a robot, by the ends of their names."""
+
+_BY_WORKER = (429, 500, 503, 504)
+_EVENT = {
+    "type": "object",
+    "properties": {
+        "event": {"enum": ["progress", "finished"]},
+        "id": {"type": "string", "description": "Same as `Last-Event-ID`, which a browser sends when it reconnects."},
+        "data": {
+            "type": "string",
+            "contentMediaType": "application/json",
+            "contentSchema": {"$ref": "#/components/schemas/JobInfo"},
+        },
+    },
+    "required": ["event", "id", "data"],
+}
+_WORKSPACE_PICTURE = (
+    "A workspace from the front, the side and above, or in its plane, coloured by the measure or the dexterity. For a "
+    "trajectory what the call itself answers."
+)
+
+
+def _content(description: str, **more: str) -> dict[str, Any]:
+    return {"schema": {"type": "string", **more, "description": description}}
+
+
+RESOURCES = (
+    Resource(
+        name="list_robots",
+        method="GET",
+        path="v1/robots",
+        tag="Robots",
+        scope=Scope.READ,
+        answer=RobotList,
+        problems=_BY_WORKER,
+        summary="All robots",
+        description="Lists the catalogue's robots, then the uploaded ones, each part sorted by name.",
+    ),
+    Resource(
+        name="get_robot",
+        method="GET",
+        path="v1/robots/{robot}",
+        tag="Robots",
+        scope=Scope.READ,
+        answer=RobotInfo,
+        problems=(404, 422, *_BY_WORKER),
+        summary="A robot",
+        description="Joints, links, frames, chains, licence, and warnings about the description.",
+    ),
+    Resource(
+        name="get_robot_urdf",
+        method="GET",
+        path="v1/robots/{robot}/urdf",
+        tag="Robots",
+        scope=Scope.READ,
+        responses={200: {"content": {"application/xml": {}}, "description": "The URDF"}},
+        problems=(404, 422, *_BY_WORKER),
+        summary="A robot's URDF",
+        description="The description as uploaded, or as generated from the DH table.",
+    ),
+    Resource(
+        name="get_robot_mesh",
+        method="GET",
+        path="v1/robots/{robot}/meshes/{path:path}",
+        tag="Robots",
+        scope=Scope.READ,
+        responses={200: {"content": {kind: {} for kind in MESH_TYPES.values()}, "description": "The file"}},
+        problems=(404, 422, *_BY_WORKER),
+        summary="A mesh file of a robot",
+        description="""
+        The file exactly as uploaded; the server does not inspect it.
+
+        A file that is stored compressed is sent compressed to clients whose `Accept-Encoding` names `gzip`.
+        """,
+    ),
+    Resource(
+        name="remove_robot",
+        method="DELETE",
+        path="v1/robots/{robot}",
+        tag="Robots",
+        status=204,
+        problems=(403, 404, 503, 507),
+        summary="Remove an uploaded robot",
+        description="Removes the robot for every worker at once. The catalogue's robots are read-only.",
+    ),
+    Resource(
+        name="add_robot",
+        path="v1/robots",
+        tag="Robots",
+        answer=RobotInfo,
+        status=201,
+        responses={200: {"model": RobotInfo, "description": "It was there"}},
+        problems=(400, 404, 409, 413, 415, 422, 507, *_BY_WORKER),
+        example=EXAMPLE_DH,
+        form=NewArchive,
+        summary="Add a robot",
+        description="""
+        Adds a URDF (xacro expanded), a DH table, or, as a form, a zip of one URDF and its meshes.
+
+        The answer is sent once the robot is safely on disk; every worker sees it at once. Adding the same robot under
+        the same name again returns 200, a different one 409; a default chain with an unknown frame returns 404.
+        Harmless oddities are accepted and listed in `warnings`.
+        """,
+    ),
+    Resource(
+        name="replace_robot",
+        method="PUT",
+        path="v1/robots/{robot}",
+        tag="Robots",
+        answer=RobotInfo,
+        problems=(400, 403, 404, 413, 415, 422, 507, *_BY_WORKER),
+        example={key: EXAMPLE_DH[key] for key in ("description", "dh")},
+        form=ArchiveReplacement,
+        summary="Replace an uploaded robot",
+        description="Replaces an uploaded robot atomically: requests see either the old one or the new one.",
+    ),
+    Resource(
+        name="get_robot_dh",
+        method="GET",
+        path="v1/robots/{robot}/dh",
+        tag="DH tables",
+        scope=Scope.READ,
+        answer=FromUrdfAnswer,
+        problems=(404, 422, *_BY_WORKER),
+        summary="A robot's chain as a table",
+        description="Returns the DH table of the default chain, or of the chain between the named frames, as "
+        "`from-urdf` does.",
+    ),
+    Resource(
+        name="get_job",
+        method="GET",
+        path="v1/jobs/{job}",
+        tag="Jobs",
+        scope=Scope.READ,
+        answer=JobInfo,
+        problems=(404, 422),
+        summary="A job",
+        description="""
+        A job's state and progress. Every worker knows every job, and jobs survive a restart.
+
+        A job whose process ended is `queued` until another process resumes the unfinished part.
+        """,
+    ),
+    Resource(
+        name="watch_job",
+        method="GET",
+        path="v1/jobs/{job}/events",
+        tag="Jobs",
+        scope=Scope.READ,
+        responses={
+            200: {"content": {"text/event-stream": {"itemSchema": _EVENT}}, "description": "Server-sent events"},
+            204: {"description": "The last event was received before"},
+        },
+        problems=(404, 422),
+        summary="A job's progress as events",
+        description="""
+        Server-sent events until the job finishes.
+
+        `event: progress` on each advance, and at the end `event: finished`; the data of both is the job as
+        `GET /v1/jobs/{job}` has it. Comments keep the connection alive between them.
+        """,
+    ),
+    Resource(
+        name="get_job_result",
+        method="GET",
+        path="v1/jobs/{job}/result",
+        tag="Jobs",
+        scope=Scope.READ,
+        answer=WorkspaceAnswer | InverseAnswer | TrajectoryAnswer,
+        responses={
+            200: {
+                "content": {
+                    "application/x-npy": _content(
+                        "Of a workspace the array, columns as `array.columns` of the JSON has them: (N, 4) x y z "
+                        "measure of a cloud, (M, 5) x y z samples best_measure of a grid, (M, 6) with the share of a "
+                        "dexterity map. For other jobs what the call itself answers, headers included.",
+                        format="binary",
+                    ),
+                    "text/csv": _content("For a trajectory what the call itself answers."),
+                    "image/svg+xml": _content(_WORKSPACE_PICTURE, format="binary"),
+                    "image/png": _content(_WORKSPACE_PICTURE, format="binary"),
+                }
+            }
+        },
+        problems=(404, 409, 413, 422, 500, 503),
+        summary="A job's result",
+        description="""
+        Returns a workspace's summary (JSON), array (npy) or picture, as `Accept` says, or the answer of another job.
+
+        That answer is byte for byte what the operation returns directly. The header `Gelenk-Robot-Digest` has the
+        `robot_digest` of the job. A failed job returns its problem.
+
+        A job given up because the service ended every time it was started returns 409: submit it again.
+        """,
+    ),
+    Resource(
+        name="cancel_job",
+        method="DELETE",
+        path="v1/jobs/{job}",
+        tag="Jobs",
+        answer=JobInfo,
+        problems=(404, 409, 422, 503, 507),
+        summary="Cancel a job, or remove a finished one",
+        description="""
+        A queued or running job is cancelled at once, whichever worker runs it, and can still be read.
+
+        A finished job, even if it finished only now, keeps its result: 409 with its `state`. With `finished=remove` it
+        is removed together with its result; the answer shows it one last time.
+        """,
+    ),
+    Resource(
+        name="health",
+        method="GET",
+        path="healthz",
+        tag="Service",
+        scope=None,
+        answer=Health,
+        summary="Is the process alive?",
+        description="Answers as long as the process is alive.",
+    ),
+    Resource(
+        name="readiness",
+        method="GET",
+        path="readyz",
+        tag="Service",
+        scope=None,
+        answer=Health,
+        problems=(503,),
+        summary="Is it ready for work?",
+        description="""
+        503 with `waiting_for` and `reasons` until everything is ready; `failure` says what went wrong.
+
+        `kernels`: compiled at the first start. `crew`: processes for long work. `jobs`: no cluster runs them.
+        `storage`: nothing can be stored, because the disk is full or read-only; stored data can still be read.
+        """,
+    ),
+    Resource(
+        name="metrics",
+        method="GET",
+        path="metrics",
+        tag="Service",
+        scope=Scope.ADMIN,
+        responses={
+            200: {
+                "content": {"text/plain": {"schema": {"type": "string"}}},
+                "description": "Prometheus's text format",
+            }
+        },
+        summary="Metrics",
+        description="""
+        Latencies and batch sizes by operation and robot, verdicts and iterations of inverse kinematics, queues.
+
+        Covers all worker processes together, in Prometheus's text format.
+        """,
+    ),
+)
