@@ -6,7 +6,7 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import Configurations, Matrix
+from gelenk.contract.kinematics import BatchRequest, Configurations, Matrix
 from gelenk.contract.statics import Gravity, Wrenches, WrenchOptions, WrenchRequest
 
 Term = Literal["mass_matrix", "coriolis_matrix", "coriolis_torques", "gravity_torques", "energies"]
@@ -30,10 +30,9 @@ class DynamicsOptions(WrenchOptions):
     )
 
 
-class DynamicsRequest(DynamicsOptions, WrenchRequest):
+class DynamicsRequest(BatchRequest, DynamicsOptions, WrenchRequest):
     """Dynamics of a batch of configurations."""
 
-    joint_positions: Configurations
     joint_velocities: Configurations | None = Field(
         default=None, description="One entry per configuration, [rad/s or m/s]; zero if left out."
     )

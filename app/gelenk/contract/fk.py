@@ -6,8 +6,8 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, FrameName
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import CertificateInfo, Configurations
-from gelenk.contract.pose import Pose, PoseFormat
+from gelenk.contract.kinematics import BatchRequest, CertificateInfo, RespectLimits
+from gelenk.contract.pose import AnswerFormat, Pose
 
 
 class ForwardOptions(ChainOptions):
@@ -15,19 +15,15 @@ class ForwardOptions(ChainOptions):
 
     list_fields = frozenset({"frames"})
 
-    pose_format: PoseFormat = Field(default="quaternion_xyzw", description="Notation of the poses in the answer.")
+    pose_format: AnswerFormat = "quaternion_xyzw"
     frames: list[FrameName] | Literal["all"] | None = Field(
         default=None, description='Further frames that the chain moves, by name, or "all" of them.'
     )
-    respect_limits: bool = Field(
-        default=False, description="Whether a configuration beyond the joint limits is an error."
-    )
+    respect_limits: RespectLimits = False
 
 
-class ForwardRequest(ForwardOptions):
+class ForwardRequest(BatchRequest, ForwardOptions):
     """Forward kinematics of a batch of configurations."""
-
-    joint_positions: Configurations
 
 
 class ForwardAnswer(Answer):

@@ -6,7 +6,7 @@ from pydantic import Field, model_validator
 
 from gelenk.contract.common import Answer, ChainOptions
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import Configurations, JacobianCertificateInfo, Matrix
+from gelenk.contract.kinematics import BatchRequest, Configurations, JacobianCertificateInfo, Matrix, RespectLimits
 
 
 class JacobianOptions(ChainOptions):
@@ -32,9 +32,7 @@ class JacobianOptions(ChainOptions):
     rank_tolerance: float = Field(
         default=1e-10, gt=0, lt=1, description="A singular value counts where it exceeds this times the largest."
     )
-    respect_limits: bool = Field(
-        default=False, description="Whether a configuration beyond the joint limits is an error."
-    )
+    respect_limits: RespectLimits = False
 
     @model_validator(mode="after")
     def _analytic_in_base_axes(self) -> "JacobianOptions":
@@ -43,10 +41,9 @@ class JacobianOptions(ChainOptions):
         return self
 
 
-class JacobianRequest(JacobianOptions):
+class JacobianRequest(BatchRequest, JacobianOptions):
     """Jacobians of a batch of configurations."""
 
-    joint_positions: Configurations
     joint_velocities: Configurations | None = Field(
         default=None, description="For `time_variation`: one entry per configuration, [rad/s or m/s]."
     )

@@ -6,7 +6,12 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, Payload
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import Configuration, Configurations, JacobianCertificateInfo
+from gelenk.contract.kinematics import (
+    BatchRequest,
+    Configuration,
+    JacobianCertificateInfo,
+    RespectLimits,
+)
 from gelenk.ik.search.words import DIRECTIONS, Direction
 
 MAX_DETAILED = 10_000
@@ -56,9 +61,7 @@ class ManipulabilityOptions(ChainOptions):
         description="Whether to compute velocities and forces within the limits of each joint too: in the "
         "`directions`, or along x, y and z where none are given.",
     )
-    respect_limits: bool = Field(
-        default=False, description="Whether a configuration beyond the joint limits is an error."
-    )
+    respect_limits: RespectLimits = False
 
 
 class RateAndEffortLimits(Payload):
@@ -72,10 +75,9 @@ class RateAndEffortLimits(Payload):
     )
 
 
-class ManipulabilityRequest(ManipulabilityOptions):
+class ManipulabilityRequest(BatchRequest, ManipulabilityOptions):
     """Manipulability at a batch of configurations."""
 
-    joint_positions: Configurations
     directions: list[Vector] | None = Field(
         default=None,
         min_length=1,

@@ -7,7 +7,7 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import Configurations, JacobianCertificateInfo
+from gelenk.contract.kinematics import BatchRequest, Directions, JacobianCertificateInfo, RankTolerance
 from gelenk.ik.search.words import Direction
 from gelenk.kinematics.velocity.words import SingularityKind
 
@@ -26,10 +26,8 @@ class SingularityOptions(ChainOptions):
 
     list_fields = frozenset({"task"})
 
-    task: list[Direction] | None = Field(
+    task: Directions | None = Field(
         default=None,
-        min_length=1,
-        max_length=6,
         description="The directions that count, rows of the Jacobian in `reference`; all six if left out. A planar arm "
         "loses nothing in all six: its singularities are those of `x y`.",
         examples=[["x", "y", "z"]],
@@ -48,13 +46,7 @@ class SingularityOptions(ChainOptions):
         description="Factor of the angular rows that makes them comparable with linear ones, [m]; if left out, metres "
         "and radians are mixed where both count.",
     )
-    rank_tolerance: float = Field(
-        default=1e-10,
-        gt=0,
-        lt=1,
-        description="A singular value counts where it exceeds this times the largest, and the rounding of the whole "
-        "Jacobian; no unit.",
-    )
+    rank_tolerance: RankTolerance = 1e-10
     respect_limits: bool = Field(
         default=False,
         description="Whether a configuration beyond the joint limits is an error, and the nearest singularity must be "
@@ -82,10 +74,8 @@ class SingularityOptions(ChainOptions):
     )
 
 
-class SingularityRequest(SingularityOptions):
+class SingularityRequest(BatchRequest, SingularityOptions):
     """Singularities at a batch of configurations, or along a path of them."""
-
-    joint_positions: Configurations
 
 
 class LostDirectionInfo(Answer):

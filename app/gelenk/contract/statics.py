@@ -6,7 +6,14 @@ from pydantic import Discriminator, Field, Tag
 
 from gelenk.contract.common import Answer, ChainOptions, FrameName, OnTheWire, Payload, Vectors
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import MAX_CONFIGURATIONS, Configurations, Matrix
+from gelenk.contract.kinematics import (
+    MAX_CONFIGURATIONS,
+    BatchRequest,
+    Configurations,
+    Directions,
+    Matrix,
+    RespectLimits,
+)
 from gelenk.ik.search.words import Direction
 
 MAX_TESTS = 100
@@ -75,9 +82,7 @@ class WrenchOptions(ChainOptions):
     point_frame: FrameName | None = Field(
         default=None, description="Frame of `point`, any of the robot likewise; the tip if left out."
     )
-    respect_limits: bool = Field(
-        default=False, description="Whether a configuration beyond the joint limits is an error."
-    )
+    respect_limits: RespectLimits = False
 
 
 class WrenchRequest(WrenchOptions):
@@ -97,10 +102,8 @@ class StaticsOptions(WrenchOptions):
     list_fields = frozenset({"task"})
     vector_fields = frozenset({"gravity"})
 
-    task: list[Direction] | None = Field(
+    task: Directions | None = Field(
         default=None,
-        min_length=1,
-        max_length=6,
         description="The components of twists and wrenches that count, along the axes that they are expressed in; all "
         "six if left out. A wrench then has one number for each, and none in the others.",
         examples=[["x", "y"]],
@@ -127,10 +130,9 @@ class StaticsOptions(WrenchOptions):
     )
 
 
-class StaticsRequest(StaticsOptions, WrenchRequest):
+class StaticsRequest(BatchRequest, StaticsOptions, WrenchRequest):
     """Statics of a batch of configurations."""
 
-    joint_positions: Configurations
     wrenches: Wrenches | None = Field(
         default=None,
         description="γ, exerted by the tip on its surroundings, force before moment, [N] and [N m]: a list of one for "

@@ -8,7 +8,7 @@ from pydantic import Discriminator, Field, Tag
 from gelenk.contract.common import ChainOptions, OnTheWire, Payload
 from gelenk.contract.course_motion import Duration
 from gelenk.contract.kinematics import ByName, ByOrder, Configuration
-from gelenk.contract.pose import ORIENTATIONS, Pose, PoseFormat
+from gelenk.contract.pose import ORIENTATIONS, AnswerFormat, Pose
 from gelenk.ik.search.words import Direction
 from gelenk.robot.arrays import Array
 from gelenk.robot.arrays import Configuration as GivenConfiguration
@@ -290,4 +290,4 @@ class TrajectoryRequest(ChainOptions, MotionOptions):
     )
     coefficients: bool = Field(default=False, description="Whether to include each segment's polynomials in full.")
     tip_poses: bool = Field(default=True, description="Whether to include the tip's poses at the samples.")
-    pose_format: PoseFormat = Field(default="quaternion_xyzw", description="Notation of the poses in the answer.")
+    pose_format: AnswerFormat = "quaternion_xyzw"

@@ -6,7 +6,16 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from gelenk.contract.common import Answer, ChainOptions, OnTheWire, Payload, Vectors
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import MAX_CONFIGURATIONS, Configuration, Configurations, Matrix
+from gelenk.contract.kinematics import (
+    MAX_CONFIGURATIONS,
+    BatchRequest,
+    Configuration,
+    Configurations,
+    Directions,
+    Matrix,
+    RankTolerance,
+    RespectLimits,
+)
 from gelenk.contract.singularities import SingularityInfo
 from gelenk.ik.search.words import Direction, ObjectiveName
 from gelenk.kinematics.velocity.words import ExceededLimit, InverseName, InverseStatus
@@ -84,10 +93,8 @@ class VelocityOptions(ChainOptions):
         "`world`: along the base's axes, the linear part that of the point of the tip's body that passes the base's "
         "origin (the spatial twist).",
     )
-    task: list[Direction] | None = Field(
+    task: Directions | None = Field(
         default=None,
-        min_length=1,
-        max_length=6,
         description="The directions that count, rows of the Jacobian in `reference`, in the order as given; all six if "
         "left out. An arm with fewer joints than directions leaves a residual.",
         examples=[["x", "y"]],
@@ -110,13 +117,7 @@ class VelocityOptions(ChainOptions):
         description="σ₀ of the adaptive damping, [m or rad] per [rad or m]: where the smallest singular value is less, "
         "damping sets in, and no gain exceeds 1/σ₀; 0.05 if left out.",
     )
-    rank_tolerance: float = Field(
-        default=1e-10,
-        gt=0,
-        lt=1,
-        description="A singular value counts where it exceeds this times the largest, and the rounding of the whole "
-        "Jacobian; no unit.",
-    )
+    rank_tolerance: RankTolerance = 1e-10
     characteristic_length: float | None = Field(
         default=None,
         ge=1e-6,
@@ -133,15 +134,12 @@ class VelocityOptions(ChainOptions):
         description="Whether each entry also has the whole report of what is lost, which joints are dependent and "
         f"which motions are internal; of at most {MAX_REPORTS} configurations. It is of the same rows.",
     )
-    respect_limits: bool = Field(
-        default=False, description="Whether a configuration beyond the joint limits is an error."
-    )
+    respect_limits: RespectLimits = False
 
 
-class VelocityRequest(VelocityOptions):
+class VelocityRequest(BatchRequest, VelocityOptions):
     """Motion of the tip (`joint_velocities` given), or of the joints (`twists`, `tip_accelerations`, `tip_jerks`)."""
 
-    joint_positions: Configurations
     joint_velocities: Configurations | None = Field(
         default=None, description="q̇, one entry per configuration, [rad/s or m/s]."
     )
