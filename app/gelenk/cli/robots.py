@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gelenk.cli.completion import robots_beginning_with
-from gelenk.cli.files.inputs import description_from, is_file, name_of
+from gelenk.cli.files.inputs import is_file, name_of
 from gelenk.cli.files.outputs import AnswerRows
 from gelenk.cli.session import BaseOption, TipOption, session
 from gelenk.errors import InvalidField
@@ -82,7 +82,7 @@ def add(
         else:
             if ends is None:
                 del about["default_chain"]
-            body = {**about, **description_from(file, shared.arguments, shared.packages, shared.strict)}
+            body = {**about, **shared.description(file)}
             info = client.replace_robot(name, **body) if replace else client.add_robot(name=name, **body)
     shared.write(info, _joints(info))
 

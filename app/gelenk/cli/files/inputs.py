@@ -7,7 +7,7 @@ import re
 import sys
 import tomllib
 import uuid
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -164,7 +164,7 @@ def fields_of(text: str | None) -> dict[str, Any]:
     return content
 
 
-def pairs_of(given: list[str], field: str) -> dict[str, str]:
+def pairs_of(given: Sequence[str], field: str) -> dict[str, str]:
     """Parse `NAME=VALUE` arguments.
 
     Raises:
@@ -179,7 +179,7 @@ def pairs_of(given: list[str], field: str) -> dict[str, str]:
     return found
 
 
-def packages_of(given: list[str]) -> dict[str, Path]:
+def packages_of(given: Sequence[str]) -> dict[str, Path]:
     """Parse `NAME=FOLDER` arguments.
 
     Raises:
