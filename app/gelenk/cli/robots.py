@@ -73,15 +73,12 @@ def add(
 
     ends = None if base is None or tip is None else ChainEnds(base_frame=base, tip_frame=tip)
     shared, name = session(context), name or name_of(file)
-    about: dict[str, Any] = {"description": description, "default_chain": ends}
+    about: dict[str, Any] = {"description": description, **({} if ends is None else {"default_chain": ends})}
     with shared.client() as client:
         if file.suffix.lower() == ".zip":
-            info = (client.replace_archive if replace else client.add_archive)(
-                name, file, **about, strict=shared.strict
-            )
+            send = client.replace_archive if replace else client.add_archive
+            info = send(name, file, **about, strict=shared.strict)
         else:
-            if ends is None:
-                del about["default_chain"]
             body = {**about, **shared.description(file)}
             info = client.replace_robot(name, **body) if replace else client.add_robot(name=name, **body)
     shared.write(info, _joints(info))

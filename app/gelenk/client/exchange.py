@@ -2,8 +2,7 @@
 
 import gc
 import inspect
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from io import BytesIO
 from typing import Any, ParamSpec, TypeVar
 from urllib.parse import quote
@@ -62,26 +61,17 @@ def reader(answer: type[A]) -> Callable[[Response], A]:
     """Return a function that reads an answer; further fields of a newer service are left out."""
 
     def read(response: Response) -> A:
-        with _collector_at_rest(len(response.content) > _LARGE):
+        # Of a hundred thousand new poses none is garbage: scanning them takes a good part of the time to read them.
+        is_paused = len(response.content) > _LARGE and gc.isenabled()
+        if is_paused:
+            gc.disable()
+        try:
             return answer.model_validate_json(response.content, extra="ignore")
+        finally:
+            if is_paused:
+                gc.enable()
 
     return read
-
-
-@contextmanager
-def _collector_at_rest(rests: bool) -> Iterator[None]:
-    """Pause the garbage collector if `rests`: of a hundred thousand new poses none is garbage.
-
-    It would scan them repeatedly, for a good part of the time that a large answer takes to read.
-    """
-    rests = rests and gc.isenabled()
-    if rests:
-        gc.disable()
-    try:
-        yield
-    finally:
-        if rests:
-            gc.enable()
 
 
 def numbers(array: Array) -> Array:

@@ -7,9 +7,8 @@ from pydantic import Discriminator, Field, Tag
 
 from gelenk.contract.common import ChainOptions, OnTheWire, Payload
 from gelenk.contract.course_motion import Duration
-from gelenk.contract.kinematics import ByName, ByOrder, Configuration
+from gelenk.contract.kinematics import ByName, ByOrder, Configuration, Directions
 from gelenk.contract.pose import ORIENTATIONS, AnswerFormat, Pose
-from gelenk.ik.search.words import Direction
 from gelenk.robot.arrays import Array
 from gelenk.robot.arrays import Configuration as GivenConfiguration
 from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw
@@ -263,10 +262,8 @@ class TrajectoryRequest(ChainOptions, MotionOptions):
         "`audit` gives the difference of the peaks from those of the exact path.",
     )
     orientation_tolerance: float = Field(default=1e-3, ge=1e-6, le=1.0, description="Allowed angle from it, [rad].")
-    task: list[Direction] | None = Field(
+    task: Directions | None = Field(
         default=None,
-        min_length=1,
-        max_length=6,
         description="The directions in which the path counts, as in `ik`; all six if left out. `x y z` along the "
         "base's axes, `rx ry rz` about the path's: `x y z rx ry` is a position and an approach axis.",
         examples=[["x", "y", "z", "rx", "ry"]],
