@@ -24,7 +24,7 @@ _LARGE = 1_000_000
 """Size of an answer that counts as large, in bytes."""
 
 
-def sent(method: str, path: str, fields: Mapping[str, Any], answer: type[A], **details: Any) -> Call[A]:
+def json_call(method: str, path: str, fields: Mapping[str, Any], answer: type[A], **details: Any) -> Call[A]:
     """Describe a call with JSON in both directions."""
     return Call(method, path, reader(answer), body=encoded(fields), **details)
 

@@ -11,7 +11,7 @@ from pydantic import BaseModel
 
 from gelenk.client import kept
 from gelenk.client.call import NPY, ROBOT, Call, Sent
-from gelenk.client.exchange import described_by, fits_query, packed, query_of, reader, segment, sent
+from gelenk.client.exchange import described_by, fits_query, json_call, packed, query_of, reader, segment
 from gelenk.contract import (
     compare_dh,
     convert_dh,
@@ -60,7 +60,7 @@ def _about_robot(
 
     def describe(robot: str, /, *_: P.args, **fields: P.kwargs) -> Call[A]:
         is_repeatable = answer is not JobInfo or fields.get("job_id") is not None
-        return sent(method, path.format(robot=segment(robot)), fields, answer, is_repeatable=is_repeatable)
+        return json_call(method, path.format(robot=segment(robot)), fields, answer, is_repeatable=is_repeatable)
 
     return Sent(described_by(describe, request, answer, ROBOT))
 
@@ -74,8 +74,8 @@ def _operation(endpoint: RobotEndpoint[P, A]) -> Sent[Concatenate[str, P], A]:
         if isinstance(array, np.ndarray) and not endpoint.npy_holds_more and fits_query(rest):
             return Call("POST", path, reader(endpoint.answer), query_of(rest), packed(array), NPY)
         if isinstance(array, np.ndarray) and batch == "targets":
-            return sent("POST", path, {**rest, batch: pose_fields(array)}, endpoint.answer)
-        return sent("POST", path, fields, endpoint.answer)
+            return json_call("POST", path, {**rest, batch: pose_fields(array)}, endpoint.answer)
+        return json_call("POST", path, fields, endpoint.answer)
 
     return Sent(described_by(describe, endpoint.request, endpoint.answer, ROBOT))
 
@@ -84,7 +84,7 @@ def _without_robot(path: str, request: Callable[P, BaseModel], answer: type[A]) 
     """Define a call whose path names no robot."""
 
     def describe(*_: P.args, **fields: P.kwargs) -> Call[A]:
-        return sent("POST", path, fields, answer)
+        return json_call("POST", path, fields, answer)
 
     return Sent(described_by(describe, request, answer))
 

@@ -6,7 +6,8 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import BatchRequest, Configurations, Matrix
+from gelenk.contract.kinematics import Configurations, Matrix
+from gelenk.contract.options import BatchRequest
 from gelenk.contract.statics import Gravity, Wrenches, WrenchOptions, WrenchRequest
 
 Term = Literal["mass_matrix", "coriolis_matrix", "coriolis_torques", "gravity_torques", "energies"]

@@ -6,7 +6,8 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, FrameName
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import BatchRequest, CertificateInfo, RespectLimits
+from gelenk.contract.kinematics import CertificateInfo
+from gelenk.contract.options import BatchRequest, RespectLimits
 from gelenk.contract.pose import AnswerFormat, Pose
 
 

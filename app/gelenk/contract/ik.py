@@ -7,7 +7,8 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, OnTheWire
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import Configuration, Configurations, Directions
+from gelenk.contract.kinematics import Configuration, Configurations
+from gelenk.contract.options import Directions
 from gelenk.contract.pose import AnswerFormat, Pose, pose_fields
 from gelenk.ik.search.words import Direction, ObjectiveName, Status, StopReason
 from gelenk.robot.arrays import Array

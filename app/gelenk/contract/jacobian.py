@@ -6,7 +6,8 @@ from pydantic import Field, model_validator
 
 from gelenk.contract.common import Answer, ChainOptions
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import BatchRequest, Configurations, JacobianCertificateInfo, Matrix, RespectLimits
+from gelenk.contract.kinematics import Configurations, JacobianCertificateInfo, Matrix
+from gelenk.contract.options import BatchRequest, Fraction, RespectLimits
 
 
 class JacobianOptions(ChainOptions):
@@ -29,8 +30,8 @@ class JacobianOptions(ChainOptions):
         description="`time_variation`: dJ/dt at `joint_velocities`. `hessian`: ∂J/∂q.",
         max_length=2,
     )
-    rank_tolerance: float = Field(
-        default=1e-10, gt=0, lt=1, description="A singular value counts where it exceeds this times the largest."
+    rank_tolerance: Fraction = Field(
+        default=1e-10, description="A singular value counts where it exceeds this times the largest."
     )
     respect_limits: RespectLimits = False
 

@@ -5,8 +5,7 @@ from typing import Annotated, Any, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
 
-from gelenk.contract.common import Answer, OnTheWire, Payload
-from gelenk.ik.search.words import Direction
+from gelenk.contract.common import Answer, OnTheWire
 from gelenk.robot.arrays import Array
 from gelenk.robot.arrays import Configuration as GivenConfiguration
 
@@ -41,26 +40,6 @@ Configurations = Annotated[
         examples=[[[0.0, -0.5, 0.0, -2.0, 0.0, 1.5, 0.8]]],
     ),
 ]
-
-
-RespectLimits = Annotated[bool, Field(description="Whether a configuration beyond the joint limits is an error.")]
-RankTolerance = Annotated[
-    float,
-    Field(
-        gt=0,
-        lt=1,
-        description="A singular value counts where it exceeds this times the largest, and the rounding of the whole "
-        "Jacobian; no unit.",
-    ),
-]
-Directions = Annotated[list[Direction], Field(min_length=1, max_length=6)]
-"""Directions of the tip that count."""
-
-
-class BatchRequest(Payload):
-    """Addresses a batch of configurations."""
-
-    joint_positions: Configurations
 
 
 class CertificateInfo(Answer):

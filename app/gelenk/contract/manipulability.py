@@ -6,12 +6,8 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, Payload
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import (
-    BatchRequest,
-    Configuration,
-    JacobianCertificateInfo,
-    RespectLimits,
-)
+from gelenk.contract.kinematics import Configuration, JacobianCertificateInfo
+from gelenk.contract.options import BatchRequest, Directions, Fraction, Positive, RespectLimits
 from gelenk.ik.search.words import DIRECTIONS, Direction
 
 MAX_DETAILED = 10_000
@@ -28,10 +24,8 @@ class ManipulabilityOptions(ChainOptions):
 
     list_fields = frozenset({"task"})
 
-    task: list[Direction] = Field(
+    task: Directions = Field(
         default=list(DIRECTIONS),
-        min_length=1,
-        max_length=6,
         description="The directions of the tip that count, rows of the Jacobian in `reference`; all six if left out.",
         examples=[["x", "y"]],
     )
@@ -41,17 +35,13 @@ class ManipulabilityOptions(ChainOptions):
         "base's (the course's). `local`: the tip's, which is what an `ik` task that leaves a turn about the tool free "
         "is about; an image has the base's only.",
     )
-    characteristic_length: float | None = Field(
+    characteristic_length: Positive | None = Field(
         default=None,
-        ge=1e-6,
-        le=1e6,
         description="Length L that converts radians to metres, [m]: it adds the combined ellipsoid of "
         "(v, L ω) and (F, M / L). Without it translation and rotation are never mixed.",
     )
-    rank_tolerance: float = Field(
+    rank_tolerance: Fraction = Field(
         default=1e-10,
-        gt=0,
-        lt=1,
         description="A semi-axis of the velocity ellipsoid vanishes where it is no longer than this times the longest, "
         "or than the rounding of the whole Jacobian; no unit.",
     )

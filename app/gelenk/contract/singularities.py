@@ -7,7 +7,8 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import BatchRequest, Directions, JacobianCertificateInfo, RankTolerance
+from gelenk.contract.kinematics import JacobianCertificateInfo
+from gelenk.contract.options import BatchRequest, Directions, Positive, RankTolerance
 from gelenk.ik.search.words import Direction
 from gelenk.kinematics.velocity.words import SingularityKind
 
@@ -39,10 +40,8 @@ class SingularityOptions(ChainOptions):
         "tool free is about. `world`: the base's axes, of the point of the tip's body that passes the base's origin. "
         "Lost directions are always given in the base's axes, at the tip.",
     )
-    characteristic_length: float | None = Field(
+    characteristic_length: Positive | None = Field(
         default=None,
-        ge=1e-6,
-        le=1e6,
         description="Factor of the angular rows that makes them comparable with linear ones, [m]; if left out, metres "
         "and radians are mixed where both count.",
     )

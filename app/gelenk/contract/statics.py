@@ -6,14 +6,8 @@ from pydantic import Discriminator, Field, Tag
 
 from gelenk.contract.common import Answer, ChainOptions, FrameName, OnTheWire, Payload, Vectors
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import (
-    MAX_CONFIGURATIONS,
-    BatchRequest,
-    Configurations,
-    Directions,
-    Matrix,
-    RespectLimits,
-)
+from gelenk.contract.kinematics import MAX_CONFIGURATIONS, Configurations, Matrix
+from gelenk.contract.options import BatchRequest, Directions, Fraction, RespectLimits
 from gelenk.ik.search.words import Direction
 
 MAX_TESTS = 100
@@ -116,16 +110,12 @@ class StaticsOptions(WrenchOptions):
         examples=[[0.0, 0.0, -9.81]],
     )
     subspaces: bool = Field(default=False, description="Whether to compute the four subspaces of the Jacobian.")
-    rank_tolerance: float = Field(
+    rank_tolerance: Fraction = Field(
         default=1e-10,
-        gt=0,
-        lt=1,
         description="A singular value counts where it exceeds this times the largest; no unit.",
     )
-    membership_tolerance: float = Field(
+    membership_tolerance: Fraction = Field(
         default=1e-9,
-        gt=0,
-        lt=1,
         description="A vector lies in a subspace if its remainder is at most this times its length; no unit.",
     )
 

@@ -7,7 +7,8 @@ from pydantic import Discriminator, Field, Tag
 
 from gelenk.contract.common import ChainOptions, OnTheWire, Payload
 from gelenk.contract.course_motion import Duration
-from gelenk.contract.kinematics import ByName, ByOrder, Configuration, Directions
+from gelenk.contract.kinematics import ByName, ByOrder, Configuration
+from gelenk.contract.options import Directions
 from gelenk.contract.pose import ORIENTATIONS, AnswerFormat, Pose
 from gelenk.robot.arrays import Array
 from gelenk.robot.arrays import Configuration as GivenConfiguration
@@ -248,10 +249,8 @@ class TrajectoryRequest(ChainOptions, MotionOptions):
     duration: Duration | None = Field(
         default=None, description="Duration of the whole motion, [s]; one shorter than the limits allow is refused."
     )
-    sample_period: float = Field(
+    sample_period: _Bound = Field(
         default=0.01,
-        ge=1e-6,
-        le=1e6,
         description="From one sample to the next, [s]; the last one is exactly at the end.",
     )
     path_tolerance: float = Field(

@@ -6,16 +6,8 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from gelenk.contract.common import Answer, ChainOptions, OnTheWire, Payload, Vectors
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import (
-    MAX_CONFIGURATIONS,
-    BatchRequest,
-    Configuration,
-    Configurations,
-    Directions,
-    Matrix,
-    RankTolerance,
-    RespectLimits,
-)
+from gelenk.contract.kinematics import MAX_CONFIGURATIONS, Configuration, Configurations, Matrix
+from gelenk.contract.options import BatchRequest, Directions, Positive, RankTolerance, RespectLimits
 from gelenk.contract.singularities import SingularityInfo
 from gelenk.ik.search.words import Direction, ObjectiveName
 from gelenk.kinematics.velocity.words import ExceededLimit, InverseName, InverseStatus
@@ -118,10 +110,8 @@ class VelocityOptions(ChainOptions):
         "damping sets in, and no gain exceeds 1/σ₀; 0.05 if left out.",
     )
     rank_tolerance: RankTolerance = 1e-10
-    characteristic_length: float | None = Field(
+    characteristic_length: Positive | None = Field(
         default=None,
-        ge=1e-6,
-        le=1e6,
         description="Length that a radian counts as, [m]: angular rows are multiplied by it before inversion. If left "
         "out, metres and radians are mixed: what the least residual is and what is near to a singularity depends on "
         "the unit of length.",

@@ -6,8 +6,8 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, Payload
 from gelenk.contract.jobs import JobName
+from gelenk.contract.options import Directions
 from gelenk.contract.pose import Vector3
-from gelenk.ik.search.words import Direction
 
 _Bound = Annotated[float, Field(ge=-1e6, le=1e6)]
 JointRange = Annotated[list[_Bound], Field(min_length=2, max_length=2)]
@@ -46,10 +46,8 @@ class WorkspaceRequest(ChainOptions):
         description="Edge of a voxel, [m], at most how far the arm reaches; if left out a 40th of the longest side of "
         "the workspace, with `dexterity` a 14th. One voxel's centre is the origin of the base frame, or of the plane.",
     )
-    task: list[Direction] | None = Field(
+    task: Directions | None = Field(
         default=None,
-        min_length=1,
-        max_length=6,
         description="Which rows of the Jacobian Yoshikawa's measure counts: `x y z` translation and `rx ry rz` "
         "rotation, along the base's axes. If left out the translation, in the directions in which the tip moves at "
         "all, so that a planar arm has a measure too.",
