@@ -37,7 +37,6 @@ from gelenk.package_data import catalogue
 from gelenk.robot import robot as core
 from gelenk.robot.arrays import Array, Configuration
 from gelenk.robot.configuration import configurations
-from gelenk.robot.description import Description
 from gelenk.robot.dh import Convention
 from gelenk.robot.urdf import read_urdf
 from gelenk.store.records import describe, load, read_record
@@ -111,7 +110,7 @@ class Robot:
             description = read_urdf(urdf, strict)
         else:
             description, *_ = describe(Path(urdf).stem, "urdf", Path(urdf).read_bytes(), strict)
-        return cls._described(description, base_frame, tip_frame)
+        return cls(core.RobotModel(description), base_frame, tip_frame)
 
     @classmethod
     def from_dh(
@@ -138,11 +137,7 @@ class Robot:
         """
         places = {name: {"matrix": T} for name, T in (("base", base), ("tool", tool)) if T is not None}
         table = _checked(DhTablePayload, {"convention": convention, "joints": joints, **places}).table()
-        return cls._described(describe_dh("robot", table), None, None)
-
-    @classmethod
-    def _described(cls, description: Description, base_frame: str | None, tip_frame: str | None) -> Self:
-        return cls(core.RobotModel(description), base_frame, tip_frame)
+        return cls(core.RobotModel(describe_dh("robot", table)))
 
     def fk(self, q: Configurations, frames: Sequence[str] = ()) -> ForwardKinematics:
         """Compute poses of the tip, `poses`, and of other frames on the chain, `frames`, at each configuration.

@@ -51,7 +51,7 @@ def wait_until_ready(client: Client) -> None:
 
 def schema() -> Any:
     """The service's description of itself (OpenAPI)."""
-    return service().send(Call("GET", "openapi.json", lambda reply: json.loads(reply.body)))
+    return service().send(Call("GET", "openapi.json", lambda response: json.loads(response.content)))
 
 
 def end_service() -> None:

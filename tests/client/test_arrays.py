@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from gelenk.client import Client
-from gelenk.client.call import Reply
-from gelenk.client.npy import packed, unpacked
+from gelenk.client.exchange import packed, unpacked
 from gelenk.client.operations import Operations
 from gelenk.contract.fk import ForwardAnswer, ForwardRequest
 from gelenk.contract.ik import InverseRequest
@@ -26,7 +25,7 @@ QS = np.array([[0.3, 0.8], [-0.2, 0.1]])
 
 def sent(array: Any) -> Any:
     """What the service would read."""
-    return unpacked(Reply(packed(array), {}))
+    return unpacked(httpx2.Response(200, content=packed(array)))
 
 
 @pytest.mark.parametrize("dtype", ["<f2", "<f4", ">f8", "<i4", ">i2", "u1", "longdouble"])

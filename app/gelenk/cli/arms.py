@@ -9,23 +9,28 @@ import typer
 from gelenk.cli.batches import in_calls
 from gelenk.cli.completion import METHODS, REFERENCES, REPRESENTATIONS, one_of
 from gelenk.cli.files.inputs import fields_of
-from gelenk.cli.files.outputs import AnswerRows, picture_kind
-from gelenk.cli.files.rows import AXES, ORIENTATIONS, numbers_of, rows_of
+from gelenk.cli.files.outputs import AnswerRows
+from gelenk.cli.files.rows import AXES, ORIENTATIONS, InputRows, numbers_of, rows_of
 from gelenk.cli.session import (
     BaseOption,
     FieldsOption,
     FromOption,
     LaterOption,
     RobotArgument,
+    Session,
     TipOption,
+    draw,
+    plot_option,
     session,
+    word_option,
 )
 from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:
-    from gelenk.cli.files.rows import InputRows as Given
-    from gelenk.client import Client
+    from gelenk.contract.fk import ForwardAnswer
     from gelenk.contract.ik import InverseAnswer, NearestInfo, SolutionInfo
+    from gelenk.contract.jacobian import JacobianAnswer
+    from gelenk.contract.manipulability import ManipulabilityAnswer
     from gelenk.contract.pose import Pose
 
 QOption = Annotated[
@@ -60,24 +65,28 @@ def fk(
     if pose_format not in ORIENTATIONS:
         raise InvalidField("pose", f"must be one of {', '.join(ORIENTATIONS)}")
     shared, given = session(context), rows_of(at or [], file, "joint_positions")
-    body: dict[str, Any] = {"base_frame": base, "tip_frame": tip}
-    body |= {"pose_format": pose_format, **fields_of(fields)}
-    with shared.robot(robot) as (client, name), shared.bar("fk") as progress:
-        body = _with_configurations(client, name, given, body)
-        answer = in_calls(partial(client.fk, name), body, "joint_positions", progress)
+    body = {"base_frame": base, "tip_frame": tip, "pose_format": pose_format, **fields_of(fields)}
+    answer: ForwardAnswer = _answer_at(shared, robot, "fk", given, body)
     rows = [_pose_row(pose, pose_format) for pose in answer.poses]
     note = f"T of {answer.tip_frame} in {answer.base_frame}; {_certificate(answer.certificate)}"
     shared.write(answer, AnswerRows((*AXES, *ORIENTATIONS[pose_format]), rows, (note,)))
 
 
-def _with_configurations(client: "Client", name: str, given: "Given", body: dict[str, Any]) -> dict[str, Any]:
-    """Add the given configurations to the fields of a request, unless the fields have others."""
+def _answer_at(
+    shared: Session, robot: str, operation: str, given: InputRows, body: dict[str, Any], plot: Path | None = None
+) -> Any:
+    """Return what an operation answers at the given configurations, unless the fields of its request have others."""
+    with shared.robot(robot) as (client, name):
 
-    def joint_names() -> list[str]:
-        ends = {end: body[end] for end in ("base_frame", "tip_frame")}
-        return client.fk(name, joint_positions=[], **ends).joint_names
+        def joint_names() -> list[str]:
+            ends = {end: body[end] for end in ("base_frame", "tip_frame")}
+            return client.fk(name, joint_positions=[], **ends).joint_names
 
-    return {"joint_positions": given.configurations(joint_names), **body}
+        body = {"joint_positions": given.configurations(joint_names), **body}
+        with shared.bar(operation) as progress:
+            answer = in_calls(partial(getattr(client, operation), name), body, "joint_positions", progress)
+        draw(client, plot, f"v1/robots/{name}/{operation}", body)
+    return answer
 
 
 def _pose_row(pose: "Pose", pose_format: str) -> list[float]:
@@ -98,21 +107,14 @@ def jacobian(
     file: FromOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
-    reference: Annotated[
-        str, typer.Option(help=f"One of {', '.join(REFERENCES)}.", autocompletion=one_of(REFERENCES))
-    ] = REFERENCES[0],
-    representation: Annotated[
-        str, typer.Option(help=f"One of {', '.join(REPRESENTATIONS)}.", autocompletion=one_of(REPRESENTATIONS))
-    ] = REPRESENTATIONS[0],
+    reference: Annotated[str, word_option(REFERENCES)] = REFERENCES[0],
+    representation: Annotated[str, word_option(REPRESENTATIONS)] = REPRESENTATIONS[0],
     fields: FieldsOption = None,
 ) -> None:
     """The Jacobian at each configuration: rows linear, then angular."""
     shared, given = session(context), rows_of(at or [], file, "joint_positions")
-    body: dict[str, Any] = {"base_frame": base, "tip_frame": tip}
-    body |= {"reference": reference, "representation": representation, **fields_of(fields)}
-    with shared.robot(robot) as (client, name), shared.bar("jacobian") as progress:
-        body = _with_configurations(client, name, given, body)
-        answer = in_calls(partial(client.jacobian, name), body, "joint_positions", progress)
+    body = {"base_frame": base, "tip_frame": tip, "reference": reference, "representation": representation}
+    answer: JacobianAnswer = _answer_at(shared, robot, "jacobian", given, {**body, **fields_of(fields)})
     parts = [*(f"v_{axis}" for axis in AXES), *(f"w_{axis}" for axis in AXES)]
     rows = [
         (index, part, *row)
@@ -137,9 +139,7 @@ def ik(
     file: FromOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
-    method: Annotated[
-        str, typer.Option(help=f"One of {', '.join(METHODS)}.", autocompletion=one_of(METHODS))
-    ] = METHODS[0],
+    method: Annotated[str, word_option(METHODS)] = METHODS[0],
     every: Annotated[bool, typer.Option("--all", help="Find all solutions, not just one.")] = False,
     seed: Annotated[str | None, typer.Option(help="Configuration to start at.")] = None,
     task: Annotated[str | None, typer.Option(help="Directions that count, such as x,y,z,rx,ry.")] = None,
@@ -149,8 +149,6 @@ def ik(
 ) -> None:
     """Inverse kinematics: configurations that bring the tip to each target; exit code 1 if a target has none."""
     shared, given = session(context), rows_of(target or [], file, "targets")
-    if later:
-        shared.check_server()
     body: dict[str, Any] = {"targets": given.targets(position_suffices=task is not None)}
     body |= {"base_frame": base, "tip_frame": tip, "method": method, "respect_limits": not free}
     body["solutions"] = "all" if every else "one"
@@ -194,19 +192,13 @@ def manipulability(
     file: FromOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
-    plot: Annotated[Path | None, typer.Option(help="Draw the ellipsoids into this file, SVG or PNG.")] = None,
+    plot: Annotated[Path | None, plot_option("ellipsoids")] = None,
     fields: FieldsOption = None,
 ) -> None:
     """How well the tip can move and push at each configuration."""
     shared, given = session(context), rows_of(at or [], file, "joint_positions")
-    kind = None if plot is None else picture_kind(plot)
-    body: dict[str, Any] = {"base_frame": base, "tip_frame": tip, **fields_of(fields)}
-    with shared.robot(robot) as (client, name):
-        body = _with_configurations(client, name, given, body)
-        with shared.bar("manipulability") as progress:
-            answer = in_calls(partial(client.manipulability, name), body, "joint_positions", progress)
-        if plot is not None and kind is not None:
-            plot.write_bytes(client.picture(f"v1/robots/{name}/manipulability", kind, body))
+    body = {"base_frame": base, "tip_frame": tip, **fields_of(fields)}
+    answer: ManipulabilityAnswer = _answer_at(shared, robot, "manipulability", given, body, plot)
     rows = []
     for index, result in enumerate(answer.results):
         for part, info in (("translation", result.translation), ("rotation", result.rotation)):

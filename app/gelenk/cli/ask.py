@@ -8,7 +8,6 @@ import typer
 
 from gelenk.cli.completion import robots_beginning_with
 from gelenk.cli.files.inputs import fields_of
-from gelenk.cli.files.outputs import Output
 from gelenk.cli.session import session
 from gelenk.errors import InvalidField
 
@@ -25,8 +24,8 @@ def operations() -> "dict[str, Sent[Any, Any]]":
     from gelenk.client.call import Sent  # noqa: PLC0415
     from gelenk.client.operations import Operations  # noqa: PLC0415
 
-    methods = {name: value for name, value in sorted(vars(Operations).items()) if isinstance(value, Sent)}
-    return {name: method for name, method in methods.items() if name not in _BY_FILES}
+    methods = vars(Operations).items()
+    return {name: method for name, method in sorted(methods) if isinstance(method, Sent) and name not in _BY_FILES}
 
 
 def _beginning(incomplete: str) -> list[str]:
@@ -50,16 +49,17 @@ def ask(
     if method is None:
         raise InvalidField("operation", f"must be one of {', '.join(operations())}")
     if _is_about_robot(method) != (robot is not None):
-        raise InvalidField(
-            "robot", "is needed by this operation" if robot is None else "is not a field of this operation"
-        )
+        raise InvalidField("robot", f"is {'needed by' if robot is None else 'not a field of'} this operation")
     if robot is None:
         with shared.client() as client:
             answer = client.send(_call(method, **body))
     else:
         with shared.robot(robot) as (client, name):
             answer = client.send(_call(method, name, **body))
-    _write(shared.output, answer)
+    if isinstance(answer, str | bytes):
+        shared.output.put(answer if isinstance(answer, bytes) else answer.encode())
+    elif answer is not None:
+        shared.output.tell(answer)
 
 
 def _is_about_robot(method: "Sent[Any, Any]") -> bool:
@@ -71,14 +71,6 @@ def _is_about_robot(method: "Sent[Any, Any]") -> bool:
 def _call(method: "Sent[Any, Any]", /, *arguments: str, **fields: Any) -> "Call[Any]":
     """Describe a call. Raises InvalidField for unknown arguments; unknown fields of a body are left to the service."""
     try:
-        call: Call[Any] = method.describe(*arguments, **fields)
+        return method.describe(*arguments, **fields)
     except TypeError as error:
         raise InvalidField("fields", str(error).partition("() ")[2]) from None
-    return call
-
-
-def _write(output: Output, answer: Any) -> None:
-    if isinstance(answer, str | bytes):
-        output.put(answer if isinstance(answer, bytes) else answer.encode())
-    elif answer is not None:
-        output.tell(answer)

@@ -34,7 +34,7 @@ def in_calls(
     """Send a batch in several calls, and return one answer.
 
     Numbers are those of one call with all rows, because no row depends on another. The certificate counts the samples
-    of all calls, and has the largest of their errors.
+    of all calls, and has the largest of their errors. A refusal gives the place of the row in the whole batch.
 
     Args:
         ask: The operation; takes the fields of a request by name.
@@ -42,9 +42,6 @@ def in_calls(
         rows: Name of the field with the rows.
         progress: Called with the finished share of the batch, 0 to 1.
         first: Rows of the first call; the others have as many as are answered in a third of a second.
-
-    Raises:
-        Refused: Something is wrong with a row; the message gives its place in the whole batch.
     """
     given = body.get(rows)
     if not isinstance(given, list) or len(given) <= first or "time_limit" in body:  # that limit is for all rows
@@ -53,28 +50,28 @@ def in_calls(
     answers: list[A] = []
     done, size = 0, first
     while done < len(given):
-        begun = time.monotonic()
+        start = time.monotonic()
         try:
             answers.append(ask(**{**body, **{name: value[done : done + size] for name, value in each.items()}}))
         except Refused as refused:
             raise _of_the_whole(refused, done) from None
         done += size
         progress(min(1.0, done / len(given)))
-        fitting = size * _SECONDS / max(time.monotonic() - begun, 1e-3)
+        fitting = size * _SECONDS / max(time.monotonic() - start, 1e-3)
         size = int(min(max(fitting, 1.0), _GROWTH * size, _MOST))
     return _joined(answers)
 
 
 def _joined(answers: Sequence[A]) -> A:
     first = answers[0]
-    told: dict[str, Any] = {}
+    joined: dict[str, Any] = {}
     for name in first.model_fields_set:
         values = [getattr(answer, name) for answer in answers]
         if name == "certificate":
-            told[name] = _certificate(values)
+            joined[name] = _certificate(values)
         elif name in _EACH and values[0] is not None:
-            told[name] = [entry for value in values for entry in value]
-    return first.model_copy(update=told)
+            joined[name] = [entry for value in values for entry in value]
+    return first.model_copy(update=joined)
 
 
 def _certificate(certificates: Sequence["BaseModel"]) -> "BaseModel":

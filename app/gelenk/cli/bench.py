@@ -57,24 +57,15 @@ def _measured(
 ) -> list[tuple[Any, ...]]:
     """Return a row per operation: its name, [ms] of a single call, [µs] per row of a batch, ratio of the two."""
     qs = _configurations(client, name, ends, batch)
-    operations: dict[str, Callable[..., Any]] = {
-        "fk": client.arrays.fk,
-        "jacobian": client.arrays.jacobian,
-        "ik": client.arrays.ik,
-    }
     given = {"fk": qs, "jacobian": qs, "ik": client.arrays.fk(name, qs, **ends)}
     rows: list[tuple[Any, ...]] = []
-    for operation, method in operations.items():
-        call = partial(_called, method, name, ends)
-        single = _median_seconds(call, given[operation], 1, seconds)
-        each = _median_seconds(call, given[operation], batch, seconds) / batch
+    for operation, array in given.items():
+        call = partial(getattr(client.arrays, operation), name, **ends)
+        single = _median_seconds(call, array, 1, seconds)
+        each = _median_seconds(call, array, batch, seconds) / batch
         rows.append((operation, 1e3 * single, 1e6 * each, single / each))
-        progress(len(rows) / len(operations))
+        progress(len(rows) / len(given))
     return rows
-
-
-def _called(method: Callable[..., Any], name: str, ends: dict[str, Any], rows: "Array") -> None:
-    method(name, rows, **ends)
 
 
 def _configurations(client: "Client", name: str, ends: dict[str, Any], count: int) -> "Array":
@@ -88,7 +79,7 @@ def _configurations(client: "Client", name: str, ends: dict[str, Any], count: in
     return np.random.default_rng(0).uniform(lower, upper, (count, len(names)))
 
 
-def _median_seconds(call: "Callable[[Array], None]", rows: "Array", size: int, seconds: float) -> float:
+def _median_seconds(call: Callable[..., Any], rows: "Array", size: int, seconds: float) -> float:
     """Return the median duration of calls with `size` rows each, [s]; each call takes the next rows."""
     taken: list[float] = []
     begun = time.perf_counter()

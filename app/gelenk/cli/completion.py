@@ -5,7 +5,7 @@ import os
 import re
 import urllib.error
 import urllib.request
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, get_args
 from urllib.parse import quote
@@ -53,7 +53,7 @@ def frames_beginning_with(context: typer.Context, incomplete: str) -> list[str]:
     return sorted({name for name in names if name.startswith(incomplete)})
 
 
-def one_of(words: tuple[str, ...]) -> Callable[[str], list[str]]:
+def one_of(words: Sequence[str]) -> Callable[[str], list[str]]:
     """Return a function that completes these words."""
     return lambda incomplete: [word for word in words if word.startswith(incomplete)]
 

@@ -1,7 +1,6 @@
 """Commands about jobs that a service runs in the background."""
 
-from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -9,13 +8,6 @@ from gelenk.cli.files.outputs import Format
 from gelenk.cli.session import session
 
 JobArgument = Annotated[str, typer.Argument(metavar="JOB", help="Its id.")]
-
-
-class Finished(StrEnum):
-    """What to do with a finished job."""
-
-    KEEP = "keep"
-    REMOVE = "remove"
 
 
 jobs = typer.Typer(name="jobs", help="Jobs of a service: follow, read, cancel or remove them.")
@@ -26,8 +18,7 @@ def show(context: typer.Context, job: JobArgument) -> None:
     """Show how far a job is."""
     shared = session(context)
     with shared.client() as client:
-        info = client.job(job)
-    shared.tell_job(info)
+        shared.tell_job(client.job(job))
 
 
 @jobs.command("watch")
@@ -47,8 +38,7 @@ def result(context: typer.Context, job: JobArgument) -> None:
         if shared.output.format is Format.NPY:
             shared.output.save(client.arrays.job_result(job))
             return
-        read = {"workspace": client.workspace_result, "ik": client.ik_result, "trajectory": client.trajectory_result}
-        answer = read[client.job(job).kind](job)
+        answer = getattr(client, f"{client.job(job).kind}_result")(job)
     shared.output.tell(answer)
 
 
@@ -56,10 +46,9 @@ def result(context: typer.Context, job: JobArgument) -> None:
 def cancel(
     context: typer.Context,
     job: JobArgument,
-    finished: Annotated[Finished, typer.Option(help="What to do with a finished job.")] = Finished.KEEP,
+    finished: Annotated[Literal["keep", "remove"], typer.Option(help="What to do with a finished job.")] = "keep",
 ) -> None:
     """Cancel a job; a finished one is refused, or removed with --finished remove."""
     shared = session(context)
     with shared.client() as client:
-        info = client.cancel_job(job, finished=finished.value)
-    shared.tell_job(info)
+        shared.tell_job(client.cancel_job(job, finished=finished))

@@ -37,7 +37,7 @@ cli = typer.Typer(
 )
 
 
-def _tell_version(is_wanted: bool) -> None:
+def _print_version(is_wanted: bool) -> None:
     if is_wanted:
         typer.echo(f"gelenk {gelenk.__version__}")
         raise typer.Exit
@@ -65,7 +65,7 @@ def options(
         bool, typer.Option("--strict", help="Also refuse a URDF for faults that do not affect kinematics.")
     ] = False,
     version: Annotated[  # noqa: ARG001  (answered by its callback)
-        bool, typer.Option("--version", help="Print the version.", callback=_tell_version, is_eager=True)
+        bool, typer.Option("--version", help="Print the version.", callback=_print_version, is_eager=True)
     ] = False,
 ) -> None:
     """Read the options that all commands share; they come before the command's name."""
@@ -109,7 +109,9 @@ def main() -> None:
     except NotAnswering as error:
         _end(error.detail, _NO_SERVICE)
     except KinematicsError as error:
-        _end(_sentence_of(error), _ASKED_WRONG if _is_the_callers(error) else _FAILED)
+        wants_key = isinstance(error, Refused) and error.status == HTTPStatus.UNAUTHORIZED
+        hint = " (gelenk sends the one in GELENK_KEY)" if wants_key else ""
+        _end(error.detail + hint, _ASKED_WRONG if _is_the_callers(error) else _FAILED)
     except ModuleNotFoundError as error:
         if error.name == "gelenk" or str(error.name).startswith("gelenk."):
             raise
@@ -126,12 +128,6 @@ def main() -> None:
             sys.exit(_INTERRUPTED)
         traceback.print_exc()
         _end("something went wrong in the command itself: see above", _FAILED)
-
-
-def _sentence_of(error: KinematicsError) -> str:
-    """Return the service's sentence; if it wants a key, add how a command sends one."""
-    wants_key = isinstance(error, Refused) and error.status == HTTPStatus.UNAUTHORIZED
-    return f"{error.detail} (gelenk sends the one in GELENK_KEY)" if wants_key else error.detail
 
 
 def _is_the_callers(error: KinematicsError) -> bool:

@@ -8,11 +8,21 @@ from typing import Annotated, Any
 import typer
 
 from gelenk.cli.arms import UNREACHED
-from gelenk.cli.completion import LAWS, WORKSPACES, one_of
+from gelenk.cli.completion import LAWS, WORKSPACES
 from gelenk.cli.files.inputs import fields_of
-from gelenk.cli.files.outputs import AnswerRows, Format, picture_kind
+from gelenk.cli.files.outputs import AnswerRows, Format
 from gelenk.cli.files.rows import numbers_of, target_of
-from gelenk.cli.session import BaseOption, FieldsOption, LaterOption, RobotArgument, TipOption, session
+from gelenk.cli.session import (
+    BaseOption,
+    FieldsOption,
+    LaterOption,
+    RobotArgument,
+    TipOption,
+    draw,
+    plot_option,
+    session,
+    word_option,
+)
 from gelenk.errors import InvalidField
 
 
@@ -28,16 +38,13 @@ def trajectory(
     ] = None,
     base: BaseOption = None,
     tip: TipOption = None,
-    law: Annotated[str, typer.Option(help=f"One of {', '.join(LAWS)}.", autocompletion=one_of(LAWS))] = LAWS[0],
+    law: Annotated[str, word_option(LAWS)] = LAWS[0],
     period: Annotated[float, typer.Option(help="Between samples, [s].")] = 0.01,
-    plot: Annotated[Path | None, typer.Option(help="Draw the profiles into this file, SVG or PNG.")] = None,
+    plot: Annotated[Path | None, plot_option("profiles")] = None,
     later: LaterOption = False,
 ) -> None:
     """A motion through configurations and poses, joints first; exit code 1 if it cannot be completed."""
-    shared, kind = session(context), None if plot is None else picture_kind(plot)
-    if later:
-        shared.check_server()
-    fields = _motion(start, joint or [], line or [], motion)
+    shared, fields = session(context), _motion(start, joint or [], line or [], motion)
     fields = {"base_frame": base, "tip_frame": tip, "law": law, "sample_period": period, **fields}
     with shared.robot(robot) as (client, name):
         if later:
@@ -45,8 +52,7 @@ def trajectory(
             return
         with shared.bar("trajectory", is_measured=False):
             answer = client.trajectory(name, **fields)
-            if plot is not None and kind is not None:
-                plot.write_bytes(client.picture(f"v1/robots/{name}/trajectory", kind, fields))
+            draw(client, plot, f"v1/robots/{name}/trajectory", fields)
     names = answer.joint_names
     columns = ("t", *names, *(f"d {name}" for name in names), *(f"dd {name}" for name in names))
     table = zip(
@@ -78,19 +84,15 @@ def workspace(
     context: typer.Context,
     robot: RobotArgument,
     samples: Annotated[int, typer.Option(help="How many configurations.")] = 100_000,
-    kind: Annotated[
-        str, typer.Option(help=f"One of {', '.join(WORKSPACES)}.", autocompletion=one_of(WORKSPACES))
-    ] = WORKSPACES[0],
+    kind: Annotated[str, word_option(WORKSPACES)] = WORKSPACES[0],
     base: BaseOption = None,
     tip: TipOption = None,
-    plot: Annotated[Path | None, typer.Option(help="Draw the picture into this file, SVG or PNG.")] = None,
+    plot: Annotated[Path | None, plot_option("picture")] = None,
     fields: FieldsOption = None,
     later: LaterOption = False,
 ) -> None:
     """What the tip can reach: points as CSV or npy, a summary otherwise."""
-    shared, picture = session(context), None if plot is None else picture_kind(plot)
-    if later:
-        shared.check_server()
+    shared = session(context)
     body: dict[str, Any] = {"samples": samples, "kind": kind, "base_frame": base, "tip_frame": tip, **fields_of(fields)}
     with shared.robot(robot) as (client, name):
         job = client.jobs.workspace(name, **body)
@@ -101,8 +103,7 @@ def workspace(
             answer = shared.result_of(job)
             wants_points = shared.output.format in {Format.CSV, Format.NPY}
             points = job.array().tolist() if wants_points else []
-            if plot is not None and picture is not None:
-                plot.write_bytes(client.picture(f"v1/jobs/{job.id}/result", picture))
+            draw(client, plot, f"v1/jobs/{job.id}/result")
     if wants_points:
         shared.write(answer, AnswerRows(answer.array.columns, points))
         return

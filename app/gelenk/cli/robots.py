@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gelenk.cli.completion import robots_beginning_with
-from gelenk.cli.files.inputs import description_from, is_file, name_of
+from gelenk.cli.files.inputs import is_file, name_of
 from gelenk.cli.files.outputs import AnswerRows
 from gelenk.cli.session import BaseOption, TipOption, session
 from gelenk.errors import InvalidField
@@ -73,16 +73,13 @@ def add(
 
     ends = None if base is None or tip is None else ChainEnds(base_frame=base, tip_frame=tip)
     shared, name = session(context), name or name_of(file)
-    about: dict[str, Any] = {"description": description, "default_chain": ends}
+    about: dict[str, Any] = {"description": description, **({} if ends is None else {"default_chain": ends})}
     with shared.client() as client:
         if file.suffix.lower() == ".zip":
-            info = (client.replace_archive if replace else client.add_archive)(
-                name, file, **about, strict=shared.strict
-            )
+            send = client.replace_archive if replace else client.add_archive
+            info = send(name, file, **about, strict=shared.strict)
         else:
-            if ends is None:
-                del about["default_chain"]
-            body = {**about, **description_from(file, shared.arguments, shared.packages, shared.strict)}
+            body = {**about, **shared.description(file)}
             info = client.replace_robot(name, **body) if replace else client.add_robot(name=name, **body)
     shared.write(info, _joints(info))
 

@@ -2,8 +2,9 @@
 
 import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
@@ -11,9 +12,9 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-from gelenk.cli.completion import frames_beginning_with, robots_beginning_with
-from gelenk.cli.files.inputs import packages_of, pairs_of, robot_named
-from gelenk.cli.files.outputs import AnswerRows, Output
+from gelenk.cli.completion import frames_beginning_with, one_of, robots_beginning_with
+from gelenk.cli.files.inputs import description_from, packages_of, pairs_of, robot_named
+from gelenk.cli.files.outputs import AnswerRows, Output, picture_kind
 from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:
@@ -60,15 +61,51 @@ FieldsOption = Annotated[
     str | None,
     typer.Option("--fields", help="Further fields of the API as JSON, or a file with it; they override the options."),
 ]
+
+
+def _with_server(context: typer.Context, is_later: bool) -> bool:
+    if is_later and not session(context).server:
+        raise InvalidField("job", "needs --server: without one the job would end with this command")
+    return is_later
+
+
 LaterOption = Annotated[
-    bool, typer.Option("--job", help="Start a job on the service and return at once instead of waiting for it.")
+    bool,
+    typer.Option(
+        "--job",
+        help="Start a job on the service and return at once instead of waiting for it.",
+        callback=_with_server,
+    ),
 ]
 
 
+def word_option(words: Sequence[str]) -> Any:
+    """Return an option that takes one of these words."""
+    return typer.Option(help=f"One of {', '.join(words)}.", autocompletion=one_of(words))
+
+
+def _of_known_kind(plot: Path | None) -> Path | None:
+    if plot is not None:
+        picture_kind(plot)  # before the work, not after it
+    return plot
+
+
+def plot_option(what: str) -> Any:
+    """Return an option that names the file for a picture of something."""
+    return typer.Option(help=f"Draw the {what} into this file, SVG or PNG.", callback=_of_known_kind)
+
+
+def draw(client: "Client", plot: Path | None, path: str, fields: Mapping[str, Any] | None = None) -> None:
+    """Write the picture of an answer, if a file is named; for the other arguments see `picture` of the client."""
+    if plot is not None:
+        plot.write_bytes(client.picture(path, picture_kind(plot), fields))
+
+
+@dataclass(frozen=True, slots=True)
 class Session:
     """The options that all commands share.
 
-    Args:
+    Attributes:
         server: Address of the service; None to compute in this process.
         output: Where the answer goes.
         arguments: Arguments for xacro, `NAME=VALUE`.
@@ -76,26 +113,15 @@ class Session:
         strict: Whether faults of a URDF that do not affect kinematics are refused too.
     """
 
-    def __init__(
-        self,
-        server: str | None,
-        output: Output,
-        arguments: Sequence[str],
-        packages: Sequence[str],
-        strict: bool = False,
-    ) -> None:
-        self.server, self.output, self.strict = server, output, strict
-        self._given_arguments, self._given_packages = arguments, packages
+    server: str | None = None
+    output: Output = field(default_factory=Output)
+    arguments: Sequence[str] = ()
+    packages: Sequence[str] = ()
+    strict: bool = False
 
-    @property
-    def arguments(self) -> dict[str, str]:
-        """Arguments for xacro: values by name."""
-        return pairs_of(list(self._given_arguments), "arg")
-
-    @property
-    def packages(self) -> dict[str, Path]:
-        """Packages for xacro: folders by name."""
-        return packages_of(list(self._given_packages))
+    def description(self, file: Path) -> dict[str, Any]:
+        """Return the robot of a file as the API takes it, `dh` or `urdf`."""
+        return description_from(file, pairs_of(self.arguments, "arg"), packages_of(self.packages), self.strict)
 
     @contextmanager
     def client(self) -> Iterator["Client"]:
@@ -119,7 +145,7 @@ class Session:
     @contextmanager
     def robot(self, argument: str) -> Iterator[tuple["Client", str]]:
         """Open a client, and yield it with the name of the robot at the service."""
-        arguments, packages = self.arguments, self.packages
+        arguments, packages = pairs_of(self.arguments, "arg"), packages_of(self.packages)
         with self.client() as client, robot_named(client, argument, arguments, packages, self.strict) as name:
             yield client, name
 
@@ -156,11 +182,6 @@ class Session:
         with self.bar(job.info.kind) as progress:
             return job.result(lambda info: progress(info.progress))
 
-    def check_server(self) -> None:
-        """Raise InvalidField without a server: a job would end with this process."""
-        if not self.server:
-            raise InvalidField("job", "needs --server: without one the job would end with this command")
-
     def tell_job(self, info: "JobInfo") -> None:
         """Write a job as an answer."""
         columns = ("id", "kind", "state", "progress", "created", "finished")
@@ -172,4 +193,4 @@ class Session:
 def session(context: typer.Context) -> Session:
     """Return the session of a command."""
     found: Any = context.obj
-    return found if isinstance(found, Session) else Session(None, Output(), (), ())
+    return found if isinstance(found, Session) else Session()

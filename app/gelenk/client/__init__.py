@@ -2,7 +2,7 @@
 
 - `client`: both clients. `operations`: the operations as their methods; `kept`: those on stored robots and jobs.
 - `arrays`: operations on large batches as arrays; `jobs`: operations as jobs.
-- `call`: a call, and how a description becomes a method; `exchange`: its JSON; `npy`: its arrays.
+- `call`: a call, and how a description becomes a method; `exchange`: its JSON and its arrays.
 - `patience`: when to send a call again; `reading`: turns a reply into an answer or an exception.
 - `refusals`: turns a problem from the service back into the core's own exception.
 """

@@ -5,12 +5,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Concatenate, ParamSpec, TypeVar
 
+from httpx2 import Response
 from pydantic import BaseModel
 
-from gelenk.client.call import NPY, ROBOT, Awaited, Blocking, Call, Reply, Sent, documented
-from gelenk.client.exchange import encoded, segment
-from gelenk.client.npy import packed, query_of, unpacked
+from gelenk.client.call import NPY, ROBOT, Awaited, Blocking, Call, Sent, documented
+from gelenk.client.exchange import encoded, packed, query_of, segment, unpacked
 from gelenk.contract.dynamics import DynamicsOptions
+from gelenk.contract.endpoints import ROBOT_ENDPOINTS
 from gelenk.contract.fk import ForwardOptions
 from gelenk.contract.ik import InverseOptions
 from gelenk.contract.jacobian import JacobianOptions
@@ -57,44 +58,38 @@ class Sampled:
     failure: str | None
 
 
-def _reached(reply: Reply) -> Reached:
-    rows = reply.headers["gelenk-unsolved-rows"]
-    named = tuple(int(row) for row in rows.split(",") if row)
-    return Reached(unpacked(reply), int(reply.headers["gelenk-unsolved"]), named)
+def _reached(response: Response) -> Reached:
+    rows = response.headers["gelenk-unsolved-rows"]
+    unsolved_rows = tuple(int(row) for row in rows.split(",") if row)
+    return Reached(unpacked(response), int(response.headers["gelenk-unsolved"]), unsolved_rows)
 
 
-def _sampled(reply: Reply) -> Sampled:
-    headers, failure = reply.headers, reply.headers["gelenk-failure"]
+def _sampled(response: Response) -> Sampled:
+    headers, failure = response.headers, response.headers["gelenk-failure"]
     fraction = float(headers["gelenk-completed-fraction"])
-    return Sampled(unpacked(reply), float(headers["gelenk-duration"]), fraction, None if failure == "none" else failure)
+    duration = float(headers["gelenk-duration"])
+    return Sampled(unpacked(response), duration, fraction, None if failure == "none" else failure)
 
 
 def _batch(
-    name: str, options: Callable[P, BaseModel], field: str, read: Callable[[Reply], T]
+    name: str, options: Callable[P, BaseModel], read: Callable[[Response], T]
 ) -> Sent[Concatenate[str, Array, P], T]:
-    """Define `POST /v1/robots/{robot}/{name}` with an array in both directions.
-
-    Args:
-        name: Name of the operation.
-        options: Fields besides the array.
-        field: Content of the array.
-        read: Reads the answer.
-    """
+    """Define `POST /v1/robots/{robot}/{name}` with an array in both directions, and fields besides it."""
 
     def describe(robot: str, array: Array, /, *_: P.args, **fields: P.kwargs) -> Call[T]:
         path = f"v1/robots/{segment(robot)}/{name}"
         return Call("POST", path, read, query_of(fields), packed(array), NPY, accept=NPY)
 
     array = inspect.Parameter("array", inspect.Parameter.POSITIONAL_ONLY, annotation=Array)
-    sentences = f"The operation `{name}` of a batch; the array holds {field}."
-    return Sent(documented(describe, options, sentences, ROBOT, array))
+    body = next(endpoint.npy_body for endpoint in ROBOT_ENDPOINTS if endpoint.name == name)
+    return Sent(documented(describe, options, f"The operation `{name}` of a batch. The array: {body}", ROBOT, array))
 
 
-def _trajectory(request: Callable[P, BaseModel]) -> Callable[Concatenate[str, P], Call[Sampled]]:
+def _trajectory(request: Callable[P, BaseModel]) -> Sent[Concatenate[str, P], Sampled]:
     def describe(robot: str, /, *_: P.args, **fields: P.kwargs) -> Call[Sampled]:
         return Call("POST", f"v1/robots/{segment(robot)}/trajectory", _sampled, body=encoded(fields), accept=NPY)
 
-    return documented(describe, request, "A motion, planned and audited, as samples alone.", ROBOT)
+    return Sent(documented(describe, request, "A motion, planned and audited, as samples alone.", ROBOT))
 
 
 def _result(job: str) -> Call[Array]:
@@ -102,32 +97,18 @@ def _result(job: str) -> Call[Array]:
     return Call("GET", f"v1/jobs/{segment(job)}/result", unpacked, accept=NPY)
 
 
-_POSITIONS = "`joint_positions`, shape (N, n), [rad or m]"
-
-
 class ArrayOperations:
     """Operations on a robot that take an array, and the arrays of jobs."""
 
-    fk = _batch("fk", ForwardOptions, _POSITIONS, unpacked)
-    jacobian = _batch("jacobian", JacobianOptions, _POSITIONS, unpacked)
-    ik = _batch(
-        "ik",
-        InverseOptions,
-        "`targets`, shape (N, 7), position and quaternion x y z w, or (N, 4, 4)",
-        _reached,
-    )
-    velocity = _batch(
-        "velocity",
-        VelocityOptions,
-        "joint positions, velocities and further derivatives of each configuration, shape (N, k, n), or with `inverse` "
-        "as in the API's reference",
-        unpacked,
-    )
-    statics = _batch("statics", StaticsOptions, _POSITIONS, unpacked)
-    dynamics = _batch("dynamics", DynamicsOptions, _POSITIONS, unpacked)
-    manipulability = _batch("manipulability", ManipulabilityOptions, _POSITIONS, unpacked)
-    singularities = _batch("singularities", SingularityOptions, _POSITIONS, unpacked)
-    trajectory = Sent(_trajectory(TrajectoryRequest))
+    fk = _batch("fk", ForwardOptions, unpacked)
+    jacobian = _batch("jacobian", JacobianOptions, unpacked)
+    ik = _batch("ik", InverseOptions, _reached)
+    velocity = _batch("velocity", VelocityOptions, unpacked)
+    statics = _batch("statics", StaticsOptions, unpacked)
+    dynamics = _batch("dynamics", DynamicsOptions, unpacked)
+    manipulability = _batch("manipulability", ManipulabilityOptions, unpacked)
+    singularities = _batch("singularities", SingularityOptions, unpacked)
+    trajectory = _trajectory(TrajectoryRequest)
     job_result = Sent(_result)
 
 
@@ -135,19 +116,11 @@ class Arrays(ArrayOperations):
     """Array operations of a client that waits."""
 
     def __init__(self, client: Blocking) -> None:
-        self._client = client
-
-    def send(self, call: Call[T]) -> T:
-        """Send a call with the client."""
-        return self._client.send(call)
+        self.send = client.send
 
 
 class AsyncArrays(ArrayOperations):
     """Array operations of a client that is awaited."""
 
     def __init__(self, client: Awaited) -> None:
-        self._client = client
-
-    async def send(self, call: Call[T]) -> T:
-        """Send a call with the client."""
-        return await self._client.send(call)
+        self.send = client.send

@@ -20,6 +20,8 @@ from typing import (
     overload,
 )
 
+from httpx2 import Response
+
 P = ParamSpec("P")
 T = TypeVar("T")
 R = TypeVar("R")
@@ -29,26 +31,13 @@ NPY = "application/x-npy"
 
 
 @dataclass(frozen=True, slots=True)
-class Reply:
-    """A reply of the service.
-
-    Attributes:
-        body: Body as received.
-        headers: Headers by lower-case name.
-    """
-
-    body: bytes
-    headers: Mapping[str, str]
-
-
-@dataclass(frozen=True, slots=True)
 class Call(Generic[T]):
     """A request to send, and how to read its answer.
 
     Attributes:
         method: HTTP method.
         path: Path below the address of the service, without a leading slash.
-        read: Reads the answer from a reply.
+        read: Reads the answer from a response.
         query: Query parameters; a list repeats its name.
         body: Body of the request.
         media_type: Media type of the body.
@@ -62,7 +51,7 @@ class Call(Generic[T]):
 
     method: str
     path: str
-    read: Callable[[Reply], T]
+    read: Callable[[Response], T]
     query: Mapping[str, Any] = field(default_factory=dict)
     body: bytes = b""
     media_type: str = JSON
@@ -127,8 +116,8 @@ def method_of(name: str, describe: Callable[P, Call[T]], send: Callable[[Call[T]
 
     def method(*args: P.args, **kwargs: P.kwargs) -> R:
         if len(args) > len(places):
-            told = f"{', '.join(places)} alone by place" if places else "nothing by place"
-            raise TypeError(f"{name} takes {told}; give all else by name, as in {signature}".partition(" ->")[0])
+            allowed = f"{', '.join(places)} alone by place" if places else "nothing by place"
+            raise TypeError(f"{name} takes {allowed}; give all else by name, as in {signature}".partition(" ->")[0])
         return send(describe(*args, **kwargs))
 
     functools.update_wrapper(method, describe)
@@ -141,23 +130,23 @@ ROBOT = inspect.Parameter("robot", inspect.Parameter.POSITIONAL_ONLY, annotation
 
 
 def documented(
-    describe: Callable[P, Call[T]], fields: Callable[..., object], sentences: str, *before: inspect.Parameter
+    describe: Callable[P, Call[T]], model: Callable[..., object], sentences: str, *before: inspect.Parameter
 ) -> Callable[P, Call[T]]:
-    """Give a description the signature of the fields that it takes, and a docstring about them.
+    """Give a description the signature of the model whose fields it takes by name, and a docstring about them.
 
     Args:
-        describe: Takes the fields of a model by name.
-        fields: Model of the fields.
+        describe: Description.
+        model: Model of the fields.
         sentences: Start of the docstring.
         before: Parameters before the fields.
     """
     parameters = [
-        one.replace(annotation=_words(one.annotation)) for one in inspect.signature(fields).parameters.values()
+        one.replace(annotation=_words(one.annotation)) for one in inspect.signature(model).parameters.values()
     ]
     parameters.sort(key=lambda one: one.default is not inspect.Parameter.empty)
     describe.__signature__ = inspect.Signature([*before, *parameters])  # type: ignore[attr-defined]
-    told = {name: field.description for name, field in getattr(fields, "model_fields", {}).items()}
-    lines = [f"    {one.name}: {told[one.name]}" for one in parameters if told.get(one.name)]
+    fields = getattr(model, "model_fields", {})
+    lines = [f"    {one.name}: {about}" for one in parameters if (about := fields[one.name].description)]
     describe.__doc__ = "\n".join([sentences, "", "Args:", *lines]) if lines else sentences
     return describe
 

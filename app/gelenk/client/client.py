@@ -18,7 +18,6 @@ import re
 import threading
 import time
 from collections.abc import AsyncGenerator, Callable, Iterator
-from types import TracebackType
 from typing import Any, Self, TypeVar
 
 import httpx2
@@ -46,27 +45,26 @@ _BETWEEN_STREAMS = 1.0
 """Pause before an interrupted stream of events is opened again, [s]."""
 
 
-class _Settings:
-    """Address of the service, and headers of every request."""
+class _Service(Operations):
+    """Address of the service, and what every request to it needs."""
 
-    def __init__(self, url: str | None, key: str | None) -> None:
+    def __init__(self, url: str | None, key: str | None, transport: Any) -> None:
         self.url = _PAGES.sub("", (url or os.environ.get(URL_VARIABLE) or DEFAULT_URL).strip())
         _check_address(self.url)
         key = (key or os.environ.get(KEY_VARIABLE) or "").strip()
         if not (key.isascii() and key.isprintable()):
             raise InvalidField("key", "it has characters that a key cannot contain")
-        self.headers = {"Authorization": f"Bearer {key}"} if key else {}
-
-    def options(self, transport: Any) -> dict[str, Any]:
-        """Return the arguments of an httpx client; proxies set up on a laptop do not apply to a lab's service."""
-        return {
+        self._options: dict[str, Any] = {
             "base_url": f"{self.url}/",
-            "headers": self.headers,
+            "headers": {"Authorization": f"Bearer {key}"} if key else {},
             "timeout": TIMEOUT,
             "limits": httpx2.Limits(max_keepalive_connections=AT_ONCE),
             "transport": transport,
-            "trust_env": False,
+            "trust_env": False,  # proxies set up on a laptop do not apply to a lab's service
         }
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.url!r})"
 
 
 def _request(http: httpx2.Client | httpx2.AsyncClient, call: Call[Any]) -> httpx2.Request:
@@ -97,7 +95,7 @@ class _Track:
         return info != last
 
 
-class Client(Operations):
+class Client(_Service):
     """The service, called synchronously; safe to use from several threads.
 
     Args:
@@ -109,19 +107,15 @@ class Client(Operations):
     def __init__(
         self, url: str | None = None, key: str | None = None, transport: httpx2.BaseTransport | None = None
     ) -> None:
-        settings = _Settings(url, key)
-        self.url = settings.url
-        self._http = httpx2.Client(**settings.options(transport))
+        super().__init__(url, key, transport)
+        self._http = httpx2.Client(**self._options)
         self._turns = threading.BoundedSemaphore(AT_ONCE)
         self.arrays, self.jobs = Arrays(self), Jobs(self)
-
-    def __repr__(self) -> str:
-        return f"Client({self.url!r})"
 
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     def close(self) -> None:
@@ -186,27 +180,21 @@ class Client(Operations):
         return info
 
 
-class AsyncClient(Operations):
+class AsyncClient(_Service):
     """The service for `async` code: many calls may run at once. For its arguments see `Client`."""
 
     def __init__(
         self, url: str | None = None, key: str | None = None, transport: httpx2.AsyncBaseTransport | None = None
     ) -> None:
-        settings = _Settings(url, key)
-        self.url = settings.url
-        self._http = httpx2.AsyncClient(**settings.options(transport))
+        super().__init__(url, key, transport)
+        self._http = httpx2.AsyncClient(**self._options)
         self._turns = asyncio.BoundedSemaphore(AT_ONCE)
         self.arrays, self.jobs = AsyncArrays(self), AsyncJobs(self)
-
-    def __repr__(self) -> str:
-        return f"AsyncClient({self.url!r})"
 
     async def __aenter__(self) -> Self:
         return self
 
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None
-    ) -> None:
+    async def __aexit__(self, *_: object) -> None:
         await self.close()
 
     async def close(self) -> None:
@@ -251,8 +239,8 @@ class AsyncClient(Operations):
 
     async def wait(self, job: str, progress: Callable[[JobInfo], None] | None = None) -> JobInfo:
         """Wait until a job has ended, and return it; for its arguments see `Client.wait`."""
-        async with contextlib.aclosing(self.watch(job)) as told:
-            async for info in told:
+        async with contextlib.aclosing(self.watch(job)) as states:
+            async for info in states:
                 if progress is not None:
                     progress(info)
         return info

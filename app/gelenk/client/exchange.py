@@ -1,20 +1,20 @@
-"""Requests and answers as JSON."""
+"""Requests and answers as JSON, and as arrays: npy bodies with all other fields in the query."""
 
 import gc
 import inspect
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
+from io import BytesIO
 from typing import Any, ParamSpec, TypeVar
 from urllib.parse import quote
 
 import numpy as np
 import orjson
+from httpx2 import Response
 from pydantic import BaseModel
 
-from gelenk.client.call import Call, Reply, documented
-from gelenk.client.npy import numbers
+from gelenk.client.call import Call, documented
 from gelenk.contract.common import Answer, as_lists
-from gelenk.errors import InvalidField
+from gelenk.errors import InvalidArray, InvalidField, quoted
 from gelenk.robot.arrays import Array
 
 P = ParamSpec("P")
@@ -24,9 +24,9 @@ _LARGE = 1_000_000
 """Size of an answer that counts as large, in bytes."""
 
 
-def posted(path: str, fields: Mapping[str, Any], answer: type[A], **details: Any) -> Call[A]:
+def json_call(method: str, path: str, fields: Mapping[str, Any], answer: type[A], **details: Any) -> Call[A]:
     """Describe a call with JSON in both directions."""
-    return Call("POST", path, reader(answer), body=encoded(fields), **details)
+    return Call(method, path, reader(answer), body=encoded(fields), **details)
 
 
 def encoded(fields: Mapping[str, Any]) -> bytes:
@@ -57,30 +57,63 @@ def _plain(value: Any) -> Any:
     return plain
 
 
-def reader(answer: type[A]) -> Callable[[Reply], A]:
+def reader(answer: type[A]) -> Callable[[Response], A]:
     """Return a function that reads an answer; further fields of a newer service are left out."""
 
-    def read(reply: Reply) -> A:
-        with _collector_at_rest(len(reply.body) > _LARGE):
-            return answer.model_validate_json(reply.body, extra="ignore")
+    def read(response: Response) -> A:
+        # Of a hundred thousand new poses none is garbage: scanning them takes a good part of the time to read them.
+        is_paused = len(response.content) > _LARGE and gc.isenabled()
+        if is_paused:
+            gc.disable()
+        try:
+            return answer.model_validate_json(response.content, extra="ignore")
+        finally:
+            if is_paused:
+                gc.enable()
 
     return read
 
 
-@contextmanager
-def _collector_at_rest(rests: bool) -> Iterator[None]:
-    """Pause the garbage collector if `rests`: of a hundred thousand new poses none is garbage.
+def numbers(array: Array) -> Array:
+    """Return an array that can be sent; integers and short floats keep their type.
 
-    It would scan them repeatedly, for a good part of the time that a large answer takes to read.
+    Raises:
+        InvalidArray: It holds something else, or masked entries, which NumPy would send as numbers.
     """
-    rests = rests and gc.isenabled()
-    if rests:
-        gc.disable()
-    try:
-        yield
-    finally:
-        if rests:
-            gc.enable()
+    array = np.asanyarray(array)
+    if array.dtype.kind not in "iuf" or np.ma.is_masked(array):
+        what = "masked entries" if np.ma.is_masked(array) else quoted(str(array.dtype))
+        raise InvalidArray(f"the array holds {what}; allowed: integers and floats of up to 64 bits")
+    is_plain = array.dtype.isnative and array.dtype.itemsize <= 8
+    return np.ascontiguousarray(array, dtype=array.dtype if is_plain else np.float64)
+
+
+def packed(array: Array) -> bytes:
+    """Encode numbers in NumPy's npy format; raises as `numbers` does."""
+    stream = BytesIO()
+    np.save(stream, numbers(array), allow_pickle=False)
+    return stream.getvalue()
+
+
+def unpacked(response: Response) -> Array:
+    """Decode the array in a response."""
+    array: Array = np.load(BytesIO(response.content), allow_pickle=False)
+    return array
+
+
+def fits_query(fields: Mapping[str, Any]) -> bool:
+    """Check whether fields fit into a query: numbers, words, and lists of words."""
+    return all(
+        value is None
+        or isinstance(value, bool | int | float | str)
+        or (isinstance(value, list | tuple) and all(isinstance(item, str) for item in value))
+        for value in fields.values()
+    )
+
+
+def query_of(fields: Mapping[str, Any]) -> dict[str, Any]:
+    """Return fields as query parameters; those that are None are left out, and the service decides."""
+    return {name: value for name, value in fields.items() if value is not None}
 
 
 def segment(name: str) -> str:

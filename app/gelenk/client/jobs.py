@@ -4,19 +4,23 @@ import functools
 import inspect
 from collections.abc import AsyncGenerator, Callable, Coroutine, Iterator
 from contextlib import aclosing, suppress
-from types import TracebackType
-from typing import Any, Generic, ParamSpec, Protocol, Self, TypeVar, overload
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Generic, ParamSpec, Self, TypeVar, overload
 
 from gelenk.client.arrays import ArrayOperations
-from gelenk.client.call import Awaited, Blocking, Call, method_of
+from gelenk.client.call import Call, method_of
 from gelenk.client.exchange import reader
 from gelenk.client.operations import Operations
 from gelenk.contract.jobs import Finished, JobInfo
 from gelenk.errors import KinematicsError
 from gelenk.robot.arrays import Array
 
+if TYPE_CHECKING:
+    from gelenk.client.client import AsyncClient, Client
+
 P = ParamSpec("P")
 A = TypeVar("A")
+C = TypeVar("C")
 
 Progress = Callable[[JobInfo], None]
 """Called with a job whenever it has progressed."""
@@ -24,26 +28,11 @@ _cancel = Operations.cancel_job.describe
 _array = ArrayOperations.job_result.describe
 
 
-class Watching(Blocking, Protocol):
-    """A client that waits, and can watch a job."""
+class _JobOf(Generic[C, A]):
+    """What both kinds of job share: the latest information from the service."""
 
-    def watch(self, job: str) -> Iterator[JobInfo]:
-        """Yield a job whenever it has progressed."""
-        ...
-
-
-class AwaitedWatching(Awaited, Protocol):
-    """A client that is awaited, and can watch a job."""
-
-    def watch(self, job: str) -> AsyncGenerator[JobInfo, None]:
-        """Yield a job whenever it has progressed."""
-        ...
-
-
-class _Told:
-    """The part that both kinds of job share: the latest information from the service."""
-
-    info: JobInfo
+    def __init__(self, client: C, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
+        self._client, self.info, self._result = client, info, result
 
     @property
     def id(self) -> str:
@@ -54,7 +43,7 @@ class _Told:
         return f"{type(self).__name__}({self.id!r}, {self.info.kind}, {self.info.state}, {self.info.progress:.0%})"
 
 
-class Job(_Told, Generic[A]):
+class Job(_JobOf["Client", A]):
     """A job of the service. Iterate over it to see its progress; `result` waits for its result.
 
     Leaving it as a context manager cancels the job if it is unfinished, and removes its result.
@@ -62,9 +51,6 @@ class Job(_Told, Generic[A]):
     Attributes:
         info: Latest known progress.
     """
-
-    def __init__(self, client: Watching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
-        self._client, self.info, self._result = client, info, result
 
     def __iter__(self) -> Iterator[JobInfo]:
         for info in self._client.watch(self.id):
@@ -104,27 +90,24 @@ class Job(_Told, Generic[A]):
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+    def __exit__(self, *_: object) -> None:
         with suppress(KinematicsError):  # someone else has removed it, or the service is away
             self.cancel("remove")
 
 
-class AsyncJob(_Told, Generic[A]):
+class AsyncJob(_JobOf["AsyncClient", A]):
     """A job of the service, awaited; see `Job`."""
 
-    def __init__(self, client: AwaitedWatching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
-        self._client, self.info, self._result = client, info, result
-
     async def __aiter__(self) -> AsyncGenerator[JobInfo, None]:
-        async with aclosing(self._client.watch(self.id)) as told:
-            async for info in told:
+        async with aclosing(self._client.watch(self.id)) as states:
+            async for info in states:
                 self.info = info
                 yield info
 
     async def wait(self, progress: Progress | None = None) -> JobInfo:
         """Await the end of the job; see `Job.wait`."""
-        async with aclosing(aiter(self)) as told:
-            async for info in told:
+        async with aclosing(aiter(self)) as states:
+            async for info in states:
                 if progress is not None:
                     progress(info)
         return self.info
@@ -147,31 +130,13 @@ class AsyncJob(_Told, Generic[A]):
     async def __aenter__(self) -> Self:
         return self
 
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None
-    ) -> None:
+    async def __aexit__(self, *_: object) -> None:
         with suppress(KinematicsError):
             await self.cancel("remove")
 
 
-class Begins(Protocol):
-    """Starts the jobs of a client that waits."""
-
-    def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Job[A]:
-        """Start the job of a call."""
-        ...
-
-
-class BeginsAwaited(Protocol):
-    """Starts the jobs of a client that is awaited."""
-
-    def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Coroutine[object, None, AsyncJob[A]]:
-        """Start the job of a call; it is awaited."""
-        ...
-
-
-class Begun(Generic[P, A]):
-    """A method of both clients that starts a job whose result answers a call."""
+class Started(Generic[P, A]):
+    """A method of both clients' jobs that starts one whose result answers a call."""
 
     def __init__(self, describe: Callable[P, Call[JobInfo]], result: Callable[[str], Call[A]]) -> None:
         self.describe, self._result = describe, result
@@ -183,16 +148,16 @@ class Begun(Generic[P, A]):
     @overload
     def __get__(self, jobs: None, owner: type) -> Self: ...
     @overload
-    def __get__(self, jobs: Begins, owner: type) -> Callable[P, Job[A]]: ...
+    def __get__(self, jobs: "Jobs", owner: type) -> Callable[P, Job[A]]: ...
     @overload
-    def __get__(self, jobs: BeginsAwaited, owner: type) -> Callable[P, Coroutine[object, None, AsyncJob[A]]]: ...
+    def __get__(self, jobs: "AsyncJobs", owner: type) -> Callable[P, Coroutine[object, None, AsyncJob[A]]]: ...
 
     def __get__(self, jobs: Any, owner: type) -> Any:
         """Return the descriptor itself for the class, or the method of a client's jobs."""
         if jobs is None:
             return self
 
-        return method_of(self.name, self.describe, lambda call: jobs.begin(call, self._result))
+        return method_of(self.name, self.describe, lambda call: jobs.start(call, self._result))
 
 
 def _later(describe: Callable[P, Call[Any]]) -> Callable[P, Call[JobInfo]]:
@@ -200,11 +165,8 @@ def _later(describe: Callable[P, Call[Any]]) -> Callable[P, Call[JobInfo]]:
 
     @functools.wraps(describe)
     def described(*args: P.args, **kwargs: P.kwargs) -> Call[JobInfo]:
-        call = describe(*args, **kwargs)
-        read = reader(JobInfo)
-        return Call(
-            *(call.method, call.path, read, call.query, call.body, call.media_type), is_later=True, is_repeatable=False
-        )
+        call: Call[Any] = describe(*args, **kwargs)
+        return replace(call, read=reader(JobInfo), is_later=True, is_repeatable=False)
 
     described.__signature__ = inspect.signature(describe)  # type: ignore[attr-defined]
     return described
@@ -213,18 +175,18 @@ def _later(describe: Callable[P, Call[Any]]) -> Callable[P, Call[JobInfo]]:
 class JobOperations:
     """Operations that may take long, as jobs; a job may be larger than a call that is answered at once."""
 
-    ik = Begun(_later(Operations.ik.describe), Operations.ik_result.describe)
-    trajectory = Begun(_later(Operations.trajectory.describe), Operations.trajectory_result.describe)
-    workspace = Begun(Operations.workspace.describe, Operations.workspace_result.describe)
+    ik = Started(_later(Operations.ik.describe), Operations.ik_result.describe)
+    trajectory = Started(_later(Operations.trajectory.describe), Operations.trajectory_result.describe)
+    workspace = Started(Operations.workspace.describe, Operations.workspace_result.describe)
 
 
 class Jobs(JobOperations):
     """Jobs of a client that waits."""
 
-    def __init__(self, client: Watching) -> None:
+    def __init__(self, client: "Client") -> None:
         self._client = client
 
-    def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Job[A]:
+    def start(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Job[A]:
         """Start the job of a call."""
         return Job(self._client, self._client.send(call), result)
 
@@ -232,9 +194,9 @@ class Jobs(JobOperations):
 class AsyncJobs(JobOperations):
     """Jobs of a client that is awaited."""
 
-    def __init__(self, client: AwaitedWatching) -> None:
+    def __init__(self, client: "AsyncClient") -> None:
         self._client = client
 
-    async def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> AsyncJob[A]:
+    async def start(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> AsyncJob[A]:
         """Start the job of a call."""
         return AsyncJob(self._client, await self._client.send(call), result)

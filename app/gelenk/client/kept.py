@@ -3,20 +3,19 @@
 from collections.abc import Callable, Mapping
 from os import PathLike
 from pathlib import Path
-from typing import Any, Concatenate, Literal, ParamSpec, TypeVar
+from typing import Any, Literal, TypeVar
 from urllib.parse import quote
 
-from pydantic import BaseModel
+from httpx2 import Response
 
-from gelenk.client.call import ROBOT, Call
-from gelenk.client.exchange import described_by, encoded, posted, reader, segment
+from gelenk.client.call import Call
+from gelenk.client.exchange import encoded, query_of, reader, segment
 from gelenk.contract.common import Answer, ChainEnds
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer
 from gelenk.contract.health import Health
 from gelenk.contract.jobs import Finished, JobInfo
-from gelenk.contract.robots import NewRobot, RobotInfo, RobotList, RobotReplacement
+from gelenk.contract.robots import RobotInfo, RobotList
 
-P = ParamSpec("P")
 A = TypeVar("A", bound=Answer)
 
 
@@ -32,7 +31,7 @@ def robot(robot: str) -> Call[RobotInfo]:
 
 def urdf(robot: str) -> Call[str]:
     """A robot as URDF."""
-    return Call("GET", f"v1/robots/{segment(robot)}/urdf", lambda reply: reply.body.decode(), accept="application/xml")
+    return Call("GET", f"v1/robots/{segment(robot)}/urdf", _text, accept="application/xml")
 
 
 def table(
@@ -52,31 +51,13 @@ def table(
         snap_tolerance: Tolerance within which numbers are rounded to plain ones, [rad or m]; no rounding if left out.
     """
     chosen = {"base_frame": base_frame, "tip_frame": tip_frame, "snap_tolerance": snap_tolerance}
-    query = {"convention": convention, **{name: value for name, value in chosen.items() if value is not None}}
+    query = query_of({"convention": convention, **chosen})
     return Call("GET", f"v1/robots/{segment(robot)}/dh", reader(FromUrdfAnswer), query)
 
 
 def mesh(robot: str, path: str) -> Call[bytes]:
     """A mesh that a robot's URDF names; `meshes` of `robot` lists their paths."""
-    return Call("GET", f"v1/robots/{segment(robot)}/meshes/{quote(path)}", lambda reply: reply.body, accept="*/*")
-
-
-def adding(request: Callable[P, NewRobot]) -> Callable[P, Call[RobotInfo]]:
-    """Define the call that adds a robot, with the fields of this model."""
-
-    def describe(*_: P.args, **fields: P.kwargs) -> Call[RobotInfo]:
-        return posted("v1/robots", fields, RobotInfo)  # the same bytes under the same name change nothing
-
-    return described_by(describe, request, RobotInfo)
-
-
-def replacing(request: Callable[P, RobotReplacement]) -> Callable[Concatenate[str, P], Call[RobotInfo]]:
-    """Define the call that replaces a robot, with the fields of this model."""
-
-    def describe(robot: str, /, *_: P.args, **fields: P.kwargs) -> Call[RobotInfo]:
-        return Call("PUT", f"v1/robots/{segment(robot)}", reader(RobotInfo), body=encoded(fields))
-
-    return described_by(describe, request, RobotInfo, ROBOT)
+    return Call("GET", f"v1/robots/{segment(robot)}/meshes/{quote(path)}", _content, accept="*/*")
 
 
 def add_archive(
@@ -87,8 +68,7 @@ def add_archive(
     strict: bool = False,
 ) -> Call[RobotInfo]:
     """Add a robot with its meshes: a zip of one URDF and the files that it names."""
-    fields = _archive_fields(description, default_chain, strict, name=name)
-    return Call("POST", "v1/robots", reader(RobotInfo), form=fields, files={"archive": content_of(archive)})
+    return _with_archive("POST", "v1/robots", archive, default_chain, strict, name=name, description=description)
 
 
 def replace_archive(
@@ -99,34 +79,21 @@ def replace_archive(
     strict: bool = False,
 ) -> Call[RobotInfo]:
     """Replace an uploaded robot by a zip of one URDF and the files that it names."""
-    fields, path = _archive_fields(description, default_chain, strict), f"v1/robots/{segment(robot)}"
-    return Call("PUT", path, reader(RobotInfo), form=fields, files={"archive": content_of(archive)})
+    return _with_archive("PUT", f"v1/robots/{segment(robot)}", archive, default_chain, strict, description=description)
 
 
-def _archive_fields(description: str, chain: ChainEnds | None, strict: bool, **further: str) -> dict[str, str]:
+def _with_archive(
+    method: str, path: str, archive: bytes | str | PathLike[str], chain: ChainEnds | None, strict: bool, **form: str
+) -> Call[RobotInfo]:
     ends = {} if chain is None else {"base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
-    return {**further, "description": description, **ends, **({"strict": "true"} if strict else {})}
-
-
-def content_of(file: bytes | str | PathLike[str]) -> bytes:
-    """Return the bytes of a file, given as such or by its path."""
-    return file if isinstance(file, bytes) else Path(file).read_bytes()
+    form = {**form, **ends, **({"strict": "true"} if strict else {})}
+    content = archive if isinstance(archive, bytes) else Path(archive).read_bytes()
+    return Call(method, path, reader(RobotInfo), form=form, files={"archive": content})
 
 
 def remove(robot: str) -> Call[None]:
     """Remove an uploaded robot."""
     return Call("DELETE", f"v1/robots/{segment(robot)}", lambda _: None, is_repeatable=False)
-
-
-def beginning(request: Callable[P, BaseModel]) -> Callable[Concatenate[str, P], Call[JobInfo]]:
-    """Define the call that starts the workspace job of a robot, with the fields of this model."""
-
-    def describe(robot: str, /, *_: P.args, **fields: P.kwargs) -> Call[JobInfo]:
-        # With a `job_id`, the same call finds the same job.
-        is_named = fields.get("job_id") is not None
-        return posted(f"v1/robots/{segment(robot)}/workspace", fields, JobInfo, is_repeatable=is_named)
-
-    return described_by(describe, request, JobInfo, ROBOT)
 
 
 def job(job: str) -> Call[JobInfo]:
@@ -159,7 +126,7 @@ def picture(path: str, kind: Literal["svg", "png"], fields: Mapping[str, Any] | 
         fields: Fields of the request; None for a job's result.
     """
     method, body = ("GET", b"") if fields is None else ("POST", encoded(fields))
-    return Call(method, path, lambda reply: reply.body, body=body, accept=_PICTURES[kind])
+    return Call(method, path, _content, body=body, accept=_PICTURES[kind])
 
 
 def health() -> Call[Health]:
@@ -174,7 +141,15 @@ def readiness() -> Call[Health]:
 
 def metrics() -> Call[str]:
     """Metrics of the service, in Prometheus's text format."""
-    return Call("GET", "metrics", lambda reply: reply.body.decode(), accept="text/plain")
+    return Call("GET", "metrics", _text, accept="text/plain")
+
+
+def _content(response: Response) -> bytes:
+    return response.content
+
+
+def _text(response: Response) -> str:
+    return response.content.decode()
 
 
 _PICTURES = {"svg": "image/svg+xml", "png": "image/png"}

@@ -3,14 +3,15 @@
 The fields of a call are those of the request in the API's reference, by name; types come from the same models.
 """
 
+from collections.abc import Callable
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
+from pydantic import BaseModel
 
 from gelenk.client import kept
 from gelenk.client.call import NPY, ROBOT, Call, Sent
-from gelenk.client.exchange import described_by, posted, reader, segment
-from gelenk.client.npy import fits_query, packed, query_of
+from gelenk.client.exchange import described_by, fits_query, json_call, packed, query_of, reader, segment
 from gelenk.contract import (
     compare_dh,
     convert_dh,
@@ -42,13 +43,26 @@ from gelenk.contract.common import Answer
 from gelenk.contract.endpoint import Endpoint, RobotEndpoint
 from gelenk.contract.endpoints import ENDPOINTS
 from gelenk.contract.ik import InverseAnswer
+from gelenk.contract.jobs import JobInfo
 from gelenk.contract.pose import pose_fields
-from gelenk.contract.robots import NewRobot, RobotReplacement
+from gelenk.contract.robots import NewRobot, RobotInfo, RobotReplacement
 from gelenk.contract.trajectory_answer import TrajectoryAnswer
 from gelenk.contract.workspace import WorkspaceAnswer, WorkspaceRequest
 
 P = ParamSpec("P")
 A = TypeVar("A", bound=Answer)
+
+
+def _about_robot(
+    path: str, request: Callable[P, BaseModel], answer: type[A], method: str = "POST"
+) -> Sent[Concatenate[str, P], A]:
+    """Define a call on a robot; one that starts a job finds it again only by a `job_id`."""
+
+    def describe(robot: str, /, *_: P.args, **fields: P.kwargs) -> Call[A]:
+        is_repeatable = answer is not JobInfo or fields.get("job_id") is not None
+        return json_call(method, path.format(robot=segment(robot)), fields, answer, is_repeatable=is_repeatable)
+
+    return Sent(described_by(describe, request, answer, ROBOT))
 
 
 def _operation(endpoint: RobotEndpoint[P, A]) -> Sent[Concatenate[str, P], A]:
@@ -60,19 +74,23 @@ def _operation(endpoint: RobotEndpoint[P, A]) -> Sent[Concatenate[str, P], A]:
         if isinstance(array, np.ndarray) and not endpoint.npy_holds_more and fits_query(rest):
             return Call("POST", path, reader(endpoint.answer), query_of(rest), packed(array), NPY)
         if isinstance(array, np.ndarray) and batch == "targets":
-            return posted(path, {**rest, batch: pose_fields(array)}, endpoint.answer)
-        return posted(path, fields, endpoint.answer)
+            return json_call("POST", path, {**rest, batch: pose_fields(array)}, endpoint.answer)
+        return json_call("POST", path, fields, endpoint.answer)
 
     return Sent(described_by(describe, endpoint.request, endpoint.answer, ROBOT))
 
 
-def _calculator(endpoint: Endpoint[P, A]) -> Sent[P, A]:
-    """Define an operation whose path names no robot."""
+def _without_robot(path: str, request: Callable[P, BaseModel], answer: type[A]) -> Sent[P, A]:
+    """Define a call whose path names no robot."""
 
     def describe(*_: P.args, **fields: P.kwargs) -> Call[A]:
-        return posted(endpoint.path, fields, endpoint.answer)
+        return json_call("POST", path, fields, answer)
 
-    return Sent(described_by(describe, endpoint.request, endpoint.answer))
+    return Sent(described_by(describe, request, answer))
+
+
+def _calculator(endpoint: Endpoint[P, A]) -> Sent[P, A]:
+    return _without_robot(endpoint.path, endpoint.request, endpoint.answer)
 
 
 class Operations:
@@ -83,9 +101,9 @@ class Operations:
     urdf = Sent(kept.urdf)
     dh_table = Sent(kept.table)
     mesh = Sent(kept.mesh)
-    add_robot = Sent(kept.adding(NewRobot))
+    add_robot = _without_robot("v1/robots", NewRobot, RobotInfo)
     add_archive = Sent(kept.add_archive)
-    replace_robot = Sent(kept.replacing(RobotReplacement))
+    replace_robot = _about_robot("v1/robots/{robot}", RobotReplacement, RobotInfo, "PUT")
     replace_archive = Sent(kept.replace_archive)
     remove_robot = Sent(kept.remove)
 
@@ -99,7 +117,7 @@ class Operations:
     singularities = _operation(singularities.ENDPOINT)
     trajectory = _operation(trajectory.ENDPOINT)
 
-    workspace = Sent(kept.beginning(WorkspaceRequest))
+    workspace = _about_robot("v1/robots/{robot}/workspace", WorkspaceRequest, JobInfo)
     workspace_result = Sent(kept.result(WorkspaceAnswer))
     ik_result = Sent(kept.result(InverseAnswer))
     trajectory_result = Sent(kept.result(TrajectoryAnswer))
@@ -133,8 +151,6 @@ class Operations:
 # The lines above only give methods their types: an operation without one becomes a method all the same.
 for _endpoint in ENDPOINTS:
     if not hasattr(Operations, _endpoint.name):
-        _sent: Sent[Any, Any] = (
-            _operation(_endpoint) if isinstance(_endpoint, RobotEndpoint) else _calculator(_endpoint)
-        )
-        _sent.__set_name__(Operations, _endpoint.name)
-        setattr(Operations, _endpoint.name, _sent)
+        _method: Any = _operation(_endpoint) if isinstance(_endpoint, RobotEndpoint) else _calculator(_endpoint)
+        _method.__set_name__(Operations, _endpoint.name)
+        setattr(Operations, _endpoint.name, _method)

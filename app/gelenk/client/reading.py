@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 import httpx2
 import orjson
 
-from gelenk.client.call import Call, Reply
+from gelenk.client.call import Call
 from gelenk.client.refusals import KIND_PREFIX, NotAnswering, refusal
 
 T = TypeVar("T")
@@ -27,7 +27,7 @@ def answer(call: Call[T], response: httpx2.Response, url: str) -> T:
     if not response.is_success:
         raise refusal(_problem(response, url))
     try:
-        return call.read(Reply(response.content, response.headers))
+        return call.read(response)
     except (ValueError, KeyError, EOFError) as error:
         media = response.headers.get("content-type", "").partition(";")[0] or "nothing"
         reason = f"what is there answers with {media}, not as Gelenk does; is that the address of the service?"

@@ -6,6 +6,7 @@ from pydantic import Field
 
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import AboutChain, Configurations, Matrix
+from gelenk.contract.options import BatchRequest
 from gelenk.contract.statics import Gravity, Wrenches, WrenchOptions, WrenchRequest
 from gelenk.kinematics.judge.words import DynamicsCertificate, Term
 
@@ -28,10 +29,9 @@ class DynamicsOptions(WrenchOptions):
     )
 
 
-class DynamicsRequest(DynamicsOptions, WrenchRequest):
+class DynamicsRequest(BatchRequest, DynamicsOptions, WrenchRequest):
     """Dynamics of a batch of configurations."""
 
-    joint_positions: Configurations
     joint_velocities: Configurations | None = Field(
         default=None, description="One entry per configuration, [rad/s or m/s]; zero if left out."
     )

@@ -11,17 +11,15 @@ from gelenk import contract
 from gelenk.contract.endpoint import Endpoint, RobotEndpoint, Route, Tag
 from gelenk.contract.resources import RESOURCES
 
-
-def _declared() -> list[Endpoint[Any, Any]]:
-    names = [module.name for module in pkgutil.iter_modules(contract.__path__) if module.name != "endpoints"]
-    modules = [import_module(f"{contract.__name__}.{name}") for name in names]
-    return [module.ENDPOINT for module in modules if hasattr(module, "ENDPOINT")]
-
-
+_NAMES = [module.name for module in pkgutil.iter_modules(contract.__path__) if module.name != "endpoints"]
+_MODULES = [import_module(f"{contract.__name__}.{name}") for name in _NAMES]
 _TAGS = get_args(Tag)
 
 ENDPOINTS: tuple[Endpoint[Any, Any], ...] = tuple(
-    sorted(_declared(), key=lambda endpoint: (_TAGS.index(endpoint.tag), endpoint.name))
+    sorted(
+        (module.ENDPOINT for module in _MODULES if hasattr(module, "ENDPOINT")),
+        key=lambda endpoint: (_TAGS.index(endpoint.tag), endpoint.name),
+    )
 )
 """All operations with a request and an answer in JSON, sorted by tag and name."""
 ROBOT_ENDPOINTS: tuple[RobotEndpoint[Any, Any], ...] = tuple(

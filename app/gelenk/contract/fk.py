@@ -6,8 +6,9 @@ from pydantic import Field
 
 from gelenk.contract.common import ChainOptions, FrameName
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import AboutChain, Configurations, RespectLimits
-from gelenk.contract.pose import Pose, PoseFormat
+from gelenk.contract.kinematics import AboutChain
+from gelenk.contract.options import BatchRequest, RespectLimits
+from gelenk.contract.pose import AnswerFormat, Pose
 from gelenk.kinematics.judge.words import PoseCertificate
 
 
@@ -16,17 +17,15 @@ class ForwardOptions(ChainOptions):
 
     list_fields = frozenset({"frames"})
 
-    pose_format: PoseFormat = Field(default="quaternion_xyzw", description="Notation of the poses in the answer.")
+    pose_format: AnswerFormat = "quaternion_xyzw"
     frames: list[FrameName] | Literal["all"] | None = Field(
         default=None, description='Further frames that the chain moves, by name, or "all" of them.'
     )
     respect_limits: RespectLimits = False
 
 
-class ForwardRequest(ForwardOptions):
+class ForwardRequest(BatchRequest, ForwardOptions):
     """Forward kinematics of a batch of configurations."""
-
-    joint_positions: Configurations
 
 
 class ForwardAnswer(AboutChain):

@@ -8,17 +8,9 @@ from pydantic import Field
 from gelenk.contract.common import Answer, ChainOptions, OnTheWire
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import Configuration, Configurations
-from gelenk.contract.pose import Pose, PoseFormat, pose_fields
-from gelenk.ik.search.words import (
-    BlockingJoint,
-    Direction,
-    Family,
-    Iterate,
-    Method,
-    ObjectiveName,
-    Status,
-    StopReason,
-)
+from gelenk.contract.options import Directions
+from gelenk.contract.pose import AnswerFormat, Pose, pose_fields
+from gelenk.ik.search.words import BlockingJoint, Direction, Family, Iterate, Method, ObjectiveName, Status, StopReason
 from gelenk.robot.arrays import Array
 
 MAX_TARGETS = 1_000_000
@@ -67,10 +59,8 @@ class InverseOptions(ChainOptions):
         le=1.0,
         description="Allowed angle between a solution and the target's orientation, [rad].",
     )
-    task: list[Direction] | None = Field(
+    task: Directions | None = Field(
         default=None,
-        min_length=1,
-        max_length=6,
         description="The directions that count; all six if left out. `x y z` along the base's axes, `rx ry rz` about "
         "the target's: with two rotations the tip's axis of the third points as the target's does, so that "
         "`x y z rx ry` is a position and an approach axis.",
@@ -138,7 +128,7 @@ class InverseOptions(ChainOptions):
         description="Whether to report each iteration; with `auto` those of the start that counts, and no closed form "
         f"is used then. At most {MAX_TRACE} configurations are reported per target.",
     )
-    pose_format: PoseFormat = Field(default="quaternion_xyzw", description="Notation of the poses in the answer.")
+    pose_format: AnswerFormat = "quaternion_xyzw"
 
 
 class InverseRequest(InverseOptions):

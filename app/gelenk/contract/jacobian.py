@@ -6,7 +6,8 @@ from pydantic import Field, model_validator
 
 from gelenk.contract.common import ChainOptions
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import AboutChain, Configurations, Matrix, RespectLimits, Tolerance
+from gelenk.contract.kinematics import AboutChain, Configurations, Matrix
+from gelenk.contract.options import BatchRequest, Fraction, RespectLimits
 from gelenk.kinematics.judge.words import JacobianCertificate, Reference
 
 
@@ -30,7 +31,7 @@ class JacobianOptions(ChainOptions):
         description="`time_variation`: dJ/dt at `joint_velocities`. `hessian`: ∂J/∂q.",
         max_length=2,
     )
-    rank_tolerance: Tolerance = Field(
+    rank_tolerance: Fraction = Field(
         default=1e-10, description="A singular value counts where it exceeds this times the largest."
     )
     respect_limits: RespectLimits = False
@@ -42,10 +43,9 @@ class JacobianOptions(ChainOptions):
         return self
 
 
-class JacobianRequest(JacobianOptions):
+class JacobianRequest(BatchRequest, JacobianOptions):
     """Jacobians of a batch of configurations."""
 
-    joint_positions: Configurations
     joint_velocities: Configurations | None = Field(
         default=None, description="For `time_variation`: one entry per configuration, [rad/s or m/s]."
     )

@@ -6,7 +6,6 @@ from typing import Annotated, Any, TypeAlias
 from pydantic import Discriminator, Field, Tag
 
 from gelenk.contract.common import Answer, OnTheWire
-from gelenk.ik.search.words import Direction
 from gelenk.robot.arrays import Array
 from gelenk.robot.arrays import Configuration as GivenConfiguration
 
@@ -42,18 +41,6 @@ Configurations = Annotated[
     ),
 ]
 
-
-RespectLimits = Annotated[bool, Field(description="Whether a configuration beyond the joint limits is an error.")]
-TaskDirections = Annotated[list[Direction], Field(min_length=1, max_length=6)]
-Tolerance = Annotated[float, Field(gt=0, lt=1)]
-RankTolerance = Annotated[
-    Tolerance,
-    Field(
-        description="A singular value counts where it exceeds this times the largest, and the rounding of the whole "
-        "Jacobian; no unit."
-    ),
-]
-CharacteristicLength = Annotated[float, Field(ge=1e-6, le=1e6)]
 
 Matrix = list[list[float]]
 Numbers = list[list[float]]

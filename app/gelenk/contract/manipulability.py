@@ -6,15 +6,8 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, Payload
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import (
-    AboutChain,
-    CharacteristicLength,
-    Configuration,
-    Configurations,
-    RespectLimits,
-    TaskDirections,
-    Tolerance,
-)
+from gelenk.contract.kinematics import AboutChain, Configuration
+from gelenk.contract.options import BatchRequest, Directions, Fraction, Positive, RespectLimits
 from gelenk.ik.search.words import DIRECTIONS, Direction
 from gelenk.kinematics.judge.words import EllipsoidCertificate
 
@@ -32,7 +25,7 @@ class ManipulabilityOptions(ChainOptions):
 
     list_fields = frozenset({"task"})
 
-    task: TaskDirections = Field(
+    task: Directions = Field(
         default=list(DIRECTIONS),
         description="The directions of the tip that count, rows of the Jacobian in `reference`; all six if left out.",
         examples=[["x", "y"]],
@@ -43,12 +36,12 @@ class ManipulabilityOptions(ChainOptions):
         "base's (the course's). `local`: the tip's, which is what an `ik` task that leaves a turn about the tool free "
         "is about; an image has the base's only.",
     )
-    characteristic_length: CharacteristicLength | None = Field(
+    characteristic_length: Positive | None = Field(
         default=None,
         description="Length L that converts radians to metres, [m]: it adds the combined ellipsoid of "
         "(v, L ω) and (F, M / L). Without it translation and rotation are never mixed.",
     )
-    rank_tolerance: Tolerance = Field(
+    rank_tolerance: Fraction = Field(
         default=1e-10,
         description="A semi-axis of the velocity ellipsoid vanishes where it is no longer than this times the longest, "
         "or than the rounding of the whole Jacobian; no unit.",
@@ -73,10 +66,9 @@ class RateAndEffortLimits(Payload):
     )
 
 
-class ManipulabilityRequest(ManipulabilityOptions):
+class ManipulabilityRequest(BatchRequest, ManipulabilityOptions):
     """Manipulability at a batch of configurations."""
 
-    joint_positions: Configurations
     directions: list[Vector] | None = Field(
         default=None,
         min_length=1,

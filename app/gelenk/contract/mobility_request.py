@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal, TypeAlias, cast, get_args
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from gelenk.contract.common import Payload, RobotName
+from gelenk.contract.options import Fraction
 from gelenk.contract.pose import MAX_MAGNITUDE, Vector3
 from gelenk.course.mobility.mechanism import GivenPair, Node
 from gelenk.course.mobility.mobility import NodeCount
@@ -155,10 +156,8 @@ class MobilityRequest(Payload):
     output: Name | None = Field(
         default=None, description="A link whose own degrees of freedom to compute, if the pairs give their locations."
     )
-    rank_tolerance: float = Field(
+    rank_tolerance: Fraction = Field(
         default=1e-10,
-        gt=0,
-        lt=1,
         description="Where the pairs say where they are: a singular value of the constraints counts where it exceeds "
         "this times the largest, no unit. Raise it for numbers that were rounded; less than 1e-13 counts as that.",
     )

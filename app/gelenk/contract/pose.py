@@ -14,6 +14,7 @@ from gelenk.robot.poses import nearest_rotation, transform, unit_quaternion
 PoseFormat: TypeAlias = Literal[
     "quaternion_xyzw", "quaternion_wxyz", "rpy", "zyz", "rotation_vector", "rotation", "matrix"
 ]
+AnswerFormat = Annotated[PoseFormat, Field(description="Notation of the poses in the answer.")]
 ORIENTATIONS = ("quaternion_xyzw", "quaternion_wxyz", "rpy", "zyz", "rotation_vector", "rotation")
 
 MAX_MAGNITUDE = 1e6

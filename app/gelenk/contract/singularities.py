@@ -6,7 +6,8 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import AboutChain, CharacteristicLength, Configurations, RankTolerance, TaskDirections
+from gelenk.contract.kinematics import AboutChain
+from gelenk.contract.options import BatchRequest, Directions, Positive, RankTolerance
 from gelenk.ik.search.words import Direction
 from gelenk.kinematics.judge.words import Reference, SingularityCertificate
 from gelenk.kinematics.velocity.words import SingularityKind
@@ -26,7 +27,7 @@ class SingularityOptions(ChainOptions):
 
     list_fields = frozenset({"task"})
 
-    task: TaskDirections | None = Field(
+    task: Directions | None = Field(
         default=None,
         description="The directions that count, rows of the Jacobian in `reference`; all six if left out. A planar arm "
         "loses nothing in all six: its singularities are those of `x y`.",
@@ -39,7 +40,7 @@ class SingularityOptions(ChainOptions):
         "tool free is about. `world`: the base's axes, of the point of the tip's body that passes the base's origin. "
         "Lost directions are always given in the base's axes, at the tip.",
     )
-    characteristic_length: CharacteristicLength | None = Field(
+    characteristic_length: Positive | None = Field(
         default=None,
         description="Factor of the angular rows that makes them comparable with linear ones, [m]; if left out, metres "
         "and radians are mixed where both count.",
@@ -72,10 +73,8 @@ class SingularityOptions(ChainOptions):
     )
 
 
-class SingularityRequest(SingularityOptions):
+class SingularityRequest(BatchRequest, SingularityOptions):
     """Singularities at a batch of configurations, or along a path of them."""
-
-    joint_positions: Configurations
 
 
 class LostDirectionInfo(Answer):

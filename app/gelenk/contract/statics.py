@@ -6,15 +6,8 @@ from pydantic import Discriminator, Field, Tag
 
 from gelenk.contract.common import Answer, ChainOptions, FrameName, OnTheWire, Payload, Vectors
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import (
-    MAX_CONFIGURATIONS,
-    AboutChain,
-    Configurations,
-    Matrix,
-    RespectLimits,
-    TaskDirections,
-    Tolerance,
-)
+from gelenk.contract.kinematics import MAX_CONFIGURATIONS, AboutChain, Configurations, Matrix
+from gelenk.contract.options import BatchRequest, Directions, Fraction, RespectLimits
 from gelenk.ik.search.words import Direction
 from gelenk.kinematics.judge.words import Reference, StaticsCertificate
 
@@ -104,7 +97,7 @@ class StaticsOptions(WrenchOptions):
     list_fields = frozenset({"task"})
     vector_fields = frozenset({"gravity"})
 
-    task: TaskDirections | None = Field(
+    task: Directions | None = Field(
         default=None,
         description="The components of twists and wrenches that count, along the axes that they are expressed in; all "
         "six if left out. A wrench then has one number for each, and none in the others.",
@@ -118,20 +111,19 @@ class StaticsOptions(WrenchOptions):
         examples=[[0.0, 0.0, -9.81]],
     )
     subspaces: bool = Field(default=False, description="Whether to compute the four subspaces of the Jacobian.")
-    rank_tolerance: Tolerance = Field(
+    rank_tolerance: Fraction = Field(
         default=1e-10,
         description="A singular value counts where it exceeds this times the largest; no unit.",
     )
-    membership_tolerance: Tolerance = Field(
+    membership_tolerance: Fraction = Field(
         default=1e-9,
         description="A vector lies in a subspace if its remainder is at most this times its length; no unit.",
     )
 
 
-class StaticsRequest(StaticsOptions, WrenchRequest):
+class StaticsRequest(BatchRequest, StaticsOptions, WrenchRequest):
     """Statics of a batch of configurations."""
 
-    joint_positions: Configurations
     wrenches: Wrenches | None = Field(
         default=None,
         description="γ, exerted by the tip on its surroundings, force before moment, [N] and [N m]: a list of one for "

@@ -8,8 +8,8 @@ from pydantic import Discriminator, Field, Tag
 from gelenk.contract.common import ChainOptions, OnTheWire, Payload
 from gelenk.contract.course_motion import Duration
 from gelenk.contract.kinematics import ByName, ByOrder, Configuration
-from gelenk.contract.pose import ORIENTATIONS, Pose, PoseFormat
-from gelenk.ik.search.words import Direction
+from gelenk.contract.options import Directions
+from gelenk.contract.pose import ORIENTATIONS, AnswerFormat, Pose
 from gelenk.robot.arrays import Array
 from gelenk.robot.arrays import Configuration as GivenConfiguration
 from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw
@@ -249,10 +249,8 @@ class TrajectoryRequest(ChainOptions, MotionOptions):
     duration: Duration | None = Field(
         default=None, description="Duration of the whole motion, [s]; one shorter than the limits allow is refused."
     )
-    sample_period: float = Field(
+    sample_period: _Bound = Field(
         default=0.01,
-        ge=1e-6,
-        le=1e6,
         description="From one sample to the next, [s]; the last one is exactly at the end.",
     )
     path_tolerance: float = Field(
@@ -263,10 +261,8 @@ class TrajectoryRequest(ChainOptions, MotionOptions):
         "`audit` gives the difference of the peaks from those of the exact path.",
     )
     orientation_tolerance: float = Field(default=1e-3, ge=1e-6, le=1.0, description="Allowed angle from it, [rad].")
-    task: list[Direction] | None = Field(
+    task: Directions | None = Field(
         default=None,
-        min_length=1,
-        max_length=6,
         description="The directions in which the path counts, as in `ik`; all six if left out. `x y z` along the "
         "base's axes, `rx ry rz` about the path's: `x y z rx ry` is a position and an approach axis.",
         examples=[["x", "y", "z", "rx", "ry"]],
@@ -290,4 +286,4 @@ class TrajectoryRequest(ChainOptions, MotionOptions):
     )
     coefficients: bool = Field(default=False, description="Whether to include each segment's polynomials in full.")
     tip_poses: bool = Field(default=True, description="Whether to include the tip's poses at the samples.")
-    pose_format: PoseFormat = Field(default="quaternion_xyzw", description="Notation of the poses in the answer.")
+    pose_format: AnswerFormat = "quaternion_xyzw"

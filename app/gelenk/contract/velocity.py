@@ -6,17 +6,8 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from gelenk.contract.common import Answer, ChainOptions, OnTheWire, Payload, Vectors
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import (
-    MAX_CONFIGURATIONS,
-    AboutChain,
-    CharacteristicLength,
-    Configuration,
-    Configurations,
-    Matrix,
-    RankTolerance,
-    RespectLimits,
-    TaskDirections,
-)
+from gelenk.contract.kinematics import MAX_CONFIGURATIONS, AboutChain, Configuration, Configurations, Matrix
+from gelenk.contract.options import BatchRequest, Directions, Positive, RankTolerance, RespectLimits
 from gelenk.contract.singularities import SingularityInfo
 from gelenk.ik.search.words import Direction, ObjectiveName
 from gelenk.kinematics.judge.words import Reference, TipMotionCertificate
@@ -95,7 +86,7 @@ class VelocityOptions(ChainOptions):
         "`world`: along the base's axes, the linear part that of the point of the tip's body that passes the base's "
         "origin (the spatial twist).",
     )
-    task: TaskDirections | None = Field(
+    task: Directions | None = Field(
         default=None,
         description="The directions that count, rows of the Jacobian in `reference`, in the order as given; all six if "
         "left out. An arm with fewer joints than directions leaves a residual.",
@@ -120,7 +111,7 @@ class VelocityOptions(ChainOptions):
         "damping sets in, and no gain exceeds 1/σ₀; 0.05 if left out.",
     )
     rank_tolerance: RankTolerance = 1e-10
-    characteristic_length: CharacteristicLength | None = Field(
+    characteristic_length: Positive | None = Field(
         default=None,
         description="Length that a radian counts as, [m]: angular rows are multiplied by it before inversion. If left "
         "out, metres and radians are mixed: what the least residual is and what is near to a singularity depends on "
@@ -137,10 +128,9 @@ class VelocityOptions(ChainOptions):
     respect_limits: RespectLimits = False
 
 
-class VelocityRequest(VelocityOptions):
+class VelocityRequest(BatchRequest, VelocityOptions):
     """Motion of the tip (`joint_velocities` given), or of the joints (`twists`, `tip_accelerations`, `tip_jerks`)."""
 
-    joint_positions: Configurations
     joint_velocities: Configurations | None = Field(
         default=None, description="q̇, one entry per configuration, [rad/s or m/s]."
     )

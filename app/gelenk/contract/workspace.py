@@ -7,7 +7,7 @@ from pydantic import Field
 from gelenk.contract.common import Answer, ChainOptions, Payload
 from gelenk.contract.endpoint import RobotEndpoint, Scope
 from gelenk.contract.jobs import JobInfo, JobName
-from gelenk.contract.kinematics import TaskDirections
+from gelenk.contract.options import Directions
 from gelenk.contract.pose import Vector3
 from gelenk.kinematics.judge.words import WorkspaceCertificate
 
@@ -48,7 +48,7 @@ class WorkspaceRequest(ChainOptions):
         description="Edge of a voxel, [m], at most how far the arm reaches; if left out a 40th of the longest side of "
         "the workspace, with `dexterity` a 14th. One voxel's centre is the origin of the base frame, or of the plane.",
     )
-    task: TaskDirections | None = Field(
+    task: Directions | None = Field(
         default=None,
         description="Which rows of the Jacobian Yoshikawa's measure counts: `x y z` translation and `rx ry rz` "
         "rotation, along the base's axes. If left out the translation, in the directions in which the tip moves at "

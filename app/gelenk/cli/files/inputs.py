@@ -7,7 +7,7 @@ import re
 import sys
 import tomllib
 import uuid
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,7 +23,7 @@ _TABLES = (".json", ".toml", ".csv")
 _SUFFIXES = (".urdf", ".xacro", ".xml", ".zip", *_TABLES)
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 _NUMBERS = {"a", "alpha", "d", "theta", "lower", "upper", "velocity", "effort"}
-_TOLD = re.compile(r"#\s*(convention|base|tool)\s*[:=]\s*(.*?)\s*")
+_HEADING = re.compile(r"#\s*(convention|base|tool)\s*[:=]\s*(.*?)\s*")
 
 
 @contextmanager
@@ -81,7 +81,9 @@ def description_from(
     """Return a robot without meshes as the API takes it, `dh` or `urdf`; for the arguments see `robot_named`."""
     if file.suffix.lower() in _TABLES:
         return {"dh": table_from(file)}
-    return {"urdf": urdf_from(file, arguments, packages), **({"strict": True} if strict else {})}
+    is_xacro = file.suffix.lower() == ".xacro"
+    urdf = expanded(file, arguments, packages) if is_xacro else text_of(file.read_bytes(), file.name)
+    return {"urdf": urdf, **({"strict": True} if strict else {})}
 
 
 def is_file(path: Path) -> bool:
@@ -89,31 +91,16 @@ def is_file(path: Path) -> bool:
     return path.suffix.lower() in _SUFFIXES and path.is_file()
 
 
-def urdf_from(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path]) -> str:
-    """Read a robot description and return it as URDF."""
-    if file.suffix.lower() == ".xacro":
-        return expanded(file, arguments, packages)
-    return text_of(file.read_bytes(), file.name)
-
-
 def table_from(file: Path) -> Any:
-    """Read a Denavit-Hartenberg table: JSON and TOML with the API's fields, or CSV with a column for each.
-
-    Raises:
-        InvalidDhTable: The file cannot be read as a table.
-    """
-    text = text_of(file.read_bytes(), file.name)
+    """Read a Denavit-Hartenberg table: JSON and TOML with the API's fields, or CSV with a column for each."""
+    text, suffix = text_of(file.read_bytes(), file.name), file.suffix.lower()
     try:
-        match file.suffix.lower():
-            case ".toml":
-                return tomllib.loads(text)
-            case ".csv":
-                return _table_of_rows(text)
-            case _:
-                content = json.loads(text)
-                return content.get("dh", content) if isinstance(content, dict) else content
+        if suffix == ".csv":
+            return _table_of_rows(text)
+        content = tomllib.loads(text) if suffix == ".toml" else json.loads(text)
     except (tomllib.TOMLDecodeError, json.JSONDecodeError) as error:
         raise InvalidDhTable(f"{file.name} cannot be read: {error}") from error
+    return content.get("dh", content) if isinstance(content, dict) else content
 
 
 def _table_of_rows(text: str) -> dict[str, Any]:
@@ -123,15 +110,15 @@ def _table_of_rows(text: str) -> dict[str, Any]:
     `base` and `tool` in the API's form.
     """
     lines = [line for line in text.splitlines() if line.strip()]
-    told = {found[1]: found[2] for line in lines if (found := _TOLD.fullmatch(line))}
+    headings = {found[1]: found[2] for line in lines if (found := _HEADING.fullmatch(line))}
     header, *rows = [cells_of(line) for line in lines if not line.startswith("#")] or [[]]
     joints = []
     for joint, row in enumerate(rows):
         if len(row) > len(header):
             raise InvalidDhTable(f"{counted(len(row), 'cell')} for {counted(len(header), 'column')}", joint)
         joints.append({name: _cell(joint, name, text) for name, text in zip(header, row, strict=False) if text})
-    places = {name: json.loads(told[name]) for name in ("base", "tool") if name in told}
-    return {"convention": told.get("convention", "standard"), "joints": joints, **places}
+    places = {name: json.loads(headings[name]) for name in ("base", "tool") if name in headings}
+    return {"convention": headings.get("convention", "standard"), "joints": joints, **places}
 
 
 def _cell(joint: int, name: str, text: str) -> float | str:
@@ -144,11 +131,7 @@ def _cell(joint: int, name: str, text: str) -> float | str:
 
 
 def fields_of(text: str | None) -> dict[str, Any]:
-    """Return fields of the API from JSON text, a JSON file or standard input; empty if nothing is given.
-
-    Raises:
-        InvalidField: The content is not a JSON object.
-    """
+    """Return fields of the API from JSON text, a JSON file or standard input; empty if nothing is given."""
     if text is None:
         return {}
     if text == STDIN:
@@ -164,12 +147,8 @@ def fields_of(text: str | None) -> dict[str, Any]:
     return content
 
 
-def pairs_of(given: list[str], field: str) -> dict[str, str]:
-    """Parse `NAME=VALUE` arguments.
-
-    Raises:
-        InvalidField: An argument has another form.
-    """
+def pairs_of(given: Sequence[str], field: str) -> dict[str, str]:
+    """Parse `NAME=VALUE` arguments; raises InvalidField for another form."""
     found = {}
     for text in given:
         name, equals, rest = text.partition("=")
@@ -179,12 +158,8 @@ def pairs_of(given: list[str], field: str) -> dict[str, str]:
     return found
 
 
-def packages_of(given: list[str]) -> dict[str, Path]:
-    """Parse `NAME=FOLDER` arguments.
-
-    Raises:
-        InvalidField: An argument has another form, or its folder does not exist.
-    """
+def packages_of(given: Sequence[str]) -> dict[str, Path]:
+    """Parse `NAME=FOLDER` arguments; raises InvalidField for another form, or if a folder does not exist."""
     folders = pairs_of(given, "package")
     for name, folder in folders.items():
         if not (folder and Path(folder).is_dir()):

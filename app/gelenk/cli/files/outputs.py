@@ -69,19 +69,14 @@ class Output:
 
     @property
     def format(self) -> Format:
-        """The format in use: `form`, else that of the file's suffix, else a table."""
+        """The format in use."""
         if self.form is not None:
             return self.form
         suffix = "" if self.file is None else self.file.suffix.removeprefix(".").lower()
         return Format(suffix) if suffix in set(Format) - {Format.TABLE} else Format.TABLE
 
     def write(self, content: Callable[[], str], rows: AnswerRows) -> None:
-        """Write an answer.
-
-        Args:
-            content: Returns the answer as JSON, as the API gives it.
-            rows: The same answer as rows.
-        """
+        """Write an answer: `content` returns it as JSON, as the API gives it, and `rows` holds the same."""
         match self.format:
             case Format.JSON:
                 self.put(content().encode() + b"\n")
@@ -141,12 +136,7 @@ def check_place(file: Path) -> None:
 
 
 def picture_kind(file: Path) -> Literal["svg", "png"]:
-    """Return the kind of picture that a file's suffix asks for.
-
-    Raises:
-        InvalidField: There is no such kind.
-        OSError: The file cannot be written at this place.
-    """
+    """Return the kind of picture that a file's suffix asks for; raises OSError as `check_place` does."""
     check_place(file)
     match file.suffix.lower():
         case ".svg":

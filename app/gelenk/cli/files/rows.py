@@ -47,11 +47,8 @@ class InputRows:
     def configurations(self, joint_names: Callable[[], Sequence[str]]) -> list[Any]:
         """Return configurations in the order of a chain's joints; a header with their names sets the columns.
 
-        Args:
-            joint_names: Returns the names; called only if there is a header.
-
-        Raises:
-            InvalidArray: A cell is not a number, or the header names only some of the joints.
+        `joint_names` is called only if there is a header. Raises InvalidArray if a cell is not a number, or the header
+        names only some of the joints.
         """
         if not self.header:
             return self._numbers(None)
@@ -62,12 +59,7 @@ class InputRows:
         return self._numbers(None if missing else [self.header.index(name) for name in names])
 
     def targets(self, *, position_suffices: bool) -> list[Any]:
-        """Return poses in the API's form; a header that names a notation sets the columns.
-
-        Raises:
-            InvalidArray: A cell is not a number.
-            InvalidField: A row has too many numbers, or too few.
-        """
+        """Return poses in the API's form; a header that names a notation sets the columns."""
         named = {columns: notation for notation, columns in ORIENTATIONS.items()}
         columns = [i for i, name in enumerate(self.header) if name in {*AXES, *(n for one in named for n in one)}]
         names = tuple(self.header[i] for i in columns)
@@ -93,18 +85,21 @@ class InputRows:
                 f"{where}: {text!r} has {counted(len(cells), 'cell')} where the header has {len(self.header)}"
             )
         try:
-            return [finite(cells[i]) for i in (range(len(cells)) if columns is None else columns)]
+            numbers = [number(cells[i]) for i in (range(len(cells)) if columns is None else columns)]
         except ValueError:
-            raise InvalidArray(f"{where}: {text!r} holds something that is not a finite number") from None
+            numbers = [math.nan]
+        if not all(map(math.isfinite, numbers)):
+            raise InvalidArray(f"{where}: {text!r} holds something that is not a finite number")
+        return numbers
 
 
 def rows_of(given: Sequence[str], file: str | None, field: str) -> InputRows:
-    """Return rows from arguments, or from a file or standard input: CSV, npy, or JSON.
+    """Return rows of a field from arguments, or from a file or standard input: CSV, npy, or JSON.
 
     Args:
         given: Rows as text: numbers separated by commas or blanks.
         file: Path, or `-` for standard input.
-        field: Name of the field, for errors.
+        field: Name of the field.
 
     Raises:
         InvalidArray: The file cannot be read.
@@ -112,8 +107,10 @@ def rows_of(given: Sequence[str], file: str | None, field: str) -> InputRows:
     """
     if given and file is not None:
         raise InvalidField(field, "give them as arguments or as a file, not both")
+    if file == STDIN:
+        return _rows(sys.stdin.buffer.read(), "standard input", field)
     if file is not None:
-        return _rows(_content(file), "standard input" if file == STDIN else file, field)
+        return _rows(Path(file).read_bytes(), file, field)
     if not given:
         raise InvalidField(field, "none are given: as an argument, or in a file, `-` for standard input")
     cells = [text.replace(",", " ").split() for text in given]
@@ -127,11 +124,7 @@ def numbers_of(text: str, field: str) -> list[float]:
 
 
 def target_of(row: Sequence[float], position_suffices: bool, notation: str | None = None) -> dict[str, Any]:
-    """Return the pose that a row of numbers stands for.
-
-    Raises:
-        InvalidField: It has too few numbers, or too many.
-    """
+    """Return the pose that a row of numbers stands for; raises InvalidField if it has too few numbers, or too many."""
     position = list(row[:3])
     if notation is not None:
         return {"position": position, notation: list(row[3:])}
@@ -152,11 +145,7 @@ def target_of(row: Sequence[float], position_suffices: bool, notation: str | Non
 
 
 def number(text: str) -> float:
-    """Parse a number, or a multiple of π such as `-pi/2` and `3*pi/4`.
-
-    Raises:
-        ValueError: It is neither.
-    """
+    """Parse a number, or a multiple of π such as `-pi/2` and `3*pi/4`; raises ValueError if it is neither."""
     found = _PI.fullmatch(text.strip())
     if found is None:
         return float(text)
@@ -164,28 +153,12 @@ def number(text: str) -> float:
     return (-1.0 if sign == "-" else 1.0) * float(factor or 1.0) * math.pi / float(divisor or 1.0)
 
 
-def finite(text: str) -> float:
-    """Parse a number as `number` does; raises ValueError also if it is not finite."""
-    value = number(text)
-    if not math.isfinite(value):
-        raise ValueError(text)
-    return value
-
-
 def text_of(content: bytes, source: str) -> str:
-    """Decode text in UTF-8, with or without a byte order mark.
-
-    Raises:
-        InvalidField: It is not UTF-8.
-    """
+    """Decode text in UTF-8, with or without a byte order mark; raises InvalidField if it is none."""
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise InvalidField(source, "must be text in UTF-8") from None
-
-
-def _content(file: str) -> bytes:
-    return sys.stdin.buffer.read() if file == STDIN else Path(file).read_bytes()
 
 
 def _rows(content: bytes, source: str, field: str) -> InputRows:

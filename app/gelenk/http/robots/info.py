@@ -10,7 +10,7 @@ from gelenk.contract.shapes import BoxShape, CylinderShape, LinkShape
 from gelenk.robot.appearance import Solid
 from gelenk.robot.description import Joint
 from gelenk.robot.notations import quaternions_xyzw_from_rotations
-from gelenk.robot.skeleton import skeleton
+from gelenk.robot.appearance import skeleton
 from gelenk.store.records import LoadedRobot
 
 

@@ -54,7 +54,7 @@ function screws(table: DhTable, row: DhRow, q: number): [Matrix4, Matrix4] {
 type Three = [Vector3, Vector3, Vector3];
 
 function variable(row: DhRow, index: number, positions: Positions): number {
-  if (row.mimic) return row.mimic.multiplier * (positions[row.mimic.joint] ?? 0) + row.mimic.offset;
+  if (row.mimic) return (row.mimic.multiplier ?? 1) * (positions[row.mimic.joint] ?? 0) + (row.mimic.offset ?? 0);
   return positions[jointName(row, index)] ?? 0;
 }
 

@@ -84,15 +84,17 @@ function lightsAndCameras(scene: Object3D): Object3D[] {
   return found;
 }
 
+type Triple = [number, number, number];
+
 /** A shape that the service offers for a link. */
 export function drawn({ shape, pose }: Omit<LinkShape, "link">): Mesh {
   const geometry =
     shape.type === "box"
-      ? new BoxGeometry(...shape.size)
+      ? new BoxGeometry(...(shape.size as Triple))
       : new CylinderGeometry(shape.radius, shape.radius, shape.length, 24).rotateX(Math.PI / 2);
   const mesh = new Mesh(geometry, new MeshPhongMaterial());
-  mesh.position.set(...pose.position);
-  mesh.quaternion.set(...pose.quaternion_xyzw);
+  mesh.position.fromArray(pose.position!);
+  mesh.quaternion.fromArray(pose.quaternion_xyzw!);
   return mesh;
 }
 

@@ -1,6 +1,6 @@
 /** A motion as the polynomials that it is: exact at every time, not at the samples alone. */
 
-import type { TrajectoryAnswer } from "./answer.ts";
+import type { TrajectoryAnswer } from "../../types.ts";
 
 /** The positions themselves, velocity, acceleration, jerk. */
 export type Derivative = 0 | 1 | 2 | 3;
@@ -20,8 +20,9 @@ export class Curve {
 
   constructor({ segments, duration }: TrajectoryAnswer) {
     for (const { polynomials } of segments) {
-      this.breaks.push(...polynomials.breaks.slice(0, polynomials.coefficients.length));
-      this.#coefficients.push(...polynomials.coefficients);
+      const { breaks, coefficients } = polynomials!; // which the planner asks for
+      this.breaks.push(...breaks.slice(0, coefficients.length));
+      this.#coefficients.push(...coefficients);
     }
     this.breaks.push(duration);
   }

@@ -2,14 +2,15 @@
 
 import type { ShownChain } from "../../robot/chain.ts";
 import { asPose, isPose } from "../../robot/pose.ts";
-import type { Direction, Pose } from "../../types.ts";
+import type { Direction, Pose, TrajectoryRequest } from "../../types.ts";
 import { poseAt } from "./configurations.ts";
 
-export type Law = "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal";
-export type SegmentType = "joint" | "line" | "circle" | "spline";
-export type Boundary = "clamped" | "natural" | "not_a_knot" | "periodic" | "assigned";
-export type OrientationLaw = "axis_angle" | "zyz" | "zyz_other";
-export type NearSingularity = "stop" | "damp" | "slow_down";
+type SegmentRequest = TrajectoryRequest["segments"][number];
+export type SegmentType = SegmentRequest["type"];
+export type Boundary = NonNullable<Extract<SegmentRequest, { type: "spline" }>["boundary"]>;
+export type OrientationLaw = NonNullable<Extract<SegmentRequest, { type: "line" }>["orientation"]>;
+export type Law = NonNullable<TrajectoryRequest["law"]>;
+export type NearSingularity = NonNullable<TrajectoryRequest["near_singularity"]>;
 
 /** A configuration of the chain, base to tip, or a pose of its tip in its base. */
 export type Place = number[] | Pose;

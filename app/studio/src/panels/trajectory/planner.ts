@@ -5,7 +5,7 @@ import { asProblem } from "../../robot/load.ts";
 import { button, element } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
 import type { RequestView } from "../../ui/request.ts";
-import type { TrajectoryAnswer } from "./answer.ts";
+import type { TrajectoryAnswer } from "../../types.ts";
 import type { Draft } from "./draft.ts";
 import { missing, request } from "./motion.ts";
 import type { SegmentList } from "./segments.ts";

@@ -3,7 +3,8 @@
 import type { Joint } from "../../robot/model.ts";
 import { button, element } from "../../ui/dom.ts";
 import { fixed, scientific, unitOf } from "../../ui/quantity.ts";
-import type { Audit, Failure, Peak, TrajectoryAnswer } from "./answer.ts";
+import type { TrajectoryAnswer } from "../../types.ts";
+import type { Audit, Failure, Peak } from "./answer.ts";
 import { kindOf } from "./fields.ts";
 import type { Law } from "./motion.ts";
 

@@ -1,0 +1,28 @@
+"""Fields that the requests of several operations share."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from gelenk.contract.common import Payload
+from gelenk.contract.kinematics import Configurations
+from gelenk.ik.search.words import Direction
+
+RespectLimits = Annotated[bool, Field(description="Whether a configuration beyond the joint limits is an error.")]
+Positive = Annotated[float, Field(ge=1e-6, le=1e6)]
+Fraction = Annotated[float, Field(gt=0, lt=1)]
+RankTolerance = Annotated[
+    Fraction,
+    Field(
+        description="A singular value counts where it exceeds this times the largest, and the rounding of the whole "
+        "Jacobian; no unit.",
+    ),
+]
+Directions = Annotated[list[Direction], Field(min_length=1, max_length=6)]
+"""Directions of the tip that count."""
+
+
+class BatchRequest(Payload):
+    """Addresses a batch of configurations."""
+
+    joint_positions: Configurations

@@ -1,0 +1,828 @@
+/** Made by `./dev studio` from the OpenAPI document, which describes each field; not to be edited. */
+
+export type ArrayInfo = { shape: number[]; columns: string[] };
+
+export type AuditInfo = {
+  passed: boolean;
+  velocity: TrajectoryPeakInfo | null;
+  acceleration: TrajectoryPeakInfo | null;
+  jerk: TrajectoryPeakInfo | null;
+  way_error: WayErrorInfo | null;
+  path_deviation: TrajectoryPeakInfo | null;
+  orientation_deviation: TrajectoryPeakInfo | null;
+  continuity: ContinuityInfo;
+  min_singular_value: SmallestInfo | null;
+  limit_margin: MarginInfo | null;
+  ends: Record<string, number>;
+  tip: TipPeaksInfo;
+  certificate: CertificateInfo;
+  reasons: ReasonInfo[];
+};
+
+export type BlockingJointInfo = { name: string; position: number; lower: number; upper: number; excess: number };
+
+export type BodyInfo = {
+  joint: string;
+  center_of_mass: MatrixInfo;
+  velocity: MatrixInfo;
+  angular_velocity: FormulaInfo;
+  kinetic_energy: FormulaInfo;
+  potential_energy: FormulaInfo;
+};
+
+export type BoxInfo = { lower: number[]; upper: number[] };
+
+export type BoxShape = { type: "box"; size: number[] };
+
+export type CertificateInfo = {
+  samples: number;
+  max_position_error: number;
+  max_orientation_error: number;
+  seed: number;
+};
+
+export type ChainEnds = { base_frame: string; tip_frame: string };
+
+export type ChristoffelInfo = { latex: string; plain: string; i: number; j: number; k: number };
+
+export type CircleSegment = {
+  limits?: TrajectoryLimits | null;
+  velocity_scale?: number | null;
+  acceleration_scale?: number | null;
+  law?: "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal" | null;
+  duration?: number | null;
+  type: "circle";
+  via: Pose;
+  target: Pose;
+  orientation?: "axis_angle" | "zyz" | "zyz_other";
+};
+
+export type ColumnInfo = {
+  joint: string;
+  axis: MatrixInfo;
+  arm: MatrixInfo | null;
+  linear: MatrixInfo;
+  angular: MatrixInfo;
+};
+
+export type Configuration = number[] | JointValues;
+
+export type ContinuityInfo = {
+  position: JumpInfo | null;
+  velocity: JumpInfo | null;
+  acceleration: JumpInfo | null;
+  jerk: JumpInfo | null;
+};
+
+export type CylinderShape = { type: "cylinder"; radius: number; length: number };
+
+export type DampingInfo = { distance: number; angle: number };
+
+export type DeriveAnswer = {
+  convention: "standard" | "modified";
+  joint_names: string[];
+  notation: "short" | "full";
+  symbolic: boolean;
+  legend: LegendEntry[];
+  A: MatrixInfo[];
+  T_0: MatrixInfo[];
+  T_base_tool: MatrixInfo | null;
+  position: MatrixInfo | null;
+  rotation: MatrixInfo | null;
+  jacobian: JacobianInfo | null;
+  determinant: DeterminantInfo | null;
+  singularities: SingularConditionInfo[];
+  dynamics: DynamicsInfo | null;
+  numeric: NumericInfo[];
+  steps: StepInfo[];
+  notes: string[];
+  certificate: DeriveCertificate | null;
+  numeric_certificate: NumericCertificate | null;
+};
+
+export type DeriveCertificate = { samples: number; max_error: number; seed: number };
+
+export type DeterminantInfo = {
+  block: "full" | "moving" | "linear" | "angular";
+  rows: ("v_x" | "v_y" | "v_z" | "omega_x" | "omega_y" | "omega_z")[];
+  frame: number;
+  why: string;
+  latex: string | null;
+  plain: string | null;
+  factors: FormulaInfo[];
+};
+
+export type DexterityInfo = {
+  method: "inverse_kinematics";
+  spread: "rotations" | "approach_directions" | "turns" | "fixed";
+  orientations: number;
+  mean_share: number | null;
+  max_share: number | null;
+  reached_count: number;
+  full_count: number;
+  full_volume: number;
+  full_volume_bounds: number[];
+  excluded: string | null;
+};
+
+export type DhJointRow = {
+  name?: string | null;
+  type: "revolute" | "prismatic";
+  a: number;
+  alpha: number;
+  d: number;
+  theta: number;
+  lower?: number | null;
+  upper?: number | null;
+  velocity?: number | null;
+  effort?: number | null;
+  mimic?: MimicPayload | null;
+};
+
+export type DhTablePayload = {
+  convention: "standard" | "modified";
+  joints: DhJointRow[];
+  base?: Pose | null;
+  tool?: Pose | null;
+};
+
+export type DynamicsInfo = {
+  gravity: MatrixInfo;
+  links: BodyInfo[];
+  mass_matrix: MatrixInfo;
+  christoffel: ChristoffelInfo[];
+  coriolis: MatrixInfo;
+  coriolis_vector: MatrixInfo;
+  gravity_vector: MatrixInfo;
+  skew: MatrixInfo;
+  equations_of_motion: FormulaInfo[];
+  numeric: MotionNumbers[];
+  certificate: EquationsCertificate;
+  numeric_certificate: EquationsCertificate | null;
+};
+
+export type EllipsoidCertificateInfo = {
+  samples: number;
+  max_error: number;
+  max_time_variation_error: number | null;
+  seed: number;
+  max_ellipsoid_error: number;
+};
+
+export type EllipsoidInfo = { axes: number[][]; semi_axes: (number | null)[]; unbounded: boolean[] };
+
+export type EquationsCertificate = {
+  samples: number;
+  max_mass_matrix_error: number;
+  max_coriolis_error: number;
+  max_gravity_error: number;
+  seed: number | null;
+};
+
+export type ExitInfo = { joint: string; direction: number[]; rate: number };
+
+export type FailureInfo = {
+  reason: "out_of_reach" | "joint_limit" | "singularity" | "branch_change";
+  segment: number;
+  time: number;
+  position: number[];
+  joint: string | null;
+  detail: string;
+};
+
+export type FamilyInfo = { free_joints: string[]; relation: string | null; text: string; sweep: number[][] };
+
+export type ForceLimit = { direction: number[]; alone: number | null; component: number | null };
+
+export type ForcePolytope = { along: ForceLimit[]; vertices: number[][] | null };
+
+export type FormulaInfo = { latex: string; plain: string };
+
+export type ForwardAnswer = {
+  joint_names: string[];
+  base_frame: string;
+  tip_frame: string;
+  poses: Pose[];
+  frames?: Record<string, Pose>[] | null;
+  certificate: CertificateInfo;
+};
+
+export type ForwardRequest = {
+  base_frame?: string | null;
+  tip_frame?: string | null;
+  pose_format?: "quaternion_xyzw" | "quaternion_wxyz" | "rpy" | "zyz" | "rotation_vector" | "rotation" | "matrix";
+  frames?: string[] | "all" | null;
+  respect_limits?: boolean;
+  joint_positions: Configuration[];
+};
+
+export type FromUrdfAnswer = {
+  dh: DhTablePayload;
+  joint_names: string[];
+  base_frame: string;
+  tip_frame: string;
+  certificate: TableCertificate;
+  notes: string[];
+  warnings: string[];
+};
+
+export type InternalMotionInfo = { joint_velocities: number[]; only_here: boolean };
+
+export type InverseAnswer = {
+  joint_names: string[];
+  base_frame: string;
+  tip_frame: string;
+  task: ("x" | "y" | "z" | "rx" | "ry" | "rz")[];
+  closed_form: string | null;
+  results: InverseResult[];
+};
+
+export type InverseRequest = {
+  base_frame?: string | null;
+  tip_frame?: string | null;
+  method?: "auto" | "analytic" | "newton" | "gradient" | "gradient_then_newton" | "damped_least_squares";
+  solutions?: "one" | "all";
+  position_tolerance?: number;
+  orientation_tolerance?: number;
+  task?: ("x" | "y" | "z" | "rx" | "ry" | "rz")[] | null;
+  respect_limits?: boolean;
+  max_iterations?: number | null;
+  time_limit?: number | null;
+  random_seed?: number;
+  max_solutions?: number;
+  windings?: boolean;
+  objective?: "posture" | "mid_range" | "limits" | "manipulability" | null;
+  step_size?: number | null;
+  damping?: number | null;
+  switch_error?: number;
+  elbow_angle?: number | null;
+  fixed_joints?: Record<string, number> | null;
+  trace?: boolean;
+  pose_format?: "quaternion_xyzw" | "quaternion_wxyz" | "rpy" | "zyz" | "rotation_vector" | "rotation" | "matrix";
+  targets: Pose[];
+  seeds?: Configuration[] | null;
+  posture?: Configuration | null;
+};
+
+export type InverseResult = {
+  status: "solved" | "unreachable" | "outside_limits" | "singular" | "not_converged";
+  solutions: SolutionInfo[];
+  reason: string | null;
+  nearest?: NearestInfo | null;
+  blocking_joints?: BlockingJointInfo[] | null;
+  unserved_directions?: number[][] | null;
+  complete?: boolean | null;
+  families?: FamilyInfo[] | null;
+  stop_reason?:
+    "converged" | "stagnated" | "near_singular" | "at_limits" | "diverged" | "time_limit" | "iterations" | null;
+  trace?: IterationInfo[] | null;
+  note?: string | null;
+};
+
+export type IterationInfo = {
+  error: number;
+  min_singular_value: number;
+  step_length: number | null;
+  method: string | null;
+  joint_positions: number[];
+};
+
+export type JacobianAnswer = {
+  joint_names: string[];
+  base_frame: string;
+  tip_frame: string;
+  reference: "local_world_aligned" | "local" | "world";
+  representation: "geometric" | "zyz" | "rpy";
+  jacobians: number[][][];
+  ranks: number[];
+  singular_values: number[][];
+  condition_numbers: (number | null)[];
+  rank_tolerance: number;
+  time_variations?: number[][][] | null;
+  hessians?: number[][][][] | null;
+  certificate: JacobianCertificateInfo;
+};
+
+export type JacobianCertificateInfo = {
+  samples: number;
+  max_error: number;
+  max_time_variation_error: number | null;
+  seed: number;
+};
+
+export type JacobianInfo = { matrix: MatrixInfo; columns: ColumnInfo[] };
+
+export type JobError = { type: string; detail: string; facts: Record<string, unknown> };
+
+export type JobInfo = {
+  id: string;
+  kind: "workspace" | "ik" | "trajectory";
+  state: "queued" | "running" | "succeeded" | "failed" | "cancelled";
+  progress: number;
+  created: string;
+  started: string | null;
+  finished: string | null;
+  attempts: number;
+  robot_digest?: string | null;
+  error?: JobError | null;
+};
+
+export type JointInfo = {
+  name: string;
+  type: "revolute" | "continuous" | "prismatic" | "fixed" | "floating" | "planar";
+  parent: string;
+  child: string;
+  origin: Pose;
+  axis: number[] | null;
+  limits: LimitsInfo;
+  mimic: MimicInfo | null;
+};
+
+export type JointSegment = {
+  limits?: TrajectoryLimits | null;
+  velocity_scale?: number | null;
+  acceleration_scale?: number | null;
+  law?: "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal" | null;
+  duration?: number | null;
+  type: "joint";
+  target: number[] | JointValues | Pose;
+};
+
+export type JointValues = Record<string, number>;
+
+export type JumpInfo = { value: number; joint: string | null; time: number };
+
+export type LegendEntry = {
+  latex: string;
+  plain: string;
+  meaning_latex: string;
+  meaning: string;
+  value: number | null;
+};
+
+export type LimitSourcesInfo = {
+  joint_velocity: ("request" | "robot" | "assumed")[];
+  joint_acceleration: ("request" | "robot" | "assumed")[];
+  joint_jerk: ("request" | "robot" | "assumed")[];
+};
+
+export type LimitsInfo = { lower: number | null; upper: number | null; velocity: number | null; effort: number | null };
+
+export type LineSegment = {
+  limits?: TrajectoryLimits | null;
+  velocity_scale?: number | null;
+  acceleration_scale?: number | null;
+  law?: "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal" | null;
+  duration?: number | null;
+  type: "line";
+  target: Pose;
+  blend_radius?: number | null;
+  blend_acceleration?: number | null;
+  blend_time?: number | null;
+  orientation?: "axis_angle" | "zyz" | "zyz_other";
+};
+
+export type LinkShape = { link: string; shape: BoxShape | CylinderShape; pose: Pose };
+
+export type LostDirectionInfo = { twist: number[]; wrench: number[]; lost_here: boolean };
+
+export type ManipulabilityAnswer = {
+  joint_names: string[];
+  base_frame: string;
+  tip_frame: string;
+  reference: "local_world_aligned" | "local";
+  task: ("x" | "y" | "z" | "rx" | "ry" | "rz")[];
+  rank_tolerance: number;
+  characteristic_length: number | null;
+  spaces: SpaceInfo[];
+  joints_without_velocity_limit?: string[] | null;
+  joints_without_effort_limit?: string[] | null;
+  results: ManipulabilityInfo[];
+  certificate: EllipsoidCertificateInfo;
+};
+
+export type ManipulabilityInfo = { translation: PartInfo | null; rotation: PartInfo | null; combined: PartInfo | null };
+
+export type MarginInfo = { value: number; joint: string; bound: "lower" | "upper"; time: number };
+
+export type MatrixInfo = { name: string; latex: string | null; plain: string[][] | null };
+
+export type MeasureInfo = {
+  directions: number[][];
+  min: number | null;
+  mean: number | null;
+  max: number | null;
+  position: number[] | null;
+  joint_positions: number[] | null;
+};
+
+export type MeshInfo = { reference: string; path: string | null };
+
+export type MimicInfo = { joint: string; multiplier: number; offset: number };
+
+export type MimicPayload = { joint: string; multiplier?: number; offset?: number };
+
+export type MotionLimitsInfo = {
+  joint_velocity: number[];
+  joint_acceleration: number[];
+  joint_jerk: number[];
+  tip_velocity: number | null;
+  tip_acceleration: number | null;
+  tip_angular_velocity: number | null;
+  tip_angular_acceleration: number | null;
+};
+
+export type MotionNumbers = {
+  joint_positions: number[];
+  joint_velocities: number[] | null;
+  mass_matrix: number[][];
+  coriolis: number[][] | null;
+  coriolis_vector: number[] | null;
+  gravity_vector: number[];
+};
+
+export type NearestInfo = { joint_positions: number[]; pose: Pose; position_error: number; orientation_error: number };
+
+export type NearestSingularityInfo = {
+  distance: number;
+  joint_positions: number[];
+  displacement: number[];
+  joints: string[];
+  within_limits: boolean;
+  smallest_singular_value: number;
+  kinds: ("wrist" | "elbow" | "shoulder")[];
+  dependent_joints: string[];
+};
+
+export type NumericCertificate = {
+  samples: number;
+  max_position_error: number;
+  max_orientation_error: number;
+  max_jacobian_error: number;
+};
+
+export type NumericColumnInfo = { axis: number[]; arm: number[]; linear: number[]; angular: number[] };
+
+export type NumericInfo = {
+  joint_positions: number[];
+  A: number[][][];
+  T_0: number[][][];
+  T_base_tool: number[][];
+  position: number[];
+  rotation: number[][];
+  columns: NumericColumnInfo[];
+  jacobian: number[][];
+  singular_values: number[];
+  rank: number;
+  determinant: number | null;
+};
+
+export type PartInfo = {
+  rank: number;
+  singular: boolean;
+  velocity_ellipsoid: EllipsoidInfo;
+  force_ellipsoid: EllipsoidInfo;
+  measure: number | null;
+  volume: number | null;
+  condition_number: number | null;
+  isotropy: number | null;
+  gradient?: number[] | null;
+  transmission?: Transmission[] | null;
+  velocity_polytope?: VelocityPolytope | null;
+  force_polytope?: ForcePolytope | null;
+};
+
+export type PlaneInfo = { origin: number[]; normal: number[]; thickness: number };
+
+export type PolynomialsInfo = { breaks: number[]; coefficients: number[][][] };
+
+export type Pose = {
+  position?: number[] | null;
+  quaternion_xyzw?: number[] | null;
+  quaternion_wxyz?: number[] | null;
+  rpy?: number[] | null;
+  zyz?: number[] | null;
+  rotation_vector?: number[] | null;
+  rotation?: number[][] | null;
+  matrix?: number[][] | null;
+};
+
+export type ReachInfo = { min: number; max: number };
+
+export type ReasonInfo = {
+  check: "velocity" | "acceleration" | "jerk" | "joint_limit" | "continuity" | "path" | "tip" | "boundary";
+  detail: string;
+  joint: string | null;
+  time: number;
+};
+
+export type RobotInfo = {
+  name: string;
+  description: string;
+  source: "catalogue" | "uploaded";
+  format: "urdf" | "dh";
+  default_chain: ChainEnds;
+  chains: Record<string, ChainEnds>;
+  root: string;
+  joints: JointInfo[];
+  joint_names: string[];
+  dh?: DhTablePayload | null;
+  degrees_of_freedom: number;
+  links: string[];
+  frames: string[];
+  leaf_tips: string[];
+  meshes: MeshInfo[];
+  skeleton: LinkShape[];
+  licence: string | null;
+  provenance: string | null;
+  warnings: string[];
+};
+
+export type RobotSummary = {
+  name: string;
+  description: string;
+  source: "catalogue" | "uploaded";
+  format: "urdf" | "dh";
+  default_chain: ChainEnds;
+};
+
+export type SegmentBlend = { radius: number; start_time: number; end_time: number; acceleration: number | null };
+
+export type SingularConditionInfo = {
+  kind: "solved" | "equation" | "never";
+  condition: FormulaInfo;
+  solutions: SingularValueInfo[];
+  example: number[] | null;
+  example_singular_value: number | null;
+};
+
+export type SingularPathInfo = { places: SingularPlaceInfo[]; omitted: number };
+
+export type SingularPlaceInfo = {
+  segment: number;
+  fraction: number;
+  end: number;
+  joint_positions: number[];
+  report: SingularityInfo;
+};
+
+export type SingularValueInfo = {
+  joints: string[];
+  signs: number[];
+  variable: FormulaInfo;
+  formula: FormulaInfo;
+  value: number;
+};
+
+export type SingularityAnswer = {
+  joint_names: string[];
+  base_frame: string;
+  tip_frame: string;
+  reference: "local_world_aligned" | "local" | "world";
+  task: ("x" | "y" | "z" | "rx" | "ry" | "rz")[];
+  rank_tolerance: number;
+  characteristic_length: number | null;
+  units_mixed: boolean;
+  singularities: SingularityEntry[];
+  path?: SingularPathInfo | null;
+  certificate: SingularityCertificateInfo;
+};
+
+export type SingularityCertificateInfo = {
+  samples: number;
+  max_error: number;
+  max_time_variation_error: number | null;
+  seed: number;
+  max_internal_motion: number;
+  max_lost_direction: number;
+};
+
+export type SingularityEntry = {
+  singular: boolean;
+  rank: number;
+  structural_rank: number;
+  rank_tolerance: number;
+  singular_values: number[];
+  smallest_singular_value: number | null;
+  lost_directions: LostDirectionInfo[];
+  internal_motions: InternalMotionInfo[];
+  dependent_joints: string[];
+  kinds: ("wrist" | "elbow" | "shoulder")[];
+  exit: ExitInfo | null;
+  nearest?: NearestSingularityInfo | null;
+  nearest_reason?: string | null;
+};
+
+export type SingularityInfo = {
+  singular: boolean;
+  rank: number;
+  structural_rank: number;
+  rank_tolerance: number;
+  singular_values: number[];
+  smallest_singular_value: number | null;
+  lost_directions: LostDirectionInfo[];
+  internal_motions: InternalMotionInfo[];
+  dependent_joints: string[];
+  kinds: ("wrist" | "elbow" | "shoulder")[];
+  exit: ExitInfo | null;
+};
+
+export type SmallestInfo = { value: number; time: number };
+
+export type SolutionInfo = {
+  joint_positions: number[];
+  position_error: number;
+  orientation_error: number;
+  method: string;
+  iterations: number;
+  restarts: number;
+  branch: Record<string, string | number> | null;
+  free_joints?: string[] | null;
+  elbow_angle?: number | null;
+};
+
+export type SpaceInfo = {
+  part: "translation" | "rotation" | "combined";
+  dimension: number;
+  basis: number[][];
+  velocity_unit: string;
+  force_unit: string;
+  measure_unit: string;
+};
+
+export type SplineSegment = {
+  limits?: TrajectoryLimits | null;
+  velocity_scale?: number | null;
+  acceleration_scale?: number | null;
+  law?: "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal" | null;
+  duration?: number | null;
+  type: "spline";
+  waypoints: (number[] | JointValues | Pose)[];
+  times?: number[] | null;
+  boundary?: "clamped" | "natural" | "not_a_knot" | "periodic" | "assigned";
+  blends?: boolean;
+  orientation?: "axis_angle" | "zyz" | "zyz_other";
+};
+
+export type StepInfo = { title: string; text: string; latex: string[] };
+
+export type TableCertificate = {
+  samples: number;
+  max_position_error: number;
+  max_orientation_error: number;
+  seed: number;
+};
+
+export type TimingInfo = {
+  segments: number[];
+  law: "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal";
+  uniform_duration: number;
+  velocity_factor: number;
+  acceleration_factor: number;
+  time_optimal_duration: number;
+};
+
+export type TipPeaksInfo = {
+  speed: TrajectoryPeakInfo;
+  angular_speed: TrajectoryPeakInfo;
+  acceleration: TrajectoryPeakInfo;
+  angular_acceleration: TrajectoryPeakInfo;
+};
+
+export type ToUrdfAnswer = {
+  urdf: string;
+  joint_names: string[];
+  certificate: TableCertificate;
+  notes: string[];
+  warnings: string[];
+};
+
+export type TrajectoryAnswer = {
+  joint_names: string[];
+  base_frame: string;
+  tip_frame: string;
+  duration: number;
+  completed_fraction: number;
+  failure: FailureInfo | null;
+  times: number[];
+  joint_positions: number[][];
+  joint_velocities: number[][];
+  joint_accelerations: number[][];
+  tip_poses: Pose[] | null;
+  segments: TrajectorySegmentInfo[];
+  audit: AuditInfo;
+  timing?: TimingInfo[] | null;
+  limits: MotionLimitsInfo;
+  limit_sources: LimitSourcesInfo;
+  notes: string[];
+  certificate: CertificateInfo | null;
+};
+
+export type TrajectoryLimits = {
+  joint_velocity?: number | number[] | Record<string, number> | null;
+  joint_acceleration?: number | number[] | Record<string, number> | null;
+  joint_jerk?: number | number[] | Record<string, number> | null;
+  tip_velocity?: number | null;
+  tip_acceleration?: number | null;
+  tip_angular_velocity?: number | null;
+  tip_angular_acceleration?: number | null;
+};
+
+export type TrajectoryPeakInfo = { ratio: number | null; value: number; joint: string | null; time: number };
+
+export type TrajectoryRequest = {
+  limits?: TrajectoryLimits | null;
+  velocity_scale?: number | null;
+  acceleration_scale?: number | null;
+  base_frame?: string | null;
+  tip_frame?: string | null;
+  start: Configuration;
+  segments: (JointSegment | LineSegment | CircleSegment | SplineSegment)[];
+  law?: "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal";
+  law_fallback?: boolean;
+  duration?: number | null;
+  sample_period?: number;
+  path_tolerance?: number;
+  orientation_tolerance?: number;
+  task?: ("x" | "y" | "z" | "rx" | "ry" | "rz")[] | null;
+  near_singularity?: "stop" | "damp" | "slow_down";
+  min_singular_value?: number;
+  compare_timing?: boolean;
+  coefficients?: boolean;
+  tip_poses?: boolean;
+  pose_format?: "quaternion_xyzw" | "quaternion_wxyz" | "rpy" | "zyz" | "rotation_vector" | "rotation" | "matrix";
+};
+
+export type TrajectorySegmentInfo = {
+  index: number;
+  type: "joint" | "line" | "circle" | "spline";
+  law: "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal";
+  start_time: number;
+  end_time: number;
+  length: number | null;
+  angle: number | null;
+  blended: boolean;
+  blend: SegmentBlend | null;
+  joint_deviation: DampingInfo | null;
+  limits: MotionLimitsInfo;
+  notes: string[];
+  polynomials?: PolynomialsInfo | null;
+};
+
+export type Transmission = {
+  direction: number[];
+  velocity: number | null;
+  force: number | null;
+  force_unbounded: boolean;
+};
+
+export type VelocityLimit = { direction: number[]; alone: number; component: number };
+
+export type VelocityPolytope = { along: VelocityLimit[]; vertices: number[][] | null };
+
+export type VoxelsInfo = {
+  size: number;
+  dimensions: number;
+  origin: number[];
+  axes: number[][];
+  count: number;
+  inner_count: number;
+  volume: number;
+  inner_volume: number;
+  volume_bounds: number[];
+  late_share: number | null;
+};
+
+export type WayErrorInfo = { velocity: number | null; acceleration: number | null; jerk: number | null };
+
+export type WorkspaceAnswer = {
+  robot: string;
+  robot_digest?: string | null;
+  joint_names: string[];
+  base_frame: string;
+  tip_frame: string;
+  kind: "cloud" | "grid" | "dexterity";
+  samples: number;
+  samples_counted: number;
+  plane: PlaneInfo | null;
+  sequence: "random" | "low_discrepancy";
+  random_seed: number;
+  joint_ranges: number[][];
+  bounding_box: BoxInfo | null;
+  reach: ReachInfo | null;
+  voxels: VoxelsInfo;
+  measure: MeasureInfo;
+  dexterity: DexterityInfo | null;
+  array: ArrayInfo;
+  notes: string[];
+  certificate: WorkspaceCertificateInfo;
+};
+
+export type WorkspaceCertificateInfo = {
+  samples: number;
+  max_position_error: number;
+  max_orientation_error: number;
+  seed: number;
+  max_jacobian_error: number;
+  max_measure_error: number;
+};
