@@ -3,13 +3,12 @@
 import re
 import time
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from gelenk.client.refusals import Refused, refusal
 
 if TYPE_CHECKING:
-    from pydantic import BaseModel
-
     from gelenk.contract.common import Answer
 
 A = TypeVar("A", bound="Answer")
@@ -74,11 +73,11 @@ def _joined(answers: Sequence[A]) -> A:
     return first.model_copy(update=joined)
 
 
-def _certificate(certificates: Sequence["BaseModel"]) -> "BaseModel":
-    """Join certificates: the sum of their samples, the largest of each error."""
-    columns = {name: [getattr(one, name) for one in certificates] for name in type(certificates[0]).model_fields}
+def _certificate(certificates: Sequence[Any]) -> Any:
+    """Join certificates, dataclasses of the core: the sum of their samples, the largest of each error."""
+    columns = {field.name: [getattr(one, field.name) for one in certificates] for field in fields(certificates[0])}
     largest = {name: max(values) for name, values in columns.items() if None not in values}
-    return certificates[0].model_copy(update={**largest, "samples": sum(columns["samples"])})
+    return replace(certificates[0], **{**largest, "samples": sum(columns["samples"])})
 
 
 def _of_the_whole(refused: Refused, first: int) -> Refused:
