@@ -28,7 +28,7 @@ from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:
     from gelenk.contract.fk import ForwardAnswer
-    from gelenk.contract.ik import InverseAnswer, NearestInfo, SolutionInfo
+    from gelenk.contract.ik import InverseAnswer
     from gelenk.contract.jacobian import JacobianAnswer
     from gelenk.contract.manipulability import ManipulabilityAnswer
     from gelenk.contract.pose import Pose
@@ -165,9 +165,7 @@ def _solutions(answer: "InverseAnswer") -> AnswerRows:
     columns = ("target", "status", *answer.joint_names, "position error", "orientation error")
     rows: list[tuple[Any, ...]] = []
     for index, result in enumerate(answer.results):
-        found: list[SolutionInfo | NearestInfo] = [*result.solutions]
-        if result.nearest is not None:
-            found = [result.nearest]
+        found: list[Any] = [*result.solutions] if result.nearest is None else [result.nearest]
         rows += [
             (index, result.status, *one.joint_positions, one.position_error, one.orientation_error) for one in found
         ]
