@@ -17,9 +17,6 @@ _ALL: list[Term] = ["mass_matrix", "coriolis_matrix", "coriolis_torques", "gravi
 class DynamicsOptions(WrenchOptions):
     """Axes, point, gravity and terms of a call of dynamics."""
 
-    list_fields = frozenset({"terms"})
-    vector_fields = frozenset({"gravity"})
-
     gravity: Gravity = Field(
         default=True,
         description="True for 9.81 m/s² along -z of the root link, false for none, or the gravity in the axes of the "

@@ -14,8 +14,6 @@ from gelenk.contract.pose import AnswerFormat, Pose
 class ForwardOptions(ChainOptions):
     """Options of forward kinematics."""
 
-    list_fields = frozenset({"frames"})
-
     pose_format: AnswerFormat = "quaternion_xyzw"
     frames: list[FrameName] | Literal["all"] | None = Field(
         default=None, description='Further frames that the chain moves, by name, or "all" of them.'

@@ -13,8 +13,6 @@ from gelenk.contract.options import BatchRequest, Fraction, RespectLimits
 class JacobianOptions(ChainOptions):
     """Reference, representation and derivatives of a Jacobian."""
 
-    list_fields = frozenset({"derivatives"})
-
     reference: Literal["local_world_aligned", "local", "world"] = Field(
         default="local_world_aligned",
         description="`local_world_aligned`: base axes, at the tip (the course's geometric Jacobian). `local`: tip "

@@ -22,8 +22,6 @@ Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
 class ManipulabilityOptions(ChainOptions):
     """Options of the ellipsoids and polytopes."""
 
-    list_fields = frozenset({"task"})
-
     task: Directions = Field(
         default=list(DIRECTIONS),
         description="The directions of the tip that count, rows of the Jacobian in `reference`; all six if left out.",

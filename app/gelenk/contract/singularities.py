@@ -25,8 +25,6 @@ MAX_NEAREST = 100
 class SingularityOptions(ChainOptions):
     """Options of a singularity report."""
 
-    list_fields = frozenset({"task"})
-
     task: Directions | None = Field(
         default=None,
         description="The directions that count, rows of the Jacobian in `reference`; all six if left out. A planar arm "

@@ -93,9 +93,6 @@ class WrenchRequest(WrenchOptions):
 class StaticsOptions(WrenchOptions):
     """Axes, task, gravity and subspaces of a call of statics."""
 
-    list_fields = frozenset({"task"})
-    vector_fields = frozenset({"gravity"})
-
     task: Directions | None = Field(
         default=None,
         description="The components of twists and wrenches that count, along the axes that they are expressed in; all "

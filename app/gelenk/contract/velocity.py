@@ -76,8 +76,6 @@ class NullSpace(Payload):
 class VelocityOptions(ChainOptions):
     """Options of velocity kinematics."""
 
-    list_fields = frozenset({"task"})
-
     reference: Literal["local_world_aligned", "local", "world"] = Field(
         default="local_world_aligned",
         description="Of all vectors of the tip. `local_world_aligned`: derivatives of the tip's position, and of its "
