@@ -131,9 +131,7 @@ ENDPOINT = RobotEndpoint(
 
     Terms come from Pinocchio; `certificate` compares them with sums over the bodies through our own Jacobians.
     """,
-    batch="joint_positions",
     options=DynamicsOptions,
-    npy_body="`joint_positions` as an array of shape (N, n).",
     npy_answer="The requested torques or accelerations as one array of shape (N, n), otherwise the first of "
     "`terms`: a matrix (N, n, n), torques (N, n), or both energies (N, 2).",
     example={

@@ -84,9 +84,7 @@ ENDPOINT = RobotEndpoint(
     give the analytic one, which does not exist where its angles degenerate. Every answer is recomputed through
     Pinocchio before it is sent (a sample of a large batch).
     """,
-    batch="joint_positions",
     options=JacobianOptions,
-    npy_body="`joint_positions` as an array of shape (N, n).",
     npy_answer="Jacobians as one array of shape (N, 6, n).",
     example={"joint_positions": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]], "reference": "local_world_aligned"},
 )

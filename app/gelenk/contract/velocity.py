@@ -308,7 +308,6 @@ ENDPOINT = RobotEndpoint(
     The tip's motion is recomputed through Pinocchio before it is sent (a sample of a large batch), of an inversion
     that which the found rates make.
     """,
-    batch="joint_positions",
     options=VelocityOptions,
     npy_holds_more=True,
     npy_body="Forward: an array of shape (N, k, n) with 2 ≤ k ≤ 5, of each configuration the joint positions, "
