@@ -121,7 +121,7 @@ class Session:
 
     @property
     def describe(self) -> Callable[[Path], dict[str, Any]]:
-        """What returns the robot of a file without meshes as the API takes it, `dh` or `urdf`."""
+        """Function that returns the robot of a file without meshes as the API takes it, `dh` or `urdf`."""
         arguments, packages = pairs_of(self.arguments, "arg"), packages_of(self.packages)
         return lambda file: description_from(file, arguments, packages, self.strict)
 
