@@ -72,7 +72,7 @@ def ask(request: pytest.FixtureRequest) -> Ask:
 
 @pytest.fixture(autouse=True)
 def hurried(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gelenk.client.patience._FIRST_PAUSE", 0.001)
+    monkeypatch.setattr("gelenk.client.responses._FIRST_PAUSE", 0.001)
     monkeypatch.setattr("gelenk.client.client._BETWEEN_STREAMS", 0.001)
 
 
@@ -144,7 +144,7 @@ def test_how_long_it_would_have_been_is_told(ask: Ask) -> None:
 def test_what_takes_too_long_is_given_up_once(ask: Ask, monkeypatch: pytest.MonkeyPatch) -> None:
     short = httpx2.Timeout(5.0, read=0.2)
     monkeypatch.setattr("gelenk.client.client.TIMEOUT", short)
-    monkeypatch.setattr("gelenk.client.patience.TIMEOUT", short)
+    monkeypatch.setattr("gelenk.client.responses.TIMEOUT", short)
     with scripted(keeps_silent) as service:
         with pytest.raises(NotAnswering, match=r"it took longer than 0\.2 s$"):
             ask(service.url, READ)

@@ -196,6 +196,12 @@ def test_options_of_an_npy_call_are_those_of_json(client: TestClient) -> None:
     assert (answer.status_code, answer.json()["field"]) == (422, "query")
 
 
+@pytest.mark.parametrize("query", ["frames=all&frames=panda_link4", "frames=panda_link4&frames=all"])
+def test_all_frames_and_one_of_them_are_refused_in_any_order(client: TestClient, query: str) -> None:
+    answer = client.post(f"/v1/robots/panda/fk?{query}", content=npy(np.zeros((1, 7))), headers={"Content-Type": NPY})
+    assert (answer.status_code, answer.json()["type"]) == (404, "urn:gelenk:unknown-frame")
+
+
 def test_json_and_npy_run_the_same_compiled_code(client: TestClient) -> None:
     """A second signature would be a compilation while somebody waits."""
     fk(client, joint_positions=[READY])

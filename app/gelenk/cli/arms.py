@@ -9,7 +9,7 @@ import typer
 from gelenk.cli.batches import in_calls
 from gelenk.cli.completion import METHODS, REFERENCES, REPRESENTATIONS, one_of
 from gelenk.cli.files.inputs import fields_of
-from gelenk.cli.files.outputs import AnswerRows
+from gelenk.cli.files.outputs import AnswerRows, largest
 from gelenk.cli.files.rows import AXES, ORIENTATIONS, InputRows, numbers_of, rows_of
 from gelenk.cli.session import (
     BaseOption,
@@ -28,7 +28,7 @@ from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:
     from gelenk.contract.fk import ForwardAnswer
-    from gelenk.contract.ik import InverseAnswer, NearestInfo, SolutionInfo
+    from gelenk.contract.ik import InverseAnswer
     from gelenk.contract.jacobian import JacobianAnswer
     from gelenk.contract.manipulability import ManipulabilityAnswer
     from gelenk.contract.pose import Pose
@@ -68,7 +68,7 @@ def fk(
     body = {"base_frame": base, "tip_frame": tip, "pose_format": pose_format, **fields_of(fields)}
     answer: ForwardAnswer = _answer_at(shared, robot, "fk", given, body)
     rows = [_pose_row(pose, pose_format) for pose in answer.poses]
-    note = f"T of {answer.tip_frame} in {answer.base_frame}; {_certificate(answer.certificate)}"
+    note = f"T of {answer.tip_frame} in {answer.base_frame}; Pinocchio's differ by {largest(answer.certificate)}"
     shared.write(answer, AnswerRows((*AXES, *ORIENTATIONS[pose_format]), rows, (note,)))
 
 
@@ -91,13 +91,6 @@ def _answer_at(
 
 def _pose_row(pose: "Pose", pose_format: str) -> list[float]:
     return [*(pose.position or ()), *getattr(pose, pose_format)]
-
-
-def _certificate(certificate: Any) -> str:
-    return (
-        f"Pinocchio's differ by {certificate.max_position_error:.1e} m and "
-        f"{certificate.max_orientation_error:.1e} rad at most"
-    )
 
 
 def jacobian(
@@ -172,9 +165,7 @@ def _solutions(answer: "InverseAnswer") -> AnswerRows:
     columns = ("target", "status", *answer.joint_names, "position error", "orientation error")
     rows: list[tuple[Any, ...]] = []
     for index, result in enumerate(answer.results):
-        found: list[SolutionInfo | NearestInfo] = [*result.solutions]
-        if result.nearest is not None:
-            found = [result.nearest]
+        found: list[Any] = [*result.solutions] if result.nearest is None else [result.nearest]
         rows += [
             (index, result.status, *one.joint_positions, one.position_error, one.orientation_error) for one in found
         ]

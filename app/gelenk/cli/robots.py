@@ -44,10 +44,7 @@ def robots(
 def _joints(info: "RobotInfo") -> AnswerRows:
     columns = ("joint", "type", "parent", "child", "lower", "upper", "velocity", "effort")
     rows = [
-        (
-            *(joint.name, joint.type, joint.parent, joint.child),
-            *(joint.limits.lower, joint.limits.upper, joint.limits.velocity, joint.limits.effort),
-        )
+        [joint.name, joint.type, joint.parent, joint.child, *(getattr(joint.limits, limit) for limit in columns[4:])]
         for joint in info.joints
     ]
     ends = info.default_chain
@@ -79,7 +76,7 @@ def add(
             send = client.replace_archive if replace else client.add_archive
             info = send(name, file, **about, strict=shared.strict)
         else:
-            body = {**about, **shared.description(file)}
+            body = {**about, **shared.describe(file)}
             info = client.replace_robot(name, **body) if replace else client.add_robot(name=name, **body)
     shared.write(info, _joints(info))
 

@@ -119,9 +119,11 @@ class Session:
     packages: Sequence[str] = ()
     strict: bool = False
 
-    def description(self, file: Path) -> dict[str, Any]:
-        """Return the robot of a file as the API takes it, `dh` or `urdf`."""
-        return description_from(file, pairs_of(self.arguments, "arg"), packages_of(self.packages), self.strict)
+    @property
+    def describe(self) -> Callable[[Path], dict[str, Any]]:
+        """Function that returns the robot of a file without meshes as the API takes it, `dh` or `urdf`."""
+        arguments, packages = pairs_of(self.arguments, "arg"), packages_of(self.packages)
+        return lambda file: description_from(file, arguments, packages, self.strict)
 
     @contextmanager
     def client(self) -> Iterator["Client"]:
@@ -145,8 +147,8 @@ class Session:
     @contextmanager
     def robot(self, argument: str) -> Iterator[tuple["Client", str]]:
         """Open a client, and yield it with the name of the robot at the service."""
-        arguments, packages = pairs_of(self.arguments, "arg"), packages_of(self.packages)
-        with self.client() as client, robot_named(client, argument, arguments, packages, self.strict) as name:
+        describe = self.describe
+        with self.client() as client, robot_named(client, argument, describe, self.strict) as name:
             yield client, name
 
     def write(self, answer: "BaseModel", rows: AnswerRows) -> None:

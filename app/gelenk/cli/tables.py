@@ -8,7 +8,7 @@ import typer
 from gelenk.cli.completion import CONVENTIONS, one_of
 from gelenk.cli.examples import example_of
 from gelenk.cli.files.inputs import fields_of, is_file, table_from
-from gelenk.cli.files.outputs import AnswerRows, Format
+from gelenk.cli.files.outputs import AnswerRows, Format, largest
 from gelenk.cli.session import BaseOption, FieldsOption, RobotArgument, TipOption, session
 from gelenk.errors import InvalidField
 
@@ -67,12 +67,9 @@ def from_urdf(
     shared = session(context)
     with shared.robot(robot) as (client, name):
         answer = client.dh_table(name, convention, base, tip, snap)  # type: ignore[arg-type]
-    certificate = answer.certificate
-    how = (
-        f"the table and the robot differ by {certificate.max_position_error:.1e} m and "
-        f"{certificate.max_orientation_error:.1e} rad at most"
+    shared.write(
+        answer, _rows(answer.dh, (f"the table and the robot differ by {largest(answer.certificate)}", *answer.notes))
     )
-    shared.write(answer, _rows(answer.dh, (how, *answer.notes)))
 
 
 @tables.command("convert", epilog=example_of("dh convert"))

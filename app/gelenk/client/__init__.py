@@ -1,9 +1,9 @@
 """The service in Python: `Client` waits for its answers, `AsyncClient` awaits them.
 
-- `client`: both clients. `operations`: the operations as their methods; `kept`: those on stored robots and jobs.
+- `client`: both clients. `operations`: the operations as their methods; `stored`: those on stored robots and jobs.
 - `arrays`: operations on large batches as arrays; `jobs`: operations as jobs.
 - `call`: a call, and how a description becomes a method; `exchange`: its JSON and its arrays.
-- `patience`: when to send a call again; `reading`: turns a reply into an answer or an exception.
+- `responses`: turns a response into an answer or an exception, or says when to send the call again.
 - `refusals`: turns a problem from the service back into the core's own exception.
 """
 

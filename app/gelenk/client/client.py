@@ -27,8 +27,7 @@ from gelenk.client.call import Call
 from gelenk.client.exchange import segment
 from gelenk.client.jobs import AsyncJobs, Jobs
 from gelenk.client.operations import Operations
-from gelenk.client.patience import AT_ONCE, TIMEOUT, Patience
-from gelenk.client.reading import answer
+from gelenk.client.responses import AT_ONCE, TIMEOUT, Patience, answer
 from gelenk.contract.jobs import JobInfo
 from gelenk.errors import InvalidField, quoted
 

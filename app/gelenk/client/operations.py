@@ -9,7 +9,7 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 import numpy as np
 from pydantic import BaseModel
 
-from gelenk.client import kept
+from gelenk.client import stored
 from gelenk.client.call import NPY, ROBOT, Call, Sent
 from gelenk.client.exchange import described_by, fits_query, json_call, packed, query_of, reader, segment
 from gelenk.contract import (
@@ -96,16 +96,16 @@ def _calculator(endpoint: Endpoint[P, A]) -> Sent[P, A]:
 class Operations:
     """The calls of the service as methods."""
 
-    robots = Sent(kept.robots)
-    robot = Sent(kept.robot)
-    urdf = Sent(kept.urdf)
-    dh_table = Sent(kept.table)
-    mesh = Sent(kept.mesh)
+    robots = Sent(stored.robots)
+    robot = Sent(stored.robot)
+    urdf = Sent(stored.urdf)
+    dh_table = Sent(stored.table)
+    mesh = Sent(stored.mesh)
     add_robot = _without_robot("v1/robots", NewRobot, RobotInfo)
-    add_archive = Sent(kept.add_archive)
+    add_archive = Sent(stored.add_archive)
     replace_robot = _about_robot("v1/robots/{robot}", RobotReplacement, RobotInfo, "PUT")
-    replace_archive = Sent(kept.replace_archive)
-    remove_robot = Sent(kept.remove)
+    replace_archive = Sent(stored.replace_archive)
+    remove_robot = Sent(stored.remove)
 
     fk = _operation(fk.ENDPOINT)
     jacobian = _operation(jacobian.ENDPOINT)
@@ -118,16 +118,16 @@ class Operations:
     trajectory = _operation(trajectory.ENDPOINT)
 
     workspace = _about_robot("v1/robots/{robot}/workspace", WorkspaceRequest, JobInfo)
-    workspace_result = Sent(kept.result(WorkspaceAnswer))
-    ik_result = Sent(kept.result(InverseAnswer))
-    trajectory_result = Sent(kept.result(TrajectoryAnswer))
-    job = Sent(kept.job)
-    cancel_job = Sent(kept.cancel)
-    picture = Sent(kept.picture)
+    workspace_result = Sent(stored.result(WorkspaceAnswer))
+    ik_result = Sent(stored.result(InverseAnswer))
+    trajectory_result = Sent(stored.result(TrajectoryAnswer))
+    job = Sent(stored.job)
+    cancel_job = Sent(stored.cancel)
+    picture = Sent(stored.picture)
 
-    health = Sent(kept.health)
-    readiness = Sent(kept.readiness)
-    metrics = Sent(kept.metrics)
+    health = Sent(stored.health)
+    readiness = Sent(stored.readiness)
+    metrics = Sent(stored.metrics)
 
     dh_to_urdf = _calculator(dh_to_urdf.ENDPOINT)
     dh_from_urdf = _calculator(dh_from_urdf.ENDPOINT)

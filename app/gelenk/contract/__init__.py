@@ -4,6 +4,7 @@
   scopes and reference are built. A module with an operation's name has its request, its answer and its `ENDPOINT`.
   `resources`: operations on stored robots and jobs, and about the service.
 - `common`: the strict base of all payloads, names, chains. `kinematics`: configurations, matrices, certificates.
+  `options`: fields that requests share.
 - `pose`: poses in every notation. `dh`: Denavit-Hartenberg tables.
 - `quantities`, `course_motion`, `formulas`: shared by several calculators of the course.
 - `robots`: robots as listed, described and uploaded, and the `robot.json` of a folder; `shapes`: drawn for links

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler
@@ -86,13 +86,6 @@ class Payload(Shown):
     """The base of all requests: no unknown fields, no NaN, no text for numbers."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
-
-    list_fields: ClassVar[frozenset[str]] = frozenset()
-    """Fields that a query string gives by repeating their name."""
-    vector_fields: ClassVar[frozenset[str]] = frozenset()
-    """Fields that a query string gives by repeating their name, or once if they are one word."""
-    object_fields: ClassVar[frozenset[str]] = frozenset()
-    """Fields that a query string gives as JSON."""
 
 
 class Answer(Shown):

@@ -14,9 +14,6 @@ from gelenk.kinematics.judge.words import DynamicsCertificate, Term
 class DynamicsOptions(WrenchOptions):
     """Axes, point, gravity and terms of a call of dynamics."""
 
-    list_fields = frozenset({"terms"})
-    vector_fields = frozenset({"gravity"})
-
     gravity: Gravity = Field(
         default=True,
         description="True for 9.81 m/s² along -z of the root link, false for none, or the gravity in the axes of the "
@@ -111,9 +108,7 @@ ENDPOINT = RobotEndpoint(
 
     Terms come from Pinocchio; `certificate` compares them with sums over the bodies through our own Jacobians.
     """,
-    batch="joint_positions",
     options=DynamicsOptions,
-    npy_body="`joint_positions` as an array of shape (N, n).",
     npy_answer="The requested torques or accelerations as one array of shape (N, n), otherwise the first of "
     "`terms`: a matrix (N, n, n), torques (N, n), or both energies (N, 2).",
     example={

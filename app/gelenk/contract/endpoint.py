@@ -126,9 +126,9 @@ class RobotEndpoint(Endpoint[P, A]):
     path: str = ""
     tag: Tag = "Kinematics"
     npy_answer: str = ""
-    batch: str = ""
+    batch: str = "joint_positions"
     options: type[BaseModel] | None = None
-    npy_body: str = ""
+    npy_body: str = "`joint_positions` as an array of shape (N, n)."
     npy_holds_more: bool = False
     table: str = ""
     job: str = ""

@@ -15,8 +15,6 @@ from gelenk.kinematics.judge.words import PoseCertificate
 class ForwardOptions(ChainOptions):
     """Options of forward kinematics."""
 
-    list_fields = frozenset({"frames"})
-
     pose_format: AnswerFormat = "quaternion_xyzw"
     frames: list[FrameName] | Literal["all"] | None = Field(
         default=None, description='Further frames that the chain moves, by name, or "all" of them.'
@@ -52,9 +50,7 @@ ENDPOINT = RobotEndpoint(
     Poses are those of `tip_frame` in `base_frame`. Every answer is recomputed through Pinocchio before it is
     sent (a sample of a large batch), and `certificate` gives the difference.
     """,
-    batch="joint_positions",
     options=ForwardOptions,
-    npy_body="`joint_positions` as an array of shape (N, n).",
     npy_answer="Poses as one array: (N, 7) position and quaternion, (N, 6) with a triple of angles, "
     "(N, 4, 4) matrices.",
     example={

@@ -34,9 +34,6 @@ Targets = Annotated[
 class InverseOptions(ChainOptions):
     """Options of inverse kinematics."""
 
-    list_fields = frozenset({"task"})
-    object_fields = frozenset({"fixed_joints"})
-
     method: Method = Field(
         default="auto",
         description="`auto`: the closed form where the chain has one, else many starts of damped least squares, the "

@@ -14,8 +14,6 @@ from gelenk.kinematics.judge.words import JacobianCertificate, Reference
 class JacobianOptions(ChainOptions):
     """Reference, representation and derivatives of a Jacobian."""
 
-    list_fields = frozenset({"derivatives"})
-
     reference: Reference = Field(
         default="local_world_aligned",
         description="`local_world_aligned`: base axes, at the tip (the course's geometric Jacobian). `local`: tip "
@@ -85,9 +83,7 @@ ENDPOINT = RobotEndpoint(
     give the analytic one, which does not exist where its angles degenerate. Every answer is recomputed through
     Pinocchio before it is sent (a sample of a large batch).
     """,
-    batch="joint_positions",
     options=JacobianOptions,
-    npy_body="`joint_positions` as an array of shape (N, n).",
     npy_answer="Jacobians as one array of shape (N, 6, n).",
     example={"joint_positions": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]], "reference": "local_world_aligned"},
 )

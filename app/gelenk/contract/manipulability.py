@@ -23,8 +23,6 @@ Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
 class ManipulabilityOptions(ChainOptions):
     """Options of the ellipsoids and polytopes."""
 
-    list_fields = frozenset({"task"})
-
     task: Directions = Field(
         default=list(DIRECTIONS),
         description="The directions of the tip that count, rows of the Jacobian in `reference`; all six if left out.",
@@ -271,9 +269,7 @@ ENDPOINT = RobotEndpoint(
     alone. Jacobians are recomputed through Pinocchio before anything is sent (a sample of a
     large batch), and the ellipsoids are put together again and compared with JJᵀ.
     """,
-    batch="joint_positions",
     options=ManipulabilityOptions,
-    npy_body="`joint_positions` as an array of shape (N, n).",
     npy_answer="Semi-axes of the velocity ellipsoids as one array of shape (N, k): those of the translation, "
     "largest first, then those of the rotation, then those of the combined part; as many of each as the chain has "
     "at almost every configuration.",

@@ -25,8 +25,6 @@ MAX_NEAREST = 100
 class SingularityOptions(ChainOptions):
     """Options of a singularity report."""
 
-    list_fields = frozenset({"task"})
-
     task: Directions | None = Field(
         default=None,
         description="The directions that count, rows of the Jacobian in `reference`; all six if left out. A planar arm "
@@ -230,9 +228,7 @@ ENDPOINT = RobotEndpoint(
     π is the block of `x y`, so ask for that as `task`. They call an arm with many inverse solutions redundant: here
     redundancy is n larger than the rank, with internal motions at every configuration.
     """,
-    batch="joint_positions",
     options=SingularityOptions,
-    npy_body="`joint_positions` as an array of shape (N, n).",
     npy_answer="Singular values as one array, largest first, of shape (N, k), k the lesser of n and the number of "
     "directions that count.",
     example={"joint_positions": [[0.0, 0.0, 0.0, -1.571, 0.0, 1.571, 0.785]], "nearest": True},

@@ -94,9 +94,6 @@ class WrenchRequest(WrenchOptions):
 class StaticsOptions(WrenchOptions):
     """Axes, task, gravity and subspaces of a call of statics."""
 
-    list_fields = frozenset({"task"})
-    vector_fields = frozenset({"gravity"})
-
     task: Directions | None = Field(
         default=None,
         description="The components of twists and wrenches that count, along the axes that they are expressed in; all "
@@ -241,9 +238,7 @@ ENDPOINT = RobotEndpoint(
     sums are direct and orthogonal (the notes write +). They mix metres and radians: `task` selects rows of one
     unit.
     """,
-    batch="joint_positions",
     options=StaticsOptions,
-    npy_body="`joint_positions` as an array of shape (N, n).",
     npy_answer="Torques as one array of shape (N, n), or wrenches of shape (N, m) if torques were given.",
     example={
         "joint_positions": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]],

@@ -29,6 +29,7 @@ ENDPOINT = RobotEndpoint(
     With `Accept: text/csv` or `application/x-npy` the samples come as a table, with `image/svg+xml` or `image/png`
     as profiles of position, velocity, acceleration and jerk.
     """,
+    batch="",
     npy_answer="The samples as one array of shape (N, 1 + 3n): time, joint positions, velocities, accelerations. "
     "The headers `Gelenk-Duration` [s], `Gelenk-Completed-Fraction` and `Gelenk-Failure` (`none`, or the reason) "
     "give the outcome.",

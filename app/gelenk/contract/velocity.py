@@ -77,8 +77,6 @@ class NullSpace(Payload):
 class VelocityOptions(ChainOptions):
     """Options of velocity kinematics."""
 
-    list_fields = frozenset({"task"})
-
     reference: Reference = Field(
         default="local_world_aligned",
         description="Of all vectors of the tip. `local_world_aligned`: derivatives of the tip's position, and of its "
@@ -291,7 +289,6 @@ ENDPOINT = RobotEndpoint(
     The tip's motion is recomputed through Pinocchio before it is sent (a sample of a large batch), of an inversion
     that which the found rates make.
     """,
-    batch="joint_positions",
     options=VelocityOptions,
     npy_holds_more=True,
     npy_body="Forward: an array of shape (N, k, n) with 2 ≤ k ≤ 5, of each configuration the joint positions, "

@@ -7,7 +7,7 @@ import re
 import sys
 import tomllib
 import uuid
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -28,19 +28,14 @@ _HEADING = re.compile(r"#\s*(convention|base|tool)\s*[:=]\s*(.*?)\s*")
 
 @contextmanager
 def robot_named(
-    client: "Client",
-    argument: str,
-    arguments: Mapping[str, str],
-    packages: Mapping[str, Path],
-    strict: bool = False,
+    client: "Client", argument: str, describe: Callable[[Path], dict[str, Any]], strict: bool
 ) -> Iterator[str]:
     """Provide a robot's name at the service: its own, or a temporary one for a file.
 
     Args:
         client: Client of the service.
         argument: Name, or file: URDF, xacro, a zip of one URDF and its meshes, a table as JSON, TOML or CSV.
-        arguments: Arguments for xacro, by name.
-        packages: Folders of packages for xacro, by name.
+        describe: Returns the robot of a file without meshes as the API takes it.
         strict: Whether to refuse a URDF also for faults that do not affect kinematics.
     """
     file = Path(argument)
@@ -52,7 +47,7 @@ def robot_named(
     if file.suffix.lower() == ".zip":
         client.add_archive(name, file, strict=strict)
     else:
-        client.add_robot(name=name, **description_from(file, arguments, packages, strict))
+        client.add_robot(name=name, **describe(file))
     try:
         yield name
     finally:
@@ -76,9 +71,9 @@ def name_of(file: Path) -> str:
 
 
 def description_from(
-    file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path], strict: bool = False
+    file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path], strict: bool
 ) -> dict[str, Any]:
-    """Return a robot without meshes as the API takes it, `dh` or `urdf`; for the arguments see `robot_named`."""
+    """Return a robot without meshes as the API takes it, `dh` or `urdf`; for xacro with arguments and folders."""
     if file.suffix.lower() in _TABLES:
         return {"dh": table_from(file)}
     is_xacro = file.suffix.lower() == ".xacro"

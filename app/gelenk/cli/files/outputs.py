@@ -128,6 +128,11 @@ class Output:
         self.put(shown.get().encode())
 
 
+def largest(certificate: Any) -> str:
+    """Return the largest differences of a certificate of poses in words."""
+    return f"{certificate.max_position_error:.1e} m and {certificate.max_orientation_error:.1e} rad at most"
+
+
 def check_place(file: Path) -> None:
     """Raise OSError if a file cannot be written at this place: before the work, not after it."""
     wrong = errno.EISDIR if file.is_dir() else errno.ENOENT if not file.parent.is_dir() else 0

@@ -3,10 +3,11 @@
 import json
 import re
 from collections.abc import AsyncGenerator, Iterable, Sequence
+from functools import cache
 from typing import Any, Self, TypeVar
 
 import orjson
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 from starlette.datastructures import QueryParams
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response
@@ -247,25 +248,33 @@ def _object(text: str) -> Any:
         return text
 
 
+@cache
+def _json_types(model: type[BaseModel]) -> dict[str, set[Any]]:
+    """Return the types in JSON of each field of a model."""
+    fields = model.model_json_schema()["properties"]
+    choices = {name: field.get("anyOf") or field.get("oneOf") or [field] for name, field in fields.items()}
+    return {name: {choice.get("type") for choice in these} for name, these in choices.items()}
+
+
 def read_query(model: type[_Model], query: QueryParams) -> _Model:
-    """Read a payload from the query string, for an array body; the key of a list field may be repeated.
+    """Read a payload from the query string, for an array body; a list repeats its key, an object is JSON.
 
     Raises:
         InvalidPayload: The query does not match the model.
         TooLarge: There are more than `MAX_PARAMETERS`.
     """
-    items = query.multi_items()
-    if len(items) > MAX_PARAMETERS:
-        raise TooLarge("parameters in the query", len(items), MAX_PARAMETERS)
+    count = len(query.multi_items())
+    if count > MAX_PARAMETERS:
+        raise TooLarge("parameters in the query", count, MAX_PARAMETERS)
     values: dict[str, Any] = {}
-    for key, value in items:
-        is_repeated = key in model.vector_fields and len(query.getlist(key)) > 1
-        if is_repeated or (key in model.list_fields and value != "all"):
-            values.setdefault(key, []).append(value)
-        elif key in values:
+    for key in query:
+        given, types = query.getlist(key), _json_types(model).get(key, set())
+        if "array" in types and given != ["all"] and (len(given) > 1 or "boolean" not in types):
+            values[key] = given
+        elif len(given) > 1:
             raise InvalidPayload(True, [{"pointer": f"#/{quoted(key)[1:-1]}", "detail": "it is given twice"}], 1)
         else:
-            values[key] = _object(value) if key in model.object_fields else value
+            values[key] = _object(given[0]) if "object" in types else given[0]
     try:
         return model.model_validate(values, strict=False)
     except ValidationError as error:

@@ -7,10 +7,9 @@ from gelenk.contract.dh import DhTablePayload, table_content
 from gelenk.contract.pose import Pose
 from gelenk.contract.robots import JointInfo, LimitsInfo, MeshInfo, MimicInfo, RobotInfo
 from gelenk.contract.shapes import BoxShape, CylinderShape, LinkShape
-from gelenk.robot.appearance import Solid
+from gelenk.robot.appearance import Solid, skeleton
 from gelenk.robot.description import Joint
 from gelenk.robot.notations import quaternions_xyzw_from_rotations
-from gelenk.robot.appearance import skeleton
 from gelenk.store.records import LoadedRobot
 
 

@@ -1,15 +1,18 @@
-"""When to send a call again: only where that does no harm, a few times, and no sooner than the service wishes."""
+"""What a response means: an answer, an exception, or that the call is sent again."""
 
 import random
 from datetime import UTC, datetime
 from email.utils import parsedate_to_datetime
 from http import HTTPStatus
-from typing import Any
+from typing import Any, TypeVar
 
 import httpx2
+import orjson
 
 from gelenk.client.call import Call
-from gelenk.client.refusals import NotAnswering
+from gelenk.client.refusals import KIND_PREFIX, NotAnswering, refusal
+
+T = TypeVar("T")
 
 TIMEOUT = httpx2.Timeout(5.0, read=120.0, write=120.0, pool=None)
 """Timeouts, [s]; the service ends calls that take too long and says so. A call may wait for others of its client."""
@@ -25,7 +28,7 @@ _BROKEN_OFF = (httpx2.ReadError, httpx2.WriteError, httpx2.RemoteProtocolError, 
 
 
 class Patience:
-    """Decides how long to wait before a call is sent again, and when to give up.
+    """Decides how long to wait before a call is sent again: only where that does no harm, and only a few times.
 
     - Any call is repeated if the service says when to come again (429, 503): it has not executed the call.
     - Any call is repeated if it was never sent, because there was no connection.
@@ -83,3 +86,44 @@ def _seconds(retry_after: str) -> float | None:
     except ValueError:
         return None
     return max(0.0, (moment.replace(tzinfo=moment.tzinfo or UTC) - datetime.now(UTC)).total_seconds())
+
+
+def answer(call: Call[T], response: httpx2.Response, url: str) -> T:
+    """Read the answer in a response.
+
+    Args:
+        call: The call that was sent.
+        response: The whole response.
+        url: Address of the service.
+
+    Raises:
+        Refused: The service refuses the call, or something in front of it does.
+        NotAnswering: Something other than the service has answered.
+    """
+    if not response.is_success:
+        raise refusal(_problem(response, url))
+    try:
+        return call.read(response)
+    except (ValueError, KeyError, EOFError) as error:
+        media = response.headers.get("content-type", "").partition(";")[0] or "nothing"
+        reason = f"what is there answers with {media}, not as Gelenk does; is that the address of the service?"
+        raise NotAnswering(url, reason) from error
+
+
+def _problem(response: httpx2.Response, url: str) -> dict[str, Any]:
+    """Return the service's problem, or one that explains a response of something in its place."""
+    try:
+        problem = orjson.loads(response.content)
+    except orjson.JSONDecodeError:
+        problem = None
+    if isinstance(problem, dict) and "detail" in problem and str(problem.get("type")).startswith(KIND_PREFIX):
+        return problem
+    status = response.status_code
+    detail = f"{url} answers with {status} {response.reason_phrase}".rstrip()
+    if response.has_redirect_location:
+        detail = f"{detail} and leads to {response.headers['location']}: that may be the address to use"
+    elif status >= HTTPStatus.INTERNAL_SERVER_ERROR:
+        detail = f"{detail}, without a reason: the service behind it may not be running"
+    else:
+        detail = f"{detail}, not as Gelenk does: is that the address of the service?"
+    return {"status": status, "detail": detail}
