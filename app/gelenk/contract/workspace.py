@@ -224,6 +224,7 @@ ENDPOINT = RobotEndpoint(
     request=WorkspaceRequest,
     answer=JobInfo,
     is_job=True,
+    batch="",
     scope=Scope.WRITE,
     summary="Workspace",
     description="""
