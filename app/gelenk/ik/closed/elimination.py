@@ -475,31 +475,23 @@ def _angles_of(v: Array, pair: Array) -> None:
 
 @unmanaged
 def _null_vectors(space: Scratch) -> int:
-    """Compute unit null vectors of the matrix by elimination with full pivoting.
+    """Compute unit null vectors of the matrix by elimination with full pivoting; return the rank deficiency, 1 or 2.
 
     The third of `vectors` is the regular null vector; if the matrix nearly loses another rank, the first two span its
     approximate null space.
-
-    Returns:
-        Rank deficiency, 1 or 2.
     """
     M, order = space.matrix, space.order
     for j in range(ORDER):
         order[j] = j
     largest, nullity = 0.0, 1
     for j in range(ORDER - 1):
-        row_, column, best = largest_below(M, j, ORDER)
+        best = pivoted(M, j, order)
         if j == 0:
             largest = best
         if j == ORDER - 2 and best <= _DEFICIENT * largest:
             nullity = 2
         if best == 0.0:
             break
-        for m in range(ORDER):
-            M[j, m], M[row_, m] = M[row_, m], M[j, m]
-        for k in range(ORDER):
-            M[k, j], M[k, column] = M[k, column], M[k, j]
-        order[j], order[column] = order[column], order[j]
         inverse = 1.0 / M[j, j]
         for k in range(j + 1, ORDER):
             factor = M[k, j] * inverse
@@ -514,14 +506,25 @@ def _null_vectors(space: Scratch) -> int:
 
 
 @unmanaged
-def largest_below(M: Array, first: int, order: int) -> tuple[int, int, float]:
-    """Return row, column and absolute value of the largest entry in the lower right block of a square matrix."""
-    at, best = first * order + first, 0.0
-    for k in range(first, order):
-        for m in range(first, order):
+def pivoted(M: Array, j: int, order: Indices) -> float:
+    """Swap the largest entry of the lower right block of the n unknowns onto the diagonal; return its absolute value.
+
+    Args:
+        M: Matrix of n rows, and of n columns or more; changed in place.
+        j: Where the block begins.
+        order: Column order; shape (n,), changed in place.
+    """
+    n, row_, column, best = len(M), j, j, 0.0
+    for k in range(j, n):
+        for m in range(j, n):
             if abs(M[k, m]) > best:
-                at, best = k * order + m, abs(M[k, m])
-    return at // order, at % order, best
+                row_, column, best = k, m, abs(M[k, m])
+    for m in range(M.shape[1]):
+        M[j, m], M[row_, m] = M[row_, m], M[j, m]
+    for k in range(n):
+        M[k, j], M[k, column] = M[k, column], M[k, j]
+    order[j], order[column] = order[column], order[j]
+    return best
 
 
 @unmanaged
