@@ -47,7 +47,7 @@ from gelenk.robot.compilation import clock, is_awaited, wait_for_others
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 
-__all__ = ["Options", "inverse_kinematics", "solve_quickly"]
+__all__ = ["Options", "inverse_kinematics", "solve", "solve_quickly"]
 
 _FAR_ITERATIONS = 320
 """Budget for a target out of reach by distance, for which only the nearest configuration is needed."""
@@ -74,13 +74,19 @@ def inverse_kinematics(
     Raises:
         InvalidField: An option needs a closed form that the chain does not have.
     """
-    chain = held_chain(chain, options.fixed_joints)
-    objective = options.objective
+    return solve(TargetProblem(robot, chain, targets, seeds, options))
+
+
+def solve(problem: TargetProblem) -> InverseKinematics:
+    """Solve a problem of the whole chain within the time limit of its options; raises as `inverse_kinematics` does."""
+    options = problem.options
+    chain, objective = held_chain(problem.chain, options.fixed_joints), options.objective
     if objective is not None and objective.posture is not None:
         posture = narrowed(chain, np.atleast_2d(objective.posture))
         options = replace(options, objective=replace(objective, posture=posture))
     deadline = None if options.time_limit is None else clock() + options.time_limit
-    problem = TargetProblem(robot, chain, targets, narrowed(chain, seeds), options, deadline)
+    seeds = narrowed(chain, problem.seeds)
+    problem = replace(problem, chain=chain, seeds=seeds, options=options, deadline=deadline)
     return widened_answer(chain, _with_families(problem, _answered(problem)))
 
 
@@ -206,9 +212,8 @@ def _one(problem: TargetProblem) -> InverseKinematics:
 def _searched(problem: TargetProblem) -> tuple[Found, Flags, dict[int, tuple[BlockingJoint, ...]]]:
     """Search for one solution per target.
 
-    Returns:
-        The results; flags of the targets beyond reach by distance alone, shape (N,); and, by the index of a target
-        that is solvable only beyond the limits, the joints beyond theirs.
+    Also return flags of the targets beyond reach by distance alone, shape (N,); and, by the index of a target that is
+    solvable only beyond the limits, the joints beyond theirs.
     """
     options = problem.options
     budget = options.max_iterations or MAX_ITERATIONS

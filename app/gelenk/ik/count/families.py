@@ -40,13 +40,7 @@ _TURN = 2.0 * np.pi
 
 @dataclass(frozen=True, slots=True)
 class _Motion:
-    """A walk along a family of solutions.
-
-    Attributes:
-        path: Configurations; shape (k, n), [rad or m].
-        moving: Which joints move; shape (n,).
-        ties: Factors of the sums of moving joints that stay constant; shape (r, n).
-    """
+    """A walk along a family: its configurations (k, n), which joints move (n,), and factors of constant sums (r, n)."""
 
     path: Array
     moving: Flags
@@ -138,8 +132,7 @@ def _motion(problem: TargetProblem, q: Array) -> _Motion | None:
 def _corrected(problem: TargetProblem, q: Array) -> tuple[Array, Array, float]:
     """Bring a configuration onto the target by Newton steps of least length.
 
-    Returns:
-        The configuration, shape (n,); an orthonormal basis of the kernel of J there, shape (k, n); the error.
+    Return it, an orthonormal basis of the kernel of J there, shape (k, n), and the error.
     """
     for k in range(_CORRECTIONS + 1):
         es, Js = problem.linearised(0, q[None])

@@ -139,15 +139,9 @@ def _further(problem: TargetProblem, i: int, qs: Array) -> Array:
 
 
 def _walk(problem: TargetProblem, i: int, qs: Array) -> tuple[Array, Array]:
-    """Walk along valleys in steps, each followed by corrections back onto the valley.
+    """Walk along valleys from solutions, each given twice for the two directions of its valley.
 
-    Args:
-        problem: The targets.
-        i: Index of the target.
-        qs: Solutions, each twice for the two directions of its valley; shape (N, n), [rad or m].
-
-    Returns:
-        Configurations, shape (k, N, n), and the errors in the remaining direction, shape (k, N).
+    Return configurations, shape (k, N, n), and the errors in the remaining direction, shape (k, N).
     """
     path, levels = np.empty((_WALK, *qs.shape)), np.empty((_WALK, len(qs)))
     ahead, beside = np.zeros(qs.shape), np.zeros(qs.shape)
