@@ -321,7 +321,7 @@ def _plans(chain: Chain, tolerance: float) -> Iterator[tuple[str, SubproblemPlan
     if n == 7:
         yield from _elbow_plans(ahead)
         return
-    candidates = []
+    candidates: list[tuple[str, SubproblemPlan]] = []
     for screws in (ahead, ahead.reversed()):
         for last in (3, 2, 1, 0):
             candidates += _decoupled_plans(screws, last)

@@ -123,13 +123,8 @@ def invariants(p: Vector, d: Vector, out: Array) -> None:
 def eliminated(terms: Array, axes: Array, points: Array, p: Vector, d: Vector, space: Scratch) -> None:
     """Fill the last six rows of `left` with the equations from which joints 1 and 2 are eliminated.
 
-    Args:
-        terms: Left sides, the same for all targets; shape (EQUATIONS, PRODUCTS).
-        axes: Joint axes at zero; shape (6, 3).
-        points: A point on each axis, relative to that of joint 3, in units of the arm's size; shape (6, 3).
-        p: Point of the last line at the target, in the same units.
-        d: Direction of the last line at the target.
-        space: Working space; `left` and `right` are filled.
+    `terms` are the left sides, see `left_sides`; the last line goes through p along d at the target, and all points are
+    relative to that of joint 3, in units of the arm's size.
     """
     left, right = space.left, space.right
     for k in range(EQUATIONS):
@@ -414,14 +409,9 @@ def _bisected(series: Array, lower: float, upper: float, at_lower: float, of_slo
 
 @unmanaged
 def next_two(space: Scratch, q3: float) -> int:
-    """Compute joints 4 and 5 of a root from the null vector of the matrix, products of powers of two tangents.
+    """Put joints 4 and 5 [rad] of a root into `pairs`; return their number, 3 if two solutions seem to share joint 3.
 
-    Args:
-        space: Working space; `pairs` are filled.
-        q3: Joint 3, [rad].
-
-    Returns:
-        Number of `pairs`: 1, or 3 if two solutions seem to share joint 3.
+    The null vector of the matrix consists of products of powers of their two tangents.
     """
     _fill(space, q3)
     nullity = _null_vectors(space)
@@ -507,12 +497,9 @@ def _null_vectors(space: Scratch) -> int:
 
 @unmanaged
 def pivoted(M: Array, j: int, order: Indices) -> float:
-    """Swap the largest entry of the lower right block of the n unknowns onto the diagonal; return its absolute value.
+    """Swap the largest entry of the lower right block, from j on, onto the diagonal; return its absolute value.
 
-    Args:
-        M: Matrix of n rows, and of n columns or more; changed in place.
-        j: Where the block begins.
-        order: Column order; shape (n,), changed in place.
+    M has n rows, and may have further columns on the right; `order` is the order of the others; shape (n,).
     """
     n, row_, column, best = len(M), j, j, 0.0
     for k in range(j, n):

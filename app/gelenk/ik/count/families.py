@@ -56,12 +56,9 @@ class _Motion:
 
 
 def families_of(problem: TargetProblem, i: int, qs: Array) -> tuple[Family, ...]:
-    """Find the families to which solutions of a target belong, in the order of the solutions.
+    """Find the families to which solutions of a target, shape (k, n), belong, in the order of the solutions.
 
-    Args:
-        problem: The targets; its options bound the sample configurations of all families together.
-        i: Index of the target.
-        qs: Its solutions; shape (k, n), [rad or m].
+    All together have at most as many sample configurations as the options allow solutions.
     """
     own, most = problem.taken(slice(i, i + 1)), problem.options.most
     sizes = np.linalg.svd(own.linearised(0, qs)[1], compute_uv=False)
