@@ -25,14 +25,14 @@ from gelenk.contract.trajectory_request import TrajectoryRequest
 from gelenk.dh.tables.convert import describe_dh
 from gelenk.errors import InvalidField, UnknownRobot, counted
 from gelenk.ik.search.words import DIRECTIONS, Direction
-from gelenk.ik.solve import inverse_kinematics
+from gelenk.ik.solve import solve
 from gelenk.ik.verdict.result import InverseKinematics
 from gelenk.kinematics.ellipsoids.manipulability import Manipulability, manipulability
 from gelenk.kinematics.judge.words import Reference
 from gelenk.kinematics.poses.forward import ForwardKinematics, forward_kinematics
 from gelenk.kinematics.velocity.jacobian import Jacobians, Representation, jacobians
 from gelenk.operations import trajectory_request
-from gelenk.operations.ik_request import TargetLimits, options_of, parse
+from gelenk.operations.ik_request import TargetLimits, parse
 from gelenk.package_data import catalogue
 from gelenk.robot import robot as core
 from gelenk.robot.arrays import Array, Configuration
@@ -215,8 +215,7 @@ class Robot:
             array = np.asarray(given, dtype=float)
             fields["targets"] = array[None] if array.shape in {(7,), (4, 4)} else array
         call = call.model_copy(update=fields)  # arrays do not go number by number through pydantic
-        chain, poses, seeds = parse(self.core, call, _UNBOUNDED)
-        return inverse_kinematics(self.core, chain, poses, seeds, options_of(chain, call, call.time_limit))
+        return solve(parse(self.core, call, _UNBOUNDED, call.time_limit))
 
     def trajectory(self, start: Configuration, segments: Sequence[Mapping[str, object]], **options: Any) -> Trajectory:
         """Plan a motion from rest to rest: its polynomials are `motion`, and `audit` is the check that it passed.

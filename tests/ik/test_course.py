@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from gelenk.ik.search.descent import damped_step, gradient_step, newton_step
 from gelenk.ik.search.problem import DescentRule
-from gelenk.ik.search.steps import damped_step, gradient_step, newton_step
-from gelenk.ik.search.words import StepMethod
+from gelenk.ik.search.words import IterationPath, StepMethod
 from gelenk.ik.solve import Options, inverse_kinematics
-from gelenk.ik.verdict.result import InverseKinematics, IterationPath
+from gelenk.ik.verdict.result import InverseKinematics
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
 from tests.ik.arms import (

@@ -17,6 +17,7 @@ from gelenk.ik import solve
 from gelenk.ik.search.bounds import mid_range
 from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.solve import Options, inverse_kinematics
+from gelenk.ik.verdict.result import InverseKinematics
 from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.robot.compilation import clock, when_compiling
 from tests.robots import robot
@@ -43,11 +44,13 @@ def test_a_limit_of_time_does_not_count_compiling(
     targets = forward_kinematics(machine, chain, qs).poses
     inverse_kinematics(machine, chain, targets, qs - 0.02, Options(**options))  # what is really compiled here is now
 
-    def cold(*arguments: Any) -> TargetProblem:
-        compile_something()
-        return TargetProblem(*arguments)
+    answered = solve._answered
 
-    monkeypatch.setattr(solve, "TargetProblem", cold)
+    def cold(problem: TargetProblem) -> InverseKinematics:
+        compile_something()
+        return answered(problem)
+
+    monkeypatch.setattr(solve, "_answered", cold)
     found = inverse_kinematics(machine, chain, targets, qs - 0.02, Options(**options, time_limit=LIMIT))
     assert found.statuses == ["solved"]
 

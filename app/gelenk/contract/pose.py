@@ -103,20 +103,15 @@ class Pose(Payload):
             rotations_from_zyz,
         )
 
-        Rs: Array
-        if self.rpy is not None:
-            Rs = rotations_from_rpy(np.array([self.rpy]))
-        elif self.zyz is not None:
-            Rs = rotations_from_zyz(np.array([self.zyz]))
-        elif self.rotation_vector is not None:
-            Rs = rotations_from_vectors(np.array([self.rotation_vector]))
-        else:
-            quaternion = np.array(self.quaternion_xyzw or self.quaternion_wxyz)
-            if self.quaternion_wxyz is not None:
-                quaternion = np.roll(quaternion, -1)
-            Rs = rotations_from_quaternions_xyzw(unit_quaternion(quaternion)[None])
-        rotation: Array = Rs[0]
-        return rotation
+        for angles, rotations in (
+            (self.rpy, rotations_from_rpy),
+            (self.zyz, rotations_from_zyz),
+            (self.rotation_vector, rotations_from_vectors),
+        ):
+            if angles is not None:
+                return np.asarray(rotations(np.array([angles]))[0])
+        quaternion = self.quaternion_xyzw or np.roll(self.quaternion_wxyz or [], -1)
+        return np.asarray(rotations_from_quaternions_xyzw(unit_quaternion(np.array(quaternion))[None])[0])
 
 
 def pose_fields(given: Any, field: str = "targets") -> Any:

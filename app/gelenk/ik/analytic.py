@@ -266,13 +266,7 @@ def _sampled(problem: TargetProblem, form: ClosedForm, i: int) -> BranchTable:
 
 
 def joined(found: InverseKinematics, left: Indices, rest: InverseKinematics) -> InverseKinematics:
-    """Insert the results of a search into the answer of a closed form.
-
-    Args:
-        found: The answer of the closed form.
-        left: Indices of the targets that it left unsolved; shape (k,).
-        rest: The answer of the search for these.
-    """
+    """Insert the answer of a search for the targets `left`, shape (k,), into that of a closed form, which lacks it."""
     owners = np.concatenate((found.owners, left[rest.owners]))
     order = np.argsort(owners, kind="stable")
     ours, others = found.rows(slice(None)), rest.rows(slice(None))
@@ -289,12 +283,7 @@ def joined(found: InverseKinematics, left: Indices, rest: InverseKinematics) -> 
 
 
 def unmet(rest: InverseKinematics, elbow_angle: float | None) -> InverseKinematics:
-    """Turn solutions of a search into failures, because they do not meet the request.
-
-    Args:
-        rest: The answer of the search.
-        elbow_angle: The requested angle of the elbow, [rad]; None if only a closed form was requested.
-    """
+    """Turn solutions of a search into failures: they are on no branch, or the elbow is not at the requested angle."""
     failures = dict(rest.failures)
     for i in np.flatnonzero(np.diff(rest.firsts)).tolist():
         q, *errors = (column[rest.firsts[i]] for column in (rest.qs, rest.position_errors, rest.orientation_errors))

@@ -14,7 +14,7 @@ from gelenk.ik.count.continuation import Continuation, counted, system_of
 from gelenk.ik.count.families import families_of
 from gelenk.ik.search import kernels
 from gelenk.ik.search.bounds import target_rows
-from gelenk.ik.search.descent import Descent, descend
+from gelenk.ik.search.descent import descend
 from gelenk.ik.search.null_space import settle
 from gelenk.ik.search.problem import DescentRule, Objective, Options, TargetProblem
 from gelenk.ik.search.retrace import retrace
@@ -27,12 +27,12 @@ from gelenk.ik.search.search import (
     start_of,
 )
 from gelenk.ik.search.task import FULL_POSE
-from gelenk.ik.search.words import BlockingJoint, StepMethod
+from gelenk.ik.search.words import BlockingJoint, IterationPath, StepMethod
 from gelenk.ik.verdict.branches import SEARCHED, TRUNCATED, Branches, all_branches, wound, wound_near
 from gelenk.ik.verdict.fixed import held_chain, narrowed, widened_answer
 from gelenk.ik.verdict.judge import assembled, judged
 from gelenk.ik.verdict.nearest import polished
-from gelenk.ik.verdict.result import COUNTED, InverseKinematics, IterationPath
+from gelenk.ik.verdict.result import COUNTED, InverseKinematics
 from gelenk.ik.verdict.verdict import (
     ENOUGH_STARTS,
     blocking_joints,
@@ -47,7 +47,7 @@ from gelenk.robot.compilation import clock, is_awaited, wait_for_others
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 
-__all__ = ["Options", "inverse_kinematics", "solve_quickly"]
+__all__ = ["Options", "inverse_kinematics", "solve", "solve_quickly"]
 
 _FAR_ITERATIONS = 320
 """Budget for a target out of reach by distance, for which only the nearest configuration is needed."""
@@ -74,13 +74,19 @@ def inverse_kinematics(
     Raises:
         InvalidField: An option needs a closed form that the chain does not have.
     """
-    chain = held_chain(chain, options.fixed_joints)
-    objective = options.objective
+    return solve(TargetProblem(robot, chain, targets, seeds, options))
+
+
+def solve(problem: TargetProblem) -> InverseKinematics:
+    """Solve a problem of the whole chain within the time limit of its options; raises as `inverse_kinematics` does."""
+    options = problem.options
+    chain, objective = held_chain(problem.chain, options.fixed_joints), options.objective
     if objective is not None and objective.posture is not None:
         posture = narrowed(chain, np.atleast_2d(objective.posture))
         options = replace(options, objective=replace(objective, posture=posture))
     deadline = None if options.time_limit is None else clock() + options.time_limit
-    problem = TargetProblem(robot, chain, targets, narrowed(chain, seeds), options, deadline)
+    seeds = narrowed(chain, problem.seeds)
+    problem = replace(problem, chain=chain, seeds=seeds, options=options, deadline=deadline)
     return widened_answer(chain, _with_families(problem, _answered(problem)))
 
 
@@ -185,18 +191,9 @@ def _one(problem: TargetProblem) -> InverseKinematics:
     if is_unsettled:
         traces = [path.trace for path in paths] if paths else [None] * count
         paths = [IterationPath("time_limit", trace) for trace in traces]
-    solved, *errors = judgement
+    solved, errors = judgement[0], np.array(judgement[1:])
     failures = {
-        i: explain(
-            problem,
-            i,
-            found.qs[i],
-            (float(errors[0][i]), float(errors[1][i])),
-            is_too_far=bool(too_far[i]),
-            beyond_limits=outside.get(i, ()),
-            budget=options.max_iterations or MAX_ITERATIONS,
-            tried=bool(found.in_time[i]),
-        )
+        i: explain(problem, i, found, errors, bool(too_far[i]), outside.get(i, ()))
         for i in np.flatnonzero(~solved).tolist()
     }
     labels = {"iterations": found.iterations, "restarts": found.restarts}
@@ -206,9 +203,8 @@ def _one(problem: TargetProblem) -> InverseKinematics:
 def _searched(problem: TargetProblem) -> tuple[Found, Flags, dict[int, tuple[BlockingJoint, ...]]]:
     """Search for one solution per target.
 
-    Returns:
-        The results; flags of the targets beyond reach by distance alone, shape (N,); and, by the index of a target
-        that is solvable only beyond the limits, the joints beyond theirs.
+    Also return flags of the targets beyond reach by distance alone, shape (N,); and, by the index of a target that is
+    solvable only beyond the limits, the joints beyond theirs.
     """
     options = problem.options
     budget = options.max_iterations or MAX_ITERATIONS
@@ -309,23 +305,20 @@ def _every_of(problem: TargetProblem, i: int, system: Continuation | None) -> Br
 def _by_method(problem: TargetProblem, rule: DescentRule) -> InverseKinematics:
     """Run one of the course's methods from each seed, without other starts."""
     chain, count = problem.chain, len(problem)
-    descents = [None if problem.is_over else descend(problem, i, problem.seed(i), rule) for i in range(count)]
-    ends = [problem.seed(i) if d is None else _end(d) for i, d in enumerate(descents)]
-    wound = [wound_near(chain, q[None], problem.seed(i), *problem.limits) for i, q in enumerate(ends)]
-    qs = np.concatenate([*wound, np.empty((0, len(chain)))])
-    claimed = np.array([d is not None and d.stop_reason == "converged" for d in descents], dtype=bool)
-    judgement = solved, *errors = judged(problem, qs, claimed)
-    too_far = problem.too_far()
+    late = IterationPath("time_limit", [])
+    paths = [late if problem.is_over else descend(problem, i, problem.seed(i), rule) for i in range(count)]
+    ends = [_end(problem, i, path) for i, path in enumerate(paths)]
+    qs = np.concatenate([*ends, np.empty((0, len(chain)))])
+    claimed = np.array([path.stop_reason == "converged" for path in paths], dtype=bool)
+    judgement = judged(problem, qs, claimed)
+    solved, errors, too_far = judgement[0], np.array(judgement[1:]), problem.too_far()
     failures = {
-        i: verdict_on_path(problem, i, qs[i], (float(errors[0][i]), float(errors[1][i])), descents[i], bool(too_far[i]))
+        i: verdict_on_path(problem, i, qs[i], errors[:, i], paths[i], bool(too_far[i]))
         for i in np.flatnonzero(~solved).tolist()
     }
-    paths = [
-        IterationPath(d.stop_reason if d else "time_limit", (d.trace if d else []) if problem.options.trace else None)
-        for d in descents
-    ]
-    iterations = np.array([len(d.trace) - 1 if d else 0 for d in descents], dtype=np.int64)
-    labels = {"iterations": iterations}
+    labels = {"iterations": np.array([max(0, len(path.trace or ()) - 1) for path in paths], dtype=np.int64)}
+    if not problem.options.trace:
+        paths = [replace(path, trace=None) for path in paths]
     return assembled(count, np.arange(count), qs, judgement, labels, method=rule.method, failures=failures, paths=paths)
 
 
@@ -353,11 +346,14 @@ def _interpreted(problem: TargetProblem) -> InverseKinematics | None:
     return None if found.failures else replace(found, method="interpreted_least_squares", paths=None)
 
 
-def _end(descent: Descent) -> Array:
-    """Return the last configuration of a method; if it diverged or was cut off, the best one of its trace."""
-    if descent.stop_reason in {"diverged", "time_limit", "iterations"}:
-        return np.array(min(descent.trace, key=lambda iterate: iterate.error).joint_positions)
-    return descent.joint_positions
+def _end(problem: TargetProblem, i: int, path: IterationPath) -> Array:
+    """Last configuration of a method, or the best one if it diverged or was cut off, turned to the seed; (1, n)."""
+    q, trace = problem.seed(i), path.trace
+    if trace:
+        is_cut = path.stop_reason in {"diverged", "time_limit", "iterations"}
+        last = min(trace, key=lambda iterate: iterate.error) if is_cut else trace[-1]
+        q = np.array(last.joint_positions)
+    return wound_near(problem.chain, q[None], problem.seed(i), *problem.limits)
 
 
 def _retraced(problem: TargetProblem, found: Found, i: int) -> IterationPath:
@@ -367,5 +363,4 @@ def _retraced(problem: TargetProblem, found: Found, i: int) -> IterationPath:
     if not found.in_time[i]:
         return IterationPath("time_limit", [])
     start = start_of(problem, i, int(found.restarts[i]))
-    descent = retrace(problem, i, start, int(found.followed[i]), float(found.slack[i]))
-    return IterationPath(descent.stop_reason, descent.trace)
+    return retrace(problem, i, start, int(found.followed[i]), float(found.slack[i]))

@@ -5,12 +5,11 @@ from typing import Any
 
 from gelenk.contract.ik import MAX_STEPWISE, MAX_TARGETS, InverseRequest
 from gelenk.ik.closed.closed_form import ClosedForm, closed_form, is_looked_at, look_at
-from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS
-from gelenk.ik.solve import inverse_kinematics, solve_quickly
+from gelenk.ik.solve import solve, solve_quickly
 from gelenk.ik.verdict.result import InverseKinematics
 from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolved_headers
-from gelenk.operations.ik_request import TargetLimits, options_of, parse, task_of
+from gelenk.operations.ik_request import TargetLimits, parse, task_of
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.request_counts import RequestCounts
 from gelenk.operations.warm_up import WarmUp
@@ -28,20 +27,18 @@ _SHARE_OF_TIME = 0.8
 
 def run(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome:
     """Compute configurations that bring the tip to each target."""
-    chain, targets, seeds = parse(loaded.robot, call, _bounds(limits))
     seconds = None if call.time_limit is None else min(call.time_limit, _SHARE_OF_TIME * limits.seconds)
-    options = options_of(chain, call, seconds)
-    return _outcome(chain, call, inverse_kinematics(loaded.robot, chain, targets, seeds, options))
+    problem = parse(loaded.robot, call, _bounds(limits), seconds)
+    return _outcome(problem.chain, call, solve(problem))
 
 
 def attempt(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome | None:
     """Try the operation with a few starts; return None if they do not suffice."""
-    chain, targets, seeds = parse(loaded.robot, call, _bounds(limits))
-    problem = TargetProblem(loaded.robot, chain, targets, seeds, options_of(chain, call, None))
+    problem = parse(loaded.robot, call, _bounds(limits))
     budget = max(1, (call.max_iterations or MAX_ITERATIONS) // ITERATIONS_PER_START)
-    starts = min(budget, max(1, _QUICK_STARTS * 7 // max(7, len(chain))))
+    starts = min(budget, max(1, _QUICK_STARTS * 7 // max(7, len(problem.chain))))
     result = solve_quickly(problem, starts, by_form=call.method == "analytic")
-    return None if result is None else _outcome(chain, call, result)
+    return None if result is None else _outcome(problem.chain, call, result)
 
 
 def _bounds(limits: Limits) -> TargetLimits:

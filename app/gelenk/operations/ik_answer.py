@@ -7,8 +7,9 @@ import numpy as np
 
 from gelenk.contract.ik import MAX_TRACE, InverseRequest
 from gelenk.contract.pose import PoseFormat
+from gelenk.ik.search.words import IterationPath
 from gelenk.ik.verdict.fixed import narrowed
-from gelenk.ik.verdict.result import COUNTED, InverseKinematics, IterationPath, UnsolvedTarget
+from gelenk.ik.verdict.result import COUNTED, InverseKinematics, UnsolvedTarget
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.operations.ik_request import task_of
 from gelenk.operations.pose_arrays import pose_list

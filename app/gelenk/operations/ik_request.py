@@ -7,14 +7,13 @@ from typing import cast
 from gelenk.contract.ik import MAX_TRACE, InverseRequest
 from gelenk.errors import InvalidField, TooLarge, counted, quoted
 from gelenk.ik.search.bounds import mid_range
-from gelenk.ik.search.problem import DescentRule, Objective, Options
+from gelenk.ik.search.problem import DescentRule, Objective, Options, TargetProblem
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.ik.search.words import DIRECTIONS, Direction, StepMethod
 from gelenk.operations.pose_arrays import poses_from
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import MAX_MAGNITUDE, configurations, one_configuration
-from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 
 
@@ -33,8 +32,10 @@ class TargetLimits:
     numbers: int | None
 
 
-def parse(robot: RobotModel, call: InverseRequest, bounds: TargetLimits) -> tuple[Chain, Poses, Array]:
-    """Return the chain, the targets and the seeds: one configuration for all or one each, shape (1 or N, n).
+def parse(
+    robot: RobotModel, call: InverseRequest, bounds: TargetLimits, time_limit: float | None = None
+) -> TargetProblem:
+    """Return the problem to solve, within a time limit [s] if one is given.
 
     Raises:
         InvalidInput: A field is invalid; the error names it.
@@ -45,7 +46,7 @@ def parse(robot: RobotModel, call: InverseRequest, bounds: TargetLimits) -> tupl
     _check_fixed_joints(chain, call)
     targets = poses_from(call.targets, "targets")
     _check_size(call, len(targets), len(chain), bounds)
-    return chain, targets, _seeds(chain, call, len(targets))
+    return TargetProblem(robot, chain, targets, _seeds(chain, call, len(targets)), options_of(chain, call, time_limit))
 
 
 def _seeds(chain: Chain, call: InverseRequest, count: int) -> Array:

@@ -13,7 +13,8 @@ from gelenk.contract.ik import MAX_JOB_STEPWISE, MAX_JOB_TARGETS, MAX_TRACE, Inv
 from gelenk.errors import InvalidField
 from gelenk.http.jobs.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file
 from gelenk.http.messages.payloads import JSON, NPY, read_json
-from gelenk.ik.solve import inverse_kinematics
+from gelenk.ik.search.problem import TargetProblem
+from gelenk.ik.solve import solve
 from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
@@ -22,9 +23,7 @@ from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolve
 from gelenk.operations.ik_request import TargetLimits, is_stepwise, options_of, parse
 from gelenk.operations.outcome import Limits
 from gelenk.robot.arrays import Array
-from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
-from gelenk.robot.robot import RobotModel
 from gelenk.store.folders import read_plain
 from gelenk.store.records import LoadedRobot
 
@@ -49,47 +48,42 @@ def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[
         raise InvalidField(
             "time_limit", "a job looks for each target to the end: leave it out, or ask for the answer now"
         )
-    chain, targets, seeds = parse(loaded.robot, call, _BOUNDS)
-    _check_room(limits.job_bytes, loaded, call, (chain, targets, seeds))
-    ends = {"base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
+    problem = parse(loaded.robot, call, _BOUNDS)
+    _check_room(limits.job_bytes, problem, call)
+    ends = {"base_frame": problem.chain.base_frame, "tip_frame": problem.chain.tip_frame}
     rest = call.model_copy(update={"targets": [], "seeds": None, **ends})
-    rows = np.column_stack((targets.positions, targets.rotations.reshape(-1, 9)))
-    return {_CALL: rest.model_dump_json().encode(), _TARGETS: _npy(rows), _SEEDS: _npy(seeds)}
+    rows = np.column_stack((problem.targets.positions, problem.targets.rotations.reshape(-1, 9)))
+    return {_CALL: rest.model_dump_json().encode(), _TARGETS: _npy(rows), _SEEDS: _npy(problem.seeds)}
 
 
-def _check_room(
-    most_bytes: int, loaded: LoadedRobot, call: InverseRequest, question: tuple[Chain, Poses, Array]
-) -> None:
+def _check_room(most_bytes: int, problem: TargetProblem, call: InverseRequest) -> None:
     """Refuse a call whose results would take more than `most_bytes`, as estimated from some of its targets.
 
     Raises:
         InvalidField: The results are too large; the message says how many targets there is room for.
     """
-    chain, targets, _ = question
+    count = len(problem)
     rows = call.max_solutions if call.solutions == "all" else MAX_TRACE if call.trace else 1
-    if len(targets) * rows * (len(chain) + 4) * _BYTES_A_NUMBER <= most_bytes:
+    if count * rows * (len(problem.chain) + 4) * _BYTES_A_NUMBER <= most_bytes:
         return
-    whole = _bytes_each(loaded, call, question, len(targets)) * len(targets)
+    whole = _bytes_each(problem, call, count) * count
     if whole <= most_bytes:
         return
-    room = int(0.9 * len(targets) * most_bytes / whole)
+    room = int(0.9 * count * most_bytes / whole)
     # Check each smaller number too: the first targets may have more solutions than the others.
-    while room > 1 and _bytes_each(loaded, call, question, room) * room > most_bytes:
+    while room > 1 and _bytes_each(problem, call, room) * room > most_bytes:
         room = int(0.9 * room)
     raise InvalidField(
         "targets",
-        f"what comes of all {len(targets):,} takes some {whole:.2g} bytes, and the parts of a job may take "
+        f"what comes of all {count:,} takes some {whole:.2g} bytes, and the parts of a job may take "
         f"{most_bytes:,}: ask for at most {max(1, room):,} at a time, or for less of each",
     )
 
 
-def _bytes_each(loaded: LoadedRobot, call: InverseRequest, question: tuple[Chain, Poses, Array], count: int) -> float:
+def _bytes_each(problem: TargetProblem, call: InverseRequest, count: int) -> float:
     """Return the mean size, in bytes, of the result of one of the first `count` targets, from some of them."""
-    chain, targets, seeds = question
     some = np.unique(np.linspace(0, count - 1, _TRIED).astype(np.int64))
-    few = Poses(targets.positions[some], targets.rotations[some])
-    part = _solved(loaded.robot, chain, call, few, seeds if len(seeds) == 1 else seeds[some])
-    return len(part) / len(some)
+    return len(_solved(problem.taken(some), call)) / len(some)
 
 
 def _npy(array: Array) -> bytes:
@@ -141,11 +135,11 @@ def solved_part(job: _Part) -> bytes:
     robot, call = robot_of(text), _call(content)
     chain = robot.chain(call.base_frame, call.tip_frame)
     targets = Poses(np.ascontiguousarray(rows[:, :3]), np.ascontiguousarray(rows[:, 3:]).reshape(-1, 3, 3))
-    return _solved(robot, chain, call, targets, seeds)
+    return _solved(TargetProblem(robot, chain, targets, seeds, options_of(chain, call, None)), call)
 
 
-def _solved(robot: RobotModel, chain: Chain, call: InverseRequest, targets: Poses, seeds: Array) -> bytes:
-    result = inverse_kinematics(robot, chain, targets, seeds, options_of(chain, call, None))
+def _solved(problem: TargetProblem, call: InverseRequest) -> bytes:
+    chain, result = problem.chain, solve(problem)
     results = orjson.dumps(results_to_json(chain, call.pose_format, result), option=orjson.OPT_SERIALIZE_NUMPY)
     return packed(
         form=as_bytes(orjson.dumps(result.closed_form)),

@@ -9,11 +9,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gelenk.ik.closed.elimination import largest_below, make_space
+from gelenk.ik.closed.elimination import make_space, pivoted
 from gelenk.ik.closed.subproblem_chains import MOST, Candidates, SubproblemPlan, compose, elbow_angle
 from gelenk.ik.search.iteration import (
     COUNT,
     FULL,
+    ROUNDING,
     SINCE,
     Goal,
     Work,
@@ -21,7 +22,10 @@ from gelenk.ik.search.iteration import (
     linearise,
     read_lane,
     set_target,
+    squares,
+    within,
     workspace,
+    wound,
 )
 from gelenk.kinematics.simd.lanes import LANES, bits, lanes, load, max_lanes, min_lanes, store, where
 from gelenk.robot.arrays import Array, Indices
@@ -49,8 +53,6 @@ _SAME = 1e-7
 """Distance in every joint up to which two candidates are the same, [rad or m]."""
 _MOVED = 1e-4
 """Motion by polishing beyond which a joint is not free, [rad or m]."""
-_ROUNDING = 1e-10
-"""Distance beyond a limit that still counts as at it, [rad or m]."""
 _POSITION, _ORIENTATION = SINCE, COUNT
 """State rows that hold the squared errors."""
 
@@ -284,17 +286,13 @@ def _solve(
 
 @unmanaged
 def _polish(flat: FlatChain, goal: Goal, work: Work) -> int:
-    """Drive the lanes to rounding without ever raising an error; `previous` holds the results.
-
-    Returns:
-        Bit mask of the lanes that are within the tolerances.
-    """
+    """Drive the lanes to rounding without ever raising an error; `previous` holds the results. Return `_good`."""
     least, stalled, damping = lanes(np.inf), lanes(0.0), lanes(_DAMPING)
     # With fewer joints than directions JJᵀ is singular everywhere and needs damping.
     floor = _LEAST_DAMPING if len(work.q) >= 6 * LANES and goal.kind == FULL else _DAMPING
     for _ in range(_ROUNDS):
         e = linearise(flat, goal, work)
-        position, orientation = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
+        position, orientation = squares(e)
         error = position + orientation
         better = error < least
         stalled = where(error < 0.5 * least, 0.0, stalled + 1.0)
@@ -307,23 +305,16 @@ def _polish(flat: FlatChain, goal: Goal, work: Work) -> int:
                 store(work.previous, j, where(better, load(work.q, j), load(work.previous, j)))
             break
         descend(goal, work, e, damping, where(better, 1.0, 0.0), 1.0)
-    within = (load(work.state, _POSITION) <= goal.position_tolerance**2) & (
-        load(work.state, _ORIENTATION) <= goal.chord_tolerance**2
-    )
-    good: int = bits(within)
-    return good
+    return _good(goal, work)
 
 
 @unmanaged
 def _refine(flat: FlatChain, goal: Goal, work: Work, kept: _Kept) -> int:
-    """Apply Newton's method with J itself to the lanes that are not at rounding yet.
+    """Apply Newton's method with J itself to the lanes that are not at rounding yet; return `_good`.
 
     Next to a singularity JJᵀ loses the square of a small singular value, and damped steps stop too early. The solution
     lies along a narrow curved valley in which all equations but one hold. Each step is corrected back into the valley
     before the errors are compared, or every step along it would seem to raise the error.
-
-    Returns:
-        Bit mask of the lanes that are within the tolerances.
     """
     state, share = work.state, kept.residuals[DIRECTIONS * LANES :]
     share[:] = 1.0
@@ -337,7 +328,7 @@ def _refine(flat: FlatChain, goal: Goal, work: Work, kept: _Kept) -> int:
         for _ in range(_CORRECTIONS):
             _newton_step(flat, goal, work, kept, _WEAK)
         e = linearise(flat, goal, work)
-        position, orientation = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
+        position, orientation = squares(e)
         better = position + orientation < before
         # A lane that has gone too far takes a quarter of the step next time.
         store(share, 0, where(better, min_lanes(2.0 * load(share, 0), 1.0), 0.25 * load(share, 0)))
@@ -345,10 +336,13 @@ def _refine(flat: FlatChain, goal: Goal, work: Work, kept: _Kept) -> int:
             store(work.previous, j, where(better, load(work.q, j), load(work.previous, j)))
         store(state, _POSITION, where(better, position, load(state, _POSITION)))
         store(state, _ORIENTATION, where(better, orientation, load(state, _ORIENTATION)))
-    within = (load(state, _POSITION) <= goal.position_tolerance**2) & (
-        load(state, _ORIENTATION) <= goal.chord_tolerance**2
-    )
-    good: int = bits(within)
+    return _good(goal, work)
+
+
+@inlined
+def _good(goal: Goal, work: Work) -> int:
+    """Bit mask of the lanes that are within the tolerances."""
+    good: int = bits(within(goal, load(work.state, _POSITION), load(work.state, _ORIENTATION)))
     return good
 
 
@@ -383,13 +377,8 @@ def _eliminate(A: Array, order: Indices, least: float) -> None:
         order[j] = j
     largest = 0.0
     for j in range(n):
-        row, column, best = largest_below(A, j, n)
+        best = pivoted(A, j, order)
         largest = max(largest, best)
-        for m in range(n + 1):
-            A[j, m], A[row, m] = A[row, m], A[j, m]
-        for k in range(n):
-            A[k, j], A[k, column] = A[k, column], A[k, j]
-        order[j], order[column] = order[column], order[j]
         if best <= least * largest:
             continue
         for k in range(j + 1, n):
@@ -418,12 +407,8 @@ def _wound(flat: FlatChain, limits: Array, seed: Array, q: Array) -> bool:
         lower, upper = limits[0, j], limits[1, j]
         x = q[j]
         if flat.joints[j, 0] == 0:
-            x += _TURN * np.rint((seed[j] - x) / _TURN)
-            if x > upper + _ROUNDING:
-                x -= _TURN * np.ceil((x - upper - _ROUNDING) / _TURN)
-            elif x < lower - _ROUNDING:
-                x += _TURN * np.ceil((lower - x - _ROUNDING) / _TURN)
-        inside &= lower - _ROUNDING <= x <= upper + _ROUNDING
+            x = wound(x, seed[j], lower, upper)
+        inside &= lower - ROUNDING <= x <= upper + ROUNDING
         q[j] = min(max(x, lower), upper)
     return inside
 

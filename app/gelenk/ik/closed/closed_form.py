@@ -8,8 +8,7 @@ is also solved, whatever its description says.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import pairwise
-from typing import TypeAlias
+from itertools import accumulate, pairwise
 
 import numpy as np
 
@@ -38,8 +37,8 @@ from gelenk.ik.search.linearise import linearise
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array, Flags
-from gelenk.robot.chain import Chain
-from gelenk.robot.poses import Poses, inverse
+from gelenk.robot.chain import Chain, FlatChain
+from gelenk.robot.poses import Poses, inverse, transform
 
 GENERAL_NAME = "six revolute joints, by elimination"
 _EXACTLY, _ROUNDED, _NEARLY = 1e-14, 1e-10, 1e-6
@@ -216,7 +215,7 @@ def _recognise(chain: Chain, task: Task) -> ClosedForm | None:
         for name, plan in _plans(chain, tolerance):
             form = ClosedForm(name, chain, task, plan)
             if _fits(form) and _found_again(form, _TESTS) >= _MUST_PASS:
-                return ClosedForm(name, chain, task, plan, _choices(form), tolerance)
+                return replace(form, choices=_choices(form), tolerance=tolerance)
     return None
 
 
@@ -226,13 +225,12 @@ def elimination(chain: Chain) -> ClosedForm | None:
     if not _is_simple(chain) or len(chain) != 6 or chain.flat.joints[:, 0].any():
         return None
     ahead = _screws(chain, _NEARLY)
-    forms = [ClosedForm(GENERAL_NAME, chain, FULL_POSE, _general_plan(screws)) for screws in (ahead, ahead.reversed())]
+    plans = (_general_plan(ahead), _general_plan(ahead.reversed()))
+    forms = [ClosedForm(GENERAL_NAME, chain, FULL_POSE, plan, (Choice("arm", 0),)) for plan in plans]
     # If the geometry is special, one of the two is better, or neither works.
     scores = [_found_again(form, _GENERAL_TESTS) for form in forms]
     best = int(np.argmax(scores))
-    if scores[best] < _GENERAL_MUST_PASS:
-        return None
-    return ClosedForm(GENERAL_NAME, chain, FULL_POSE, forms[best].plan, (Choice("arm", 0),))
+    return forms[best] if scores[best] >= _GENERAL_MUST_PASS else None
 
 
 def screws_of_six(chain: Chain) -> "JointScrews | None":
@@ -290,34 +288,26 @@ class JointScrews:
 
     def reversed(self) -> "JointScrews":
         """Return the same arm from its other end: M⁻¹ = E_n⁻¹ ⋯ E_1⁻¹."""
-        return JointScrews(
-            -self.axes[::-1],
-            self.points[::-1].copy(),
-            self.slides[::-1].copy(),
-            np.zeros(3),
-            self.zero,
-            True,
-            self.tolerance,
+        return replace(
+            self,
+            axes=-self.axes[::-1],
+            points=self.points[::-1].copy(),
+            slides=self.slides[::-1].copy(),
+            tip=np.zeros(3),
+            backwards=True,
         )
 
 
 def _screws(chain: Chain, tolerance: float) -> JointScrews:
-    T = np.eye(4)
-    axes, points = [], []
     flat = chain.flat
-    for i, row in enumerate(flat.placements):
-        step = np.eye(4)
-        step[:3, :3], step[:3, 3] = row[:9].reshape(3, 3), row[9:]
-        T = T @ step
-        if i < len(flat.joints):
-            axes.append(T[:3, 2].copy())
-            points.append(T[:3, 3].copy())
-    zero = inverse(T)
+    steps = [transform(row[9:], row[:9].reshape(3, 3)) for row in flat.placements]
+    *lines, end = accumulate(steps, np.matmul)
+    zero = inverse(end)
     return JointScrews(
-        np.array(axes),
-        np.array(points),
+        np.array([T[:3, 2] for T in lines]),
+        np.array([T[:3, 3] for T in lines]),
         flat.joints[:, 0] == 1,
-        T[:3, 3].copy(),
+        end[:3, 3].copy(),
         np.append(zero[:3, :3], zero[:3, 3]),
         False,
         tolerance,
@@ -331,13 +321,11 @@ def _plans(chain: Chain, tolerance: float) -> Iterator[tuple[str, SubproblemPlan
     if n == 7:
         yield from _elbow_plans(ahead)
         return
-    candidates = []
+    candidates: list[tuple[str, SubproblemPlan]] = []
     for screws in (ahead, ahead.reversed()):
         for last in (3, 2, 1, 0):
-            if n - last in {0, 2, 3}:
-                candidates += list(_decoupled_plans(screws, last))
-        if n == 6:
-            candidates += list(_parallel_plans(screws))
+            candidates += _decoupled_plans(screws, last)
+        candidates += _parallel_plans(screws)
     # Pairs of roots come before quartics; the sort is stable.
     yield from sorted(candidates, key=lambda candidate: candidate[1].form in {SKEW, OBLIQUE})
 
@@ -346,7 +334,7 @@ def _decoupled_plans(screws: JointScrews, last: int) -> Iterator[tuple[str, Subp
     """Yield plans for joints that position the point in which the last axes intersect."""
     n = len(screws.axes)
     placed = n - last
-    if screws.slides[placed:].any():
+    if placed not in {0, 2, 3} or screws.slides[placed:].any():
         return
     centre = _meeting_point(screws, placed, n)
     if centre is None or not _is_positioned(screws, placed, centre):
@@ -388,8 +376,7 @@ def _carried(screws: JointScrews, q: Array, point: Array) -> Array:
         if screws.slides[i]:
             point = point + q[i] * h
         else:
-            arm = point - o
-            c, s = np.cos(q[i]), np.sin(q[i])
+            arm, c, s = point - o, np.cos(q[i]), np.sin(q[i])
             point = o + c * arm + (1.0 - c) * (h @ arm) * h + s * np.cross(h, arm)
     return np.asarray(point)
 
@@ -483,8 +470,10 @@ def _combination(lines: Array, betas: Array, x: Array, y: Array, tolerance: floa
 
 def _parallel_plans(screws: JointScrews) -> Iterator[tuple[str, SubproblemPlan]]:
     """Yield the plan for six revolute joints whose axes 2, 3 and 4 are parallel."""
+    if len(screws.axes) != 6 or screws.slides.any():
+        return
     h = screws.axes[1]
-    if screws.slides.any() or np.linalg.norm(np.cross(screws.axes[2:4], h), axis=1).max() > screws.tolerance:
+    if np.linalg.norm(np.cross(screws.axes[2:4], h), axis=1).max() > screws.tolerance:
         return
     points = screws.points.copy()
     feet = _feet(points[4], screws.axes[4], points[5], screws.axes[5], screws.tolerance)
@@ -508,15 +497,11 @@ def _general_plan(screws: JointScrews) -> SubproblemPlan:
     lines = np.zeros((_LINES, 3))
     points = screws.points.copy()
     for i in range(5):
-        points[i], points[i + 1] = (
-            points[i],
-            _feet(points[i], screws.axes[i], points[i + 1], screws.axes[i + 1], screws.tolerance)[1],
-        )
+        _, points[i + 1] = _feet(points[i], screws.axes[i], points[i + 1], screws.axes[i + 1], screws.tolerance)
     size = 1.0 / max(float(np.linalg.norm(points - points[2], axis=1).max()), 1e-9)
     lines[:6] = size * (points - points[2])
     lines[6], lines[7], lines[8, 0] = _square_to(screws.axes[5]), points[2], size
-    moved = replace(screws, points=points)
-    plan = _plan(moved, GENERAL, SKEW, 3, (0, 1, 2), lines)
+    plan = _plan(replace(screws, points=points), GENERAL, SKEW, 3, (0, 1, 2), lines)
     return plan._replace(terms=left_sides(plan.axes, np.ascontiguousarray(lines[:6])))
 
 
@@ -534,8 +519,7 @@ def _elbow_plans(screws: JointScrews) -> Iterator[tuple[str, SubproblemPlan]]:
         return
     lines[3], lines[13] = shoulder, wrist
     lines[6], lines[7] = _square_to(screws.axes[6]), _square_to(screws.axes[2])
-    moved = replace(screws, points=points)
-    yield "spherical shoulder and wrist", _plan(moved, ELBOW, COPLANAR, 3, (0, 1, 2), lines)
+    yield "spherical shoulder and wrist", _plan(replace(screws, points=points), ELBOW, COPLANAR, 3, (0, 1, 2), lines)
 
 
 def _feet(p: Array, a: Array, q: Array, b: Array, tolerance: float) -> tuple[Array, Array]:
@@ -575,9 +559,14 @@ def _trial(form: ClosedForm, count: int) -> tuple[Array, BranchTable]:
     reach = np.where(chain.flat.joints[:, 0] == 1, 0.5, np.pi)
     draws = np.random.default_rng(0).uniform(-reach, reach, (2, count, len(chain)))
     qs, seeds = mid_range(chain) + draws
-    poses = Poses(*chain_poses(chain.flat, qs))
+    return qs, _branches_of(form, qs, seeds)
+
+
+def _branches_of(form: ClosedForm, qs: Array, seeds: Array) -> BranchTable:
+    """Solve the poses of configurations, with the elbow where it is."""
+    poses = Poses(*chain_poses(form.chain.flat, qs))
     elbows = form.elbow_angles(qs) if form.has_free_elbow else None
-    return qs, form.solve(poses, seeds, respect_limits=False, elbow_angles=elbows)
+    return form.solve(poses, seeds, respect_limits=False, elbow_angles=elbows)
 
 
 def _row_of(chain: Chain, table: BranchTable, i: int, q: Array) -> int:
@@ -588,10 +577,7 @@ def _row_of(chain: Chain, table: BranchTable, i: int, q: Array) -> int:
     return int(first + near[0]) if len(near) else -1
 
 
-Roots: TypeAlias = dict[str, int]
-
-
-def _roots(plan: SubproblemPlan) -> Roots:
+def _roots(plan: SubproblemPlan) -> dict[str, int]:
     """Return the code bits of the shoulder, elbow and wrist choices that the arm has."""
     ends = ("wrist", "shoulder") if plan.backwards else ("shoulder", "wrist")
     if plan.kind == PARALLEL:
@@ -599,15 +585,16 @@ def _roots(plan: SubproblemPlan) -> Roots:
         return roots if plan.form == SKEW else {ends[0]: FIRST_ROOT, **roots, ends[1]: LAST_ROOT}
     if plan.kind == ELBOW:
         return {"shoulder": ARM_ROOT, "elbow": SECOND_ROOT, "wrist": LAST_ROOT}
-    roots = {}
-    if plan.form == COPLANAR and plan.placed:
-        parallel = np.linalg.norm(np.cross(plan.lines[0], plan.lines[1])) <= _NEARLY
-        names = (ends[0], "elbow") if parallel else ("elbow", ends[0])
-        roots = {names[0]: FIRST_ROOT, names[1]: SECOND_ROOT} if plan.placed == 3 else {names[1]: SECOND_ROOT}
-    elif plan.form == SQUARE:
-        roots = {"elbow": FIRST_ROOT, ends[0]: SECOND_ROOT} if plan.placed == 3 else {ends[0]: SECOND_ROOT}
-    elif plan.form == RAILS and plan.placed == 3:
-        roots = {"elbow": FIRST_ROOT}
+    parallel = np.linalg.norm(np.cross(plan.lines[0], plan.lines[1])) <= _NEARLY
+    # Names of the first and the second root of three positioning joints; of two there is only the second.
+    names = {
+        COPLANAR: (ends[0], "elbow") if parallel else ("elbow", ends[0]),
+        SQUARE: ("elbow", ends[0]),
+        RAILS: ("elbow",),
+    }.get(plan.form, ())
+    roots = dict(zip(names, (FIRST_ROOT, SECOND_ROOT), strict=False)) if plan.placed == 3 else {}
+    if plan.placed == 2 and len(names) == 2:
+        roots = {names[1]: SECOND_ROOT}
     if len(plan.axes) - plan.placed == 3:
         roots[ends[1]] = LAST_ROOT
     return roots
@@ -640,8 +627,8 @@ def _choices(form: ClosedForm) -> tuple[Choice, ...]:
             higher = _elbow_heights(form, qs, codes, bit)
             back = (codes & shoulder) != 0
             first, second = _share(set_, higher & ~back) > 0.5, _share(set_, higher & back) > 0.5
-            choice = _named(name, bit, first)
-            choices.append(Choice(name, bit, choice.values, shoulder, first != second and bool(shoulder)))
+            turns = first != second and bool(shoulder)
+            choices.append(replace(_named(name, bit, first), turned_by=shoulder, turns=turns))
     return tuple(choices)
 
 
@@ -662,48 +649,35 @@ def _near_middle(form: ClosedForm, qs: Array) -> Flags:
 
 def _middle_of_wrist(form: ClosedForm, qs: Array) -> Array:
     """Sine of the middle wrist joint, or of joint 5 of an arm with three parallel axes; shape (N,)."""
-    n = len(form.chain)
     if form.plan.kind == PARALLEL:
         j = 1 if form.plan.backwards else 4
-    elif "wrist" in _roots(form.plan) and _roots(form.plan)["wrist"] == LAST_ROOT:
-        j = n - 2
     else:
-        j = n - 1 - int(form.plan.order[0])
+        j = -2 if _roots(form.plan).get("wrist") == LAST_ROOT else -1 - int(form.plan.order[0])
     return np.asarray(np.sin(qs[:, j]))
 
 
 def _elbow_heights(form: ClosedForm, qs: Array, codes: Array, bit: int) -> Flags:
     """Flag configurations whose elbow is higher than in the branch that differs in its bit alone; shape (N,)."""
     higher = np.zeros(len(qs), dtype=bool)
-    poses = Poses(*chain_poses(form.chain.flat, qs))
-    elbows = form.elbow_angles(qs) if form.has_free_elbow else None
-    table = form.solve(poses, qs, respect_limits=False, elbow_angles=elbows)
+    table = _branches_of(form, qs, qs)
     for i, q in enumerate(qs):
         part = slice(table.firsts[i], table.firsts[i + 1])
         other = np.flatnonzero(table.codes[part] == (codes[i] ^ bit))
         if len(other):
-            difference = _height(form, q) - _height(form, table.qs[part][other[0]])
-            higher[i] = difference > 0.0
+            own, others = _heights(form, np.stack((q, table.qs[part][other[0]])))
+            higher[i] = own > others
     return higher
 
 
-def _height(form: ClosedForm, q: Array) -> float:
-    """Sum of the joints' heights along the base's z, with the sine of the elbow joint as a tie-breaker."""
-    flat = form.chain.flat
-    total, T = 0.0, np.eye(4)
-    for i, row in enumerate(flat.placements[:-1]):
-        step, move = np.eye(4), np.eye(4)
-        step[:3, :3], step[:3, 3] = row[:9].reshape(3, 3), row[9:]
-        value = flat.drives[i, 0] * q[i] + flat.drives[i, 1]
-        if flat.joints[i, 0]:
-            move[2, 3] = value
-        else:
-            c, s = np.cos(value), np.sin(value)
-            move[:2, :2] = [[c, -s], [s, c]]
-        T = T @ step @ move
-        total += T[2, 3]
+def _heights(form: ClosedForm, qs: Array) -> Array:
+    """Sum of the joints' heights along the base's z, with the sine of the elbow joint as a tie-breaker; shape (N,)."""
+    flat, heights = form.chain.flat, np.zeros(len(qs))
+    at_joint = np.append(np.eye(3), np.zeros(3))
+    for k in range(1, len(flat.joints) + 1):
+        part = FlatChain(np.vstack((flat.placements[:k], at_joint)), flat.joints[:k], flat.drives[:k])
+        heights += chain_poses(part, qs)[0][:, 2]
     elbow = int(form.plan.order[1])
-    return total - 1e-6 * float(np.sin(q[len(q) - 1 - elbow if form.plan.backwards else elbow]))
+    return heights - 1e-6 * np.sin(qs[:, -1 - elbow if form.plan.backwards else elbow])
 
 
 def _fits(form: ClosedForm) -> bool:

@@ -123,13 +123,8 @@ def invariants(p: Vector, d: Vector, out: Array) -> None:
 def eliminated(terms: Array, axes: Array, points: Array, p: Vector, d: Vector, space: Scratch) -> None:
     """Fill the last six rows of `left` with the equations from which joints 1 and 2 are eliminated.
 
-    Args:
-        terms: Left sides, the same for all targets; shape (EQUATIONS, PRODUCTS).
-        axes: Joint axes at zero; shape (6, 3).
-        points: A point on each axis, relative to that of joint 3, in units of the arm's size; shape (6, 3).
-        p: Point of the last line at the target, in the same units.
-        d: Direction of the last line at the target.
-        space: Working space; `left` and `right` are filled.
+    `terms` are the left sides, see `left_sides`; the last line goes through p along d at the target, and all points are
+    relative to that of joint 3, in units of the arm's size.
     """
     left, right = space.left, space.right
     for k in range(EQUATIONS):
@@ -414,14 +409,9 @@ def _bisected(series: Array, lower: float, upper: float, at_lower: float, of_slo
 
 @unmanaged
 def next_two(space: Scratch, q3: float) -> int:
-    """Compute joints 4 and 5 of a root from the null vector of the matrix, products of powers of two tangents.
+    """Put joints 4 and 5 [rad] of a root into `pairs`; return their number, 3 if two solutions seem to share joint 3.
 
-    Args:
-        space: Working space; `pairs` are filled.
-        q3: Joint 3, [rad].
-
-    Returns:
-        Number of `pairs`: 1, or 3 if two solutions seem to share joint 3.
+    The null vector of the matrix consists of products of powers of their two tangents.
     """
     _fill(space, q3)
     nullity = _null_vectors(space)
@@ -475,31 +465,23 @@ def _angles_of(v: Array, pair: Array) -> None:
 
 @unmanaged
 def _null_vectors(space: Scratch) -> int:
-    """Compute unit null vectors of the matrix by elimination with full pivoting.
+    """Compute unit null vectors of the matrix by elimination with full pivoting; return the rank deficiency, 1 or 2.
 
     The third of `vectors` is the regular null vector; if the matrix nearly loses another rank, the first two span its
     approximate null space.
-
-    Returns:
-        Rank deficiency, 1 or 2.
     """
     M, order = space.matrix, space.order
     for j in range(ORDER):
         order[j] = j
     largest, nullity = 0.0, 1
     for j in range(ORDER - 1):
-        row_, column, best = largest_below(M, j, ORDER)
+        best = pivoted(M, j, order)
         if j == 0:
             largest = best
         if j == ORDER - 2 and best <= _DEFICIENT * largest:
             nullity = 2
         if best == 0.0:
             break
-        for m in range(ORDER):
-            M[j, m], M[row_, m] = M[row_, m], M[j, m]
-        for k in range(ORDER):
-            M[k, j], M[k, column] = M[k, column], M[k, j]
-        order[j], order[column] = order[column], order[j]
         inverse = 1.0 / M[j, j]
         for k in range(j + 1, ORDER):
             factor = M[k, j] * inverse
@@ -514,14 +496,22 @@ def _null_vectors(space: Scratch) -> int:
 
 
 @unmanaged
-def largest_below(M: Array, first: int, order: int) -> tuple[int, int, float]:
-    """Return row, column and absolute value of the largest entry in the lower right block of a square matrix."""
-    at, best = first * order + first, 0.0
-    for k in range(first, order):
-        for m in range(first, order):
+def pivoted(M: Array, j: int, order: Indices) -> float:
+    """Swap the largest entry of the lower right block, from j on, onto the diagonal; return its absolute value.
+
+    M has n rows, and may have further columns on the right; `order` is the order of the others; shape (n,).
+    """
+    n, row_, column, best = len(M), j, j, 0.0
+    for k in range(j, n):
+        for m in range(j, n):
             if abs(M[k, m]) > best:
-                at, best = k * order + m, abs(M[k, m])
-    return at // order, at % order, best
+                row_, column, best = k, m, abs(M[k, m])
+    for m in range(M.shape[1]):
+        M[j, m], M[row_, m] = M[row_, m], M[j, m]
+    for k in range(n):
+        M[k, j], M[k, column] = M[k, column], M[k, j]
+    order[j], order[column] = order[column], order[j]
+    return best
 
 
 @unmanaged

@@ -62,6 +62,9 @@ _MOST_BEFORE_LAST = 12
 Motion: TypeAlias = tuple[float, float, float, float, float, float, float, float, float, float, float, float]
 """A displacement: rotation row by row, then translation."""
 
+_Third: TypeAlias = tuple[Vector, Vector, Vector, Coefficients]
+"""The vector v of `_positions` and its square as functions of joint 3."""
+
 
 class SubproblemPlan(NamedTuple):
     """How an arm is solved, with its joints in solving order: from the tip if `backwards`.
@@ -152,26 +155,16 @@ def compose(plan: SubproblemPlan, target: Array, seed: Array, elbow_angle: float
 def _displacement(plan: SubproblemPlan, t: Array) -> Motion:
     """Compute M = T T_0⁻¹, or its inverse if the arm is solved backwards."""
     z = plan.zero
-    r00 = t[0] * z[0] + t[1] * z[3] + t[2] * z[6]
-    r01 = t[0] * z[1] + t[1] * z[4] + t[2] * z[7]
-    r02 = t[0] * z[2] + t[1] * z[5] + t[2] * z[8]
-    r10 = t[3] * z[0] + t[4] * z[3] + t[5] * z[6]
-    r11 = t[3] * z[1] + t[4] * z[4] + t[5] * z[7]
-    r12 = t[3] * z[2] + t[4] * z[5] + t[5] * z[8]
-    r20 = t[6] * z[0] + t[7] * z[3] + t[8] * z[6]
-    r21 = t[6] * z[1] + t[7] * z[4] + t[8] * z[7]
-    r22 = t[6] * z[2] + t[7] * z[5] + t[8] * z[8]
-    p0 = t[9] + t[0] * z[9] + t[1] * z[10] + t[2] * z[11]
-    p1 = t[10] + t[3] * z[9] + t[4] * z[10] + t[5] * z[11]
-    p2 = t[11] + t[6] * z[9] + t[7] * z[10] + t[8] * z[11]
+    T = t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8], t[9], t[10], t[11]
+    x, y, w = _rotated(T, (z[0], z[3], z[6])), _rotated(T, (z[1], z[4], z[7])), _rotated(T, (z[2], z[5], z[8]))
+    p = (
+        t[9] + t[0] * z[9] + t[1] * z[10] + t[2] * z[11],
+        t[10] + t[3] * z[9] + t[4] * z[10] + t[5] * z[11],
+        t[11] + t[6] * z[9] + t[7] * z[10] + t[8] * z[11],
+    )
     if plan.backwards:
-        return (
-            r00, r10, r20, r01, r11, r21, r02, r12, r22,
-            -(r00 * p0 + r10 * p1 + r20 * p2),
-            -(r01 * p0 + r11 * p1 + r21 * p2),
-            -(r02 * p0 + r12 * p1 + r22 * p2),
-        )  # fmt: skip
-    return r00, r01, r02, r10, r11, r12, r20, r21, r22, p0, p1, p2
+        return x[0], x[1], x[2], y[0], y[1], y[2], w[0], w[1], w[2], -dot(x, p), -dot(y, p), -dot(w, p)
+    return x[0], y[0], w[0], x[1], y[1], w[1], x[2], y[2], w[2], p[0], p[1], p[2]
 
 
 @inlined
@@ -258,20 +251,10 @@ def _few_turns(plan: SubproblemPlan, a: Vector, y: Vector, square: Vector, value
 def _three_turns(
     plan: SubproblemPlan, i: int, a: Vector, y: Vector, square: Vector, second: bool, seed: Array, values: Array
 ) -> tuple[int, int]:
-    """Solve joints i, i + 1, i + 2, whose axes f, g, h intersect, from the images of h and a perpendicular vector.
+    """Solve joints i, i + 1, i + 2, whose axes f, g, h intersect, for their `values`.
 
-    Args:
-        plan: The arm.
-        i: Index of the first of the three joints.
-        a: R h, with R = R_f R_g R_h.
-        y: R times the vector perpendicular to h.
-        square: The vector perpendicular to h.
-        second: Whether to compute the second of the two solutions.
-        seed: Values that free joints keep, [rad or m].
-        values: Output: entries i to i + 2, [rad].
-
-    Returns:
-        1 if there are two solutions, 0 if only this one, -1 if none; and 1 if joint i was free, else 0.
+    With R = R_f R_g R_h, a is R h, and y is R times the vector `square` to h. Return 1 if there are two solutions, 0 if
+    only this one, -1 if none; and 1 if joint i was free, else 0.
     """
     f, g, h = row(plan.axes, i), row(plan.axes, i + 1), row(plan.axes, i + 2)
     axial = dot(g, h) * dot(f, g)
@@ -302,15 +285,8 @@ def _by_lean(b: Vector, g: Vector, f: Vector, side: float, lean: float) -> Vecto
     Where its two solutions nearly meet, the cosine gives joint g to half the digits only. The sine keeps all of them,
     even if rounding of the axes keeps g from ever bringing b exactly onto f.
 
-    Args:
-        b: The direction, accurate to half the digits.
-        g: Axis of the joint.
-        f: The axis close to b.
-        side: 1 if b lies on the side of f × g, times the sign of b along f, else -1.
-        lean: The squared sine of the angle between b and f.
-
-    Returns:
-        The part of b perpendicular to f.
+    `side` is 1 if b lies on the side of f × g, times the sign of b along f, else -1; `lean` is the squared sine of the
+    angle between b and f. Return the part of b perpendicular to f.
     """
     beside, aside = plus(g, -dot(f, g), f), cross(f, g)
     along, square = math.copysign(1.0, dot(b, f)), dot(aside, aside)
@@ -340,17 +316,16 @@ def _positions(plan: SubproblemPlan, start: Vector, goal: Vector, seed: Array, f
         if dot(offset, offset) == 0.0:
             across = cross(row(L, _AXIS), reach)
             off_axis = math.sqrt(dot(across, across))
-    v0, v1, v2, square = _third(plan, start, o2)
+    reached = _third(plan, start, o2)
     if plan.form <= COPLANAR:
-        ways = _by_turn(plan, v0, v1, v2, square, k1, k2, bent, off_axis, seed, found)
+        ways = _by_turn(plan, reached, k1, k2, bent, off_axis, seed, found)
     else:
-        ways = _by_slide(plan, v0, v1, v2, square, k1, k2, seed, found)
+        ways = _by_slide(plan, reached, k1, k2, seed, found)
     return _finished(plan, start, goal, seed, ways, found)
 
 
 @unmanaged
-def _third(plan: SubproblemPlan, start: Vector, o2: Vector) -> tuple[Vector, Vector, Vector, Coefficients]:
-    """Return the vector v and its square as functions of joint 3."""
+def _third(plan: SubproblemPlan, start: Vector, o2: Vector) -> _Third:
     zero = (0.0, 0.0, 0.0)
     if plan.placed < 3:
         v0 = minus(start, o2)
@@ -425,10 +400,7 @@ def _quadratic_roots(plan: SubproblemPlan, f: Quadratic, found: Candidates) -> i
 @unmanaged
 def _by_turn(
     plan: SubproblemPlan,
-    v0: Vector,
-    v1: Vector,
-    v2: Vector,
-    square: Coefficients,
+    reached: _Third,
     k1: float,
     k2: float,
     bent: float,
@@ -441,6 +413,7 @@ def _by_turn(
     If axes 1 and 2 intersect, `off_axis` is the distance of the goal from axis 1, else negative.
     """
     L, slides = plan.lines, _third_slides(plan)
+    v0, v1, v2, square = reached
     h2 = row(L, _AXIS + 1)
     height = _along(h2, v0, v1, v2)
     b1 = _sum((k1, 0.0, 0.0), -L[_LEVEL, 0], height)
@@ -496,10 +469,7 @@ def _by_turn(
 @unmanaged
 def _by_slide(
     plan: SubproblemPlan,
-    v0: Vector,
-    v1: Vector,
-    v2: Vector,
-    square: Coefficients,
+    reached: _Third,
     k1: float,
     k2: float,
     seed: Array,
@@ -507,6 +477,7 @@ def _by_slide(
 ) -> int:
     """Solve joints 2 and 3 if joint 2 is prismatic: u = v + q_2 h_2."""
     L, slides = plan.lines, _third_slides(plan)
+    v0, v1, v2, square = reached
     h2, l1, l2 = row(L, _AXIS + 1), row(L, _LEVER), row(L, _LEVER + 1)
     miss = _sum(scaled(-1.0, _along(l1, v0, v1, v2)), 1.0, (k1, 0.0, 0.0))
     first, marks = found.first, found.marks
@@ -638,21 +609,10 @@ def _in_plane(
     found: Candidates,
     count: int,
 ) -> int:
-    """Solve joint 6 from the image of h, and joints 2, 3 and 4 as a planar arm, and add the candidates.
+    """Solve joint 6 from the image of h, and joints 2, 3 and 4 as a planar arm; return the new number of candidates.
 
-    Args:
-        plan: The arm.
-        M: The displacement.
-        q1: Joint 1, [rad].
-        q5: Joint 5, [rad], perhaps only to half the digits.
-        side: Side of q5 relative to where its two solutions meet, ±1, or 0 if unknown.
-        code: Bits of the roots chosen so far.
-        seed: Values that free joints keep, [rad].
-        found: The candidates.
-        count: Number of candidates so far.
-
-    Returns:
-        New number of candidates.
+    q5 may be accurate only to half the digits; `side` is its side relative to where its two solutions meet, ±1, or 0 if
+    unknown.
     """
     h, h5, h6 = row(plan.axes, 1), row(plan.axes, 4), row(plan.axes, 5)
     outwards = turned(row(plan.axes, 0), q1, h)
@@ -704,8 +664,7 @@ def _span(plan: SubproblemPlan, stretched: bool) -> float:
 def _reaches(plan: SubproblemPlan, M: Motion, q1: float, q5: float) -> tuple[float, float, float]:
     """Squared distance from joint 2 to joint 4 as a function of joint 6, if its axis is parallel to theirs.
 
-    Returns:
-        Mean and amplitude [m²], and the angle of joint 6 where it is largest [rad].
+    Return its mean and amplitude [m²], and the angle of joint 6 where it is largest [rad].
     """
     h, o2, p5 = row(plan.axes, 1), row(plan.points, 1), _about(plan, 4, -q5, row(plan.points, 3))
     squares = (0.0, 0.0, 0.0)
@@ -810,10 +769,9 @@ def _elbow(plan: SubproblemPlan, M: Motion, seed: Array, elbow_angle: float, fou
                 values[2], lost = seed[2], lost | 1 << 2
             q1, q2, q3 = values[0], values[1], values[2]
             b, z = _rotated(M, row(plan.axes, 6)), _rotated(M, row(L, _SQUARE))
-            b, z = turned(row(plan.axes, 0), -q1, b), turned(row(plan.axes, 0), -q1, z)
-            b, z = turned(row(plan.axes, 1), -q2, b), turned(row(plan.axes, 1), -q2, z)
-            b, z = turned(row(plan.axes, 2), -q3, b), turned(row(plan.axes, 2), -q3, z)
-            b, z = turned(h4, -q4, b), turned(h4, -q4, z)
+            values[3] = q4
+            for i in range(4):
+                b, z = turned(row(plan.axes, i), -values[i], b), turned(row(plan.axes, i), -values[i], z)
             for last in range(2):
                 values = found.values[count]
                 values[0], values[1], values[2], values[3] = q1, q2, q3, q4
@@ -832,15 +790,7 @@ def _elbow(plan: SubproblemPlan, M: Motion, seed: Array, elbow_angle: float, fou
 
 @unmanaged
 def _shoulder_turn(h1: Vector, line: Vector, at_zero: Vector, elbow: Vector, angle: float) -> Motion:
-    """Rotation that puts the wrist point on a line from the shoulder, and the elbow at an angle about that line.
-
-    Args:
-        h1: Axis 1; the angle is zero in the plane of this axis and the line.
-        line: Desired wrist point, from the shoulder, [m].
-        at_zero: Wrist point with only the elbow joint moved, from the shoulder, [m].
-        elbow: Elbow at zero, from the shoulder, [m].
-        angle: Elbow angle about the line, [rad].
-    """
+    """Rotation that turns the wrist point at_zero onto a line, both from the shoulder, and the elbow about it."""
     n, m = _unit(line), _unit(at_zero)
     d = turned(n, angle, _where_zero(n, h1))
     e = _flattened(m, elbow)

@@ -93,14 +93,8 @@ def value(a: Coefficients, basis: Coefficients) -> float:
 def turns_of_quadratic(f: Quadratic, roots: Array) -> int:
     """Find the angles at which a quadratic function of cosine and sine vanishes, or nearly touches zero.
 
-    The unknown is the tangent of the half-angle, infinite where the function is largest, away from all roots.
-
-    Args:
-        f: Coefficients of the function.
-        roots: Output in ascending order, [rad]; shape (8,).
-
-    Returns:
-        Number of roots.
+    The unknown is the tangent of the half-angle, infinite where the function is largest, away from all roots. The
+    `roots`, shape (8,), are in ascending order, [rad]; return their number.
     """
     largest, far = -1.0, 0.0
     for k in range(8):
@@ -138,18 +132,8 @@ def roots_of_quartic(a: float, b: float, c: float, d: float, e: float, reach: fl
 
     Between neighbouring roots of its derivative a polynomial has at most one root. So the roots of the second
     derivative, a quadratic, bracket those of the first, and these bracket those of the quartic, for Newton's method.
-
-    Args:
-        a: Coefficient of x⁴.
-        b: Coefficient of x³.
-        c: Coefficient of x².
-        d: Coefficient of x.
-        e: Constant coefficient.
-        reach: Bound on the roots; if infinite, Cauchy's bound, which needs a large a.
-        roots: Output in ascending order; shape (8,).
-
-    Returns:
-        Number of roots.
+    If `reach` is infinite, the bound is Cauchy's, which needs a large a. The `roots`, shape (8,), are in ascending
+    order; return their number.
     """
     if reach == np.inf:
         reach = 1.0 + max(abs(b), abs(c), abs(d), abs(e)) / abs(a)

@@ -196,11 +196,7 @@ class _Ends(NamedTuple):
 def counted(problem: TargetProblem, i: int, system: Continuation, search: Callable[[], Branches] | None) -> Branches:
     """Find all solutions of one target within the limits, nearest to the seed first, see `Continuation.solve`.
 
-    Args:
-        problem: The targets.
-        i: Index of the target.
-        system: Continuation of the chain.
-        search: Search to call if the proof fails; None for no search.
+    If the proof fails, add those of `search`, if given.
     """
     qs, doubt = system.solve(problem.target(i))
     if doubt:

@@ -40,13 +40,7 @@ _TURN = 2.0 * np.pi
 
 @dataclass(frozen=True, slots=True)
 class _Motion:
-    """A walk along a family of solutions.
-
-    Attributes:
-        path: Configurations; shape (k, n), [rad or m].
-        moving: Which joints move; shape (n,).
-        ties: Factors of the sums of moving joints that stay constant; shape (r, n).
-    """
+    """A walk along a family: its configurations (k, n), which joints move (n,), and factors of constant sums (r, n)."""
 
     path: Array
     moving: Flags
@@ -62,12 +56,9 @@ class _Motion:
 
 
 def families_of(problem: TargetProblem, i: int, qs: Array) -> tuple[Family, ...]:
-    """Find the families to which solutions of a target belong, in the order of the solutions.
+    """Find the families to which solutions of a target, shape (k, n), belong, in the order of the solutions.
 
-    Args:
-        problem: The targets; its options bound the sample configurations of all families together.
-        i: Index of the target.
-        qs: Its solutions; shape (k, n), [rad or m].
+    All together have at most as many sample configurations as the options allow solutions.
     """
     own, most = problem.taken(slice(i, i + 1)), problem.options.most
     sizes = np.linalg.svd(own.linearised(0, qs)[1], compute_uv=False)
@@ -138,8 +129,7 @@ def _motion(problem: TargetProblem, q: Array) -> _Motion | None:
 def _corrected(problem: TargetProblem, q: Array) -> tuple[Array, Array, float]:
     """Bring a configuration onto the target by Newton steps of least length.
 
-    Returns:
-        The configuration, shape (n,); an orthonormal basis of the kernel of J there, shape (k, n); the error.
+    Return it, an orthonormal basis of the kernel of J there, shape (k, n), and the error.
     """
     for k in range(_CORRECTIONS + 1):
         es, Js = problem.linearised(0, q[None])

@@ -1,14 +1,16 @@
-"""The course's methods from one start, step by step, with a trace of the iterations."""
+"""The course's methods from one start, step by step, with a trace of the iterations.
+
+The steps are pure functions of the m rows of J (m, n) and e (m,) that count, in [m] and [rad]; Δq (n,) is in
+[rad or m].
+"""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
-from gelenk.ik.search.kernels import LONGEST_STEP
+from gelenk.ik.search.kernels import DAMPING, FLOOR, LONGEST_STEP
 from gelenk.ik.search.problem import DescentRule, TargetProblem
-from gelenk.ik.search.steps import damped_step, error_damping, gradient_step, newton_step
-from gelenk.ik.search.words import Iterate, StepMethod, StopReason
+from gelenk.ik.search.words import Iterate, IterationPath, StepMethod, StopReason
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.configuration import MAX_MAGNITUDE
 
@@ -25,33 +27,15 @@ _KERNEL = 1e-8
 _SINGULAR = 1e-12
 """Share of σ_max below which σ_min counts as zero, and Newton's step as undefined."""
 
-
-@dataclass(frozen=True, slots=True)
-class Descent:
-    """The result of one method from one start.
-
-    Attributes:
-        joint_positions: The last configuration; shape (n,), [rad or m].
-        stop_reason: Why the method stopped.
-        trace: All configurations, including the first and the last.
-    """
-
-    joint_positions: Array
-    stop_reason: StopReason
-    trace: list[Iterate]
+_LOST = 1e-14
+"""Share of the trace of JJᵀ below which rounding swallows the damping."""
 
 
-def descend(problem: TargetProblem, i: int, start: Array, rule: DescentRule) -> Descent:
-    """Run one method from one start.
+def descend(problem: TargetProblem, i: int, start: Array, rule: DescentRule) -> IterationPath:
+    """Run one method from one initial configuration, shape (n,), to target i.
 
     With limits, each step is clipped to them, and the damped method excludes joints that it would push further. Joints
     that turn freely may leave their limits on the way, since full turns bring them back.
-
-    Args:
-        problem: The targets.
-        i: Index of the target.
-        start: Initial configuration; shape (n,), [rad or m].
-        rule: The method and its parameters.
     """
     bounds = problem.bounds[:2]
     q = np.clip(start, *bounds)
@@ -82,7 +66,7 @@ def descend(problem: TargetProblem, i: int, start: Array, rule: DescentRule) -> 
                 reason = "diverged"
         trace.append(iterate(error, sigmas, q, None if reason else following, method))
         if reason is not None:
-            return Descent(q, reason, trace)
+            return IterationPath(reason, trace)
         q = following
     raise AssertionError("the last iteration always gives a reason")
 
@@ -168,3 +152,35 @@ def _line_search(J: Array, e: Array, q: Array, bounds: Array, error_at: Callable
             break
         size *= 0.5
     return size
+
+
+def newton_step(J: Array, e: Array) -> Array:
+    """Newton step Δq = J⁻¹e, or J⁺e if J is not square [Siciliano2009, 3.7.1].
+
+    Close to a singularity it grows like 1/σ_min: a weakness of Newton's method, not an error.
+    """
+    return np.asarray(np.linalg.pinv(J, rcond=1e-14) @ e)
+
+
+def gradient_step(J: Array, e: Array, step_size: float) -> Array:
+    """Gradient step Δq = α Jᵀe, downhill on H = ½‖e‖² [Siciliano2009, 3.7.2].
+
+    Converges locally for 0 < α < 2/σ²_max(J), and stops wherever e lies in ker Jᵀ.
+    """
+    return np.asarray(step_size * (J.T @ e))
+
+
+def damped_step(J: Array, e: Array, damping: float) -> Array:
+    """Damped step Δq = Jᵀ(JJᵀ + λI)⁻¹e, which minimises ‖JΔq - e‖² + λ‖Δq‖² [Nakamura1986].
+
+    λ ≥ 0 is `damping`, not its square root; zero, or so little that rounding swallows it, gives the pseudo-inverse.
+    """
+    gram = J @ J.T
+    if damping <= _LOST * float(np.trace(gram)):
+        return newton_step(J, e)
+    return np.asarray(J.T @ np.linalg.solve(gram + damping * np.eye(len(J)), e))
+
+
+def error_damping(e: Array) -> float:
+    """Return λ proportional to ‖e‖², so that the damping fades near the target [Sugihara2011]."""
+    return DAMPING * float(e @ e) + FLOOR

@@ -42,6 +42,9 @@ FULL, AXIS, SOME = 0, 1, 2
 ERROR, BEST, SINCE, COUNT, REACHED, FIRST, STATE_ROWS = 12, 13, 14, 15, 16, 17, 18
 """Row indices of `Work.state`, whose first twelve rows hold the target."""
 
+ROUNDING = 1e-10
+"""Distance beyond a limit that still counts as at it, [rad or m]."""
+
 KEPT = 64
 """Number of failed starts remembered, a multiple of the lanes."""
 
@@ -331,6 +334,31 @@ def _solve(a: _Symmetric, e: Error) -> Error:
     x1 = y1 * i1 - l21 * x2 - l31 * x3 - l41 * x4 - l51 * x5
     x0 = e0 * i0 - l10 * x1 - l20 * x2 - l30 * x3 - l40 * x4 - l50 * x5
     return x0, x1, x2, x3, x4, x5
+
+
+@inlined
+def wound(q: float, seed: float, lower: float, upper: float) -> float:
+    """Turn an angle by full turns into its limits, as near to the seed as possible; only nearly if none fits."""
+    turn = 2.0 * np.pi
+    q += turn * np.rint((seed - q) / turn)
+    # Rounding may carry a joint over its limit, which is no reason for a full turn.
+    if q > upper + ROUNDING:
+        q -= turn * np.ceil((q - upper - ROUNDING) / turn)
+    elif q < lower - ROUNDING:
+        q += turn * np.ceil((lower - q - ROUNDING) / turn)
+    return q
+
+
+@inlined
+def squares(e: Error) -> tuple[Lanes, Lanes]:
+    """Squared lengths of the position and the orientation error."""
+    return e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
+
+
+@inlined
+def within(goal: Goal, position: Lanes, orientation: Lanes) -> Lanes:
+    """Flag the lanes whose squared errors are within the tolerances."""
+    return (position <= goal.position_tolerance**2) & (orientation <= goal.chord_tolerance**2)
 
 
 @inlined

@@ -26,7 +26,10 @@ from gelenk.ik.search.iteration import (
     linearise,
     read_lane,
     set_target,
+    squares,
+    within,
     workspace,
+    wound,
 )
 from gelenk.kinematics.simd.lanes import LANES, Lanes, bits, lanes, load, max_lanes, min_lanes, sqrt_lanes, store, where
 from gelenk.robot.arrays import Array, Indices
@@ -50,8 +53,6 @@ _SCREENING, _POLISHING, _IDLE = 40, 1600, 60
 that a squared error falls by a share of 1e-9, or by 1e-9 m² if it is above 1 m²."""
 CLOSE = 0.01
 """Share of the tolerances above which a start within them takes one more step."""
-_ROUNDING = 1e-10
-"""Distance beyond a limit that still counts as at it, [rad]."""
 LONGEST_STEP, CAREFUL_STEP = 1.0, 0.05
 """Largest step of a joint in general, and in following a path closely, [rad or m]."""
 _NEAR, _JUMP, _STRETCH = 0.3, 0.2, 4.0
@@ -250,8 +251,7 @@ def _race(
 ) -> tuple[int, int, int]:
     """Run one start per lane; put the solution of the lowest-numbered one, or if `approach` the nearest, into `q`.
 
-    Returns:
-        That start or -1, its iterations, and how the seed was followed, see `search`.
+    Return that start or -1, its iterations, and how the seed was followed, see `search`.
     """
     starts = work.starts
     work.errors[:] = np.inf
@@ -365,9 +365,8 @@ def _approach_from(flat: FlatChain, goal: Goal, work: Work, first: int, n: int, 
 def _follow(flat: FlatChain, goal: Goal, seed: Array, work: Work, q: Array) -> tuple[int, int]:
     """Follow the path from the seed in small steps; if a solution nearer to the seed is found, put it into `q`.
 
-    Returns:
-        The lane k that found it, with initial damping 10⁻ᵏ, and its iterations until it was within the tolerances; -1
-        and 0 if none did.
+    Return the lane k that found it, with initial damping 10⁻ᵏ, and its iterations until it was within the tolerances;
+    -1 and 0 if none did.
     """
     for lane in range(LANES):
         _set_start(goal, work, lane, seed, 0)
@@ -403,17 +402,16 @@ def _improve(
     least, idle = lanes(np.inf), 0
     for round_ in range(rounds):
         e = linearise(flat, goal, work, as_angles)
-        position = e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
-        orientation = e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
+        position, orientation = squares(e)
         error = position + orientation
         better = error <= least
         idle = 0 if bits(error < least - 1e-9 * min_lanes(least, 1.0)) else idle + 1
         if idle == _IDLE:
             break
         least = where(better, error, least)
-        within = (position <= goal.position_tolerance**2) & (orientation <= goal.chord_tolerance**2)
         reached = load(work.state, REACHED)
-        store(work.state, REACHED, where(within & (reached < 0.5), float(round_ + 1), reached))
+        first = within(goal, position, orientation) & (reached < 0.5)
+        store(work.state, REACHED, where(first, float(round_ + 1), reached))
         store(work.state, _POSITION, where(better, position, load(work.state, _POSITION)))
         store(work.state, _ORIENTATION, where(better, orientation, load(work.state, _ORIENTATION)))
         damping = where(better, max_lanes(0.25 * damping, FLOOR), min_lanes(10.0 * damping, 1e6))
@@ -455,17 +453,10 @@ def _has(ended: int, bit: int) -> bool:
 @inlined
 def _wind(goal: Goal, seed: Array, q: Array) -> None:
     """Turn freely turning joints by full turns into their limits, as near to the seed as possible."""
-    turn = 2.0 * np.pi
     for j in range(len(q)):
         lower, upper = goal.bounds[4, j], goal.bounds[5, j]
         if lower <= upper:
-            value = q[j] + turn * np.rint((seed[j] - q[j]) / turn)
-            # Rounding may carry a joint over its limit, which is no reason for a full turn.
-            if value > upper + _ROUNDING:
-                value -= turn * np.ceil((value - upper - _ROUNDING) / turn)
-            elif value < lower - _ROUNDING:
-                value += turn * np.ceil((lower - value - _ROUNDING) / turn)
-            q[j] = min(max(value, lower), upper)
+            q[j] = min(max(wound(q[j], seed[j], lower, upper), lower), upper)
 
 
 @inlined
@@ -500,9 +491,8 @@ def uniform(random_seed: int, start: int, variable: int) -> float:
 def _iterate(flat: FlatChain, goal: Goal, work: Work) -> int:
     """Take one iteration in every SIMD lane: judge the state, then step.
 
-    Returns:
-        Bits 0 to LANES - 1 flag lanes whose start has ended; the next LANES bits those that have converged, whose
-        solutions are in `previous`.
+    In the result, bits 0 to LANES - 1 flag lanes whose start has ended; the next LANES bits those that have converged,
+    whose solutions are in `previous`.
     """
     ended, e, damping = _judge(flat, goal, work)
     descend(goal, work, e, damping, lanes(1.0), LONGEST_STEP)
@@ -514,9 +504,8 @@ def _judge(flat: FlatChain, goal: Goal, work: Work) -> tuple[int, Error, Lanes]:
     """Return bits of the lanes that have ended at `q`, see `_iterate`, and error and damping of the next step."""
     state = work.state
     e = linearise(flat, goal, work)
-    position, orientation = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
-    error = position + orientation
-    within = (position <= goal.position_tolerance**2) & (orientation <= goal.chord_tolerance**2)
+    position, orientation = squares(e)
+    error, good = position + orientation, within(goal, position, orientation)
     if goal.slack > 0.0:
         a = _shortening(position, goal.slack * goal.position_tolerance)
         b = _shortening(orientation, goal.slack * goal.chord_tolerance)
@@ -533,13 +522,13 @@ def _judge(flat: FlatChain, goal: Goal, work: Work) -> tuple[int, Error, Lanes]:
     given_up = (since >= float(_STAGNATION)) | (count >= float(LONGEST))
     # One more step than needed takes the error from the tolerance to rounding.
     near = (position <= (CLOSE * goal.position_tolerance) ** 2) & (orientation <= (CLOSE * goal.chord_tolerance) ** 2)
-    converged = within & ((load(state, REACHED) > 0.5) | given_up | near)
+    converged = good & ((load(state, REACHED) > 0.5) | given_up | near)
     store(state, ERROR, error)
     store(state, FIRST, where(load(state, FIRST) < 0.0, error, load(state, FIRST)))
     store(state, BEST, where(halved, error, load(state, BEST)))
     store(state, SINCE, since)
     store(state, COUNT, count)
-    store(state, REACHED, where(within, 1.0, 0.0))
+    store(state, REACHED, where(good, 1.0, 0.0))
     return bits(converged | given_up) | (bits(converged) << LANES), e, DAMPING * error + FLOOR
 
 

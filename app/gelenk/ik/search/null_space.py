@@ -23,16 +23,11 @@ _AT_LIMIT = 1e-6
 
 
 def settle(problem: TargetProblem, qs: Array, objective: Objective) -> Array:
-    """Move solutions along their self-motion to a nearby minimum of an objective; shape (N, n).
+    """Move solutions, one per target, along their self-motion to a nearby minimum of an objective; shape (N, n).
 
     Each round steps down the gradient projected onto the kernel of J, and brings the error back to zero by damped
     steps, both without joints blocked at a limit. It is kept if the objective has fallen [Liegeois1977], so that no
     solution becomes worse. A solution without freedom stays unchanged.
-
-    Args:
-        problem: The targets; N of them.
-        qs: Their solutions; shape (N, n), [rad or m].
-        objective: Function to minimise.
     """
     chain, targets, task = problem.chain, problem.targets, problem.task
     bounds = np.array(problem.limits)

@@ -6,12 +6,11 @@ from typing import TypeAlias
 
 import numpy as np
 
-from gelenk.ik.search.descent import Descent, blocked, iterate, shortened, stop_reason
+from gelenk.ik.search.descent import blocked, damped_step, error_damping, iterate, shortened, stop_reason
 from gelenk.ik.search.kernels import APPROACHES, CAREFUL_STEP, CLOSE, FLOOR, LONGEST, LONGEST_STEP
 from gelenk.ik.search.linearise import linearise
 from gelenk.ik.search.problem import TargetProblem
-from gelenk.ik.search.steps import damped_step, error_damping
-from gelenk.ik.search.words import Iterate
+from gelenk.ik.search.words import Iterate, IterationPath
 from gelenk.robot.arrays import Array
 
 _Linearised: TypeAlias = Callable[[Array], tuple[Array, Array]]
@@ -20,15 +19,10 @@ _Steps: TypeAlias = Iterator[tuple[Array, Array, Array, Array]]
 """Configuration, error, Jacobian, and the step taken from there."""
 
 
-def retrace(problem: TargetProblem, i: int, start: Array, followed: int, slack: float = 0.0) -> Descent:
-    """Trace one start of the search until it is within the tolerances or given up.
+def retrace(problem: TargetProblem, i: int, start: Array, followed: int, slack: float = 0.0) -> IterationPath:
+    """Trace one start of the search for target i until it is within the tolerances or given up.
 
-    Args:
-        problem: The targets.
-        i: Index of the target.
-        start: Initial configuration; shape (n,), [rad or m].
-        followed: See `Found.followed`.
-        slack: Share of the tolerances that the search subtracted from the errors.
+    For `followed` see `Found`; `slack` is the share of the tolerances that the search subtracted from the errors.
     """
     bounds, task, tolerances = problem.bounds[:2], problem.task, problem.tolerances
 
@@ -50,7 +44,7 @@ def retrace(problem: TargetProblem, i: int, start: Array, followed: int, slack: 
     else:
         steps = _followed(at, start, bounds, 0.1**followed)
     trace: list[Iterate] = []
-    q, reached = start, False
+    reached = False
     for q, e, J, step in steps:
         sigmas = np.linalg.svd(J, compute_uv=False).astype(np.float64)
         reason = stop_reason(e, J, sigmas, q, bounds, "damped_least_squares", problem)
@@ -62,9 +56,9 @@ def retrace(problem: TargetProblem, i: int, start: Array, followed: int, slack: 
         following = np.clip(q + step, *bounds) if reason is None or on else None
         trace.append(iterate(error, sigmas, q, following, "damped_least_squares"))
         if reason is not None and not on:
-            return Descent(q, reason, trace)
+            return IterationPath(reason, trace)
     trace[-1] = replace(trace[-1], step_length=None, method=None)
-    return Descent(q, "converged" if reached else "iterations", trace)
+    return IterationPath("converged" if reached else "iterations", trace)
 
 
 def _is_close(e: Array, linear: int, tolerances: tuple[float, float]) -> bool:

@@ -74,3 +74,16 @@ class Iterate(Result):
     step_length: float | None
     method: str | None
     joint_positions: list[float]
+
+
+@dataclass(frozen=True, slots=True)
+class IterationPath:
+    """The path of one iterative method to where it stopped.
+
+    Attributes:
+        stop_reason: Why the method stopped.
+        trace: Every configuration, with the first and the last; empty without a turn. None if it was not requested.
+    """
+
+    stop_reason: StopReason
+    trace: list[Iterate] | None

@@ -56,15 +56,10 @@ class Branches:
 
 
 def all_branches(problem: TargetProblem, i: int, *, windings: bool = False) -> Branches:
-    """Search for all distinct solutions, modulo full turns unless `windings` is set.
+    """Search for all distinct solutions of target i, modulo full turns unless `windings` is set.
 
     A redundant arm, or an arm at a singularity where a joint moves without effect, has infinitely many. The result is
     then a sample, no two within 0.2 rad or m in every joint, chosen from the nearest to the seed outwards.
-
-    Args:
-        problem: The targets; its options give the largest number of solutions.
-        i: Index of the target.
-        windings: Whether solutions that differ by full turns count as different, where limits allow them.
     """
     candidates, seed = _converged(problem, i), problem.seed(i)
     free, most = free_variables(problem.chain), problem.options.most
@@ -157,16 +152,9 @@ def sorted_by_distance(qs: Array, seed: Array) -> Array:
 
 @compiled
 def thin_out(qs: Array, free: Flags, spacing: float, most: int) -> Indices:
-    """Select rows in order that differ from all selected before by more than `spacing` in some variable.
+    """Select rows of (N, n) in order that differ from all selected before by more than `spacing` in some variable.
 
-    Args:
-        qs: Configurations; shape (N, n).
-        free: Which variables count modulo full turns; shape (n,).
-        spacing: Least difference, [rad or m].
-        most: Largest number of rows.
-
-    Returns:
-        Indices of the selected rows; shape (k,).
+    Free variables count modulo full turns. Return the indices of at most `most` rows; shape (k,).
     """
     chosen = np.empty(min(most, len(qs)), np.int64)
     count = 0
@@ -199,7 +187,7 @@ def wound(problem: TargetProblem, i: int, qs: Array, complete: bool) -> tuple[Ar
         problem: The targets; its options give the largest number of configurations.
         i: Index of the target.
         qs: Solutions; shape (k, n), [rad or m].
-        complete: Whether `qs` contains all solutions modulo full turns.
+        complete: Whether these are all solutions modulo full turns.
 
     Returns:
         Configurations, shape (m, n); the index in `qs` of each, shape (m,); and whether these are all solutions.

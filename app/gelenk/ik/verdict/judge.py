@@ -54,7 +54,7 @@ def assembled(
     labels: Mapping[str, Indices],
     **rest: Any,
 ) -> InverseKinematics:
-    """Build the answer for N targets from configurations, without those that are no solutions.
+    """Build the answer for N targets from M configurations, without those that are no solutions.
 
     Args:
         count: N.

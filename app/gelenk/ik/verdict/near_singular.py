@@ -33,16 +33,11 @@ _WALK, _STRIDE = 16, 0.3
 
 
 def refined(problem: TargetProblem, i: int, qs: Array, least: float) -> Array:
-    """Refine configurations by Newton's method; return those whose error is small enough, the best first; (k, n).
+    """Refine configurations for target i by Newton's method; return those with small enough errors, best first; (k, n).
 
     Each configuration is corrected back onto the valley first, and again after each step before its error is compared,
-    as in `branch_kernels`: off the valley, the remaining equation means nothing.
-
-    Args:
-        problem: The targets.
-        i: Index of the target.
-        qs: Initial configurations; shape (N, n), [rad or m].
-        least: Largest error of a solution, [m, rad].
+    as in `branch_kernels`: off the valley, the remaining equation means nothing. `least` is the largest error of a
+    solution, [m, rad].
     """
     chain, limits = problem.chain, problem.limits
 
@@ -80,14 +75,7 @@ def _steps(es: Array, Js: Array, weak: float) -> Array:
 
 
 def with_partners(problem: TargetProblem, i: int, qs: Array, least: float) -> Array:
-    """Refine configurations and add the solutions that pair with them, without duplicates; shape (k, n).
-
-    Args:
-        problem: The targets.
-        i: Index of the target.
-        qs: Initial configurations; shape (N, n), [rad or m].
-        least: Largest error of a solution, [m, rad].
-    """
+    """Refine configurations and add the solutions that pair with them, without duplicates; see `refined`; (k, n)."""
     found = refined(problem, i, qs, least)
     for look in (_further, _partners):
         found = found[distinct(problem, i, found)]
@@ -96,16 +84,7 @@ def with_partners(problem: TargetProblem, i: int, qs: Array, least: float) -> Ar
 
 
 def distinct(problem: TargetProblem, i: int, qs: Array) -> Indices:
-    """Select distinct solutions of a target: the first of each group that differs only by rounding.
-
-    Args:
-        problem: The targets.
-        i: Index of the target.
-        qs: Its solutions; shape (N, n), [rad or m].
-
-    Returns:
-        Indices of the distinct solutions; shape (k,).
-    """
+    """Select distinct solutions of a target: the first of each group that differs only by rounding; indices, (k,)."""
     kept: list[int] = []
     for k in thin_out(qs, free_variables(problem.chain), _SAME, len(qs)).tolist():
         apart = whole_turns_removed(problem.chain, qs[kept] - qs[k])
@@ -139,15 +118,9 @@ def _further(problem: TargetProblem, i: int, qs: Array) -> Array:
 
 
 def _walk(problem: TargetProblem, i: int, qs: Array) -> tuple[Array, Array]:
-    """Walk along valleys in steps, each followed by corrections back onto the valley.
+    """Walk along valleys from solutions, each given twice for the two directions of its valley.
 
-    Args:
-        problem: The targets.
-        i: Index of the target.
-        qs: Solutions, each twice for the two directions of its valley; shape (N, n), [rad or m].
-
-    Returns:
-        Configurations, shape (k, N, n), and the errors in the remaining direction, shape (k, N).
+    Return configurations, shape (k, N, n), and the errors in the remaining direction, shape (k, N).
     """
     path, levels = np.empty((_WALK, *qs.shape)), np.empty((_WALK, len(qs)))
     ahead, beside = np.zeros(qs.shape), np.zeros(qs.shape)

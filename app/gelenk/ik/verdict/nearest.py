@@ -20,13 +20,7 @@ _DIFFERENCE, _FLAT = 1e-5, 1e-9
 
 
 def polished(problem: TargetProblem, i: int, q: Array) -> Array:
-    """Descend from a configuration to a nearby minimum of the error, never to a larger one; shape (n,).
-
-    Args:
-        problem: The targets.
-        i: Index of the target.
-        q: End of a search; shape (n,), [rad or m].
-    """
+    """Descend from the end of a search to a nearby minimum of the error, never to a larger one; shape (n,)."""
     bounds = problem.bounds
 
     def slopes(qs: Array) -> tuple[Array, Array, Array]:

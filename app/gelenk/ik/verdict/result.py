@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from gelenk.ik.closed.closed_form import ClosedForm
-from gelenk.ik.search.words import BlockingJoint, Family, Iterate, Status, StopReason
+from gelenk.ik.search.words import BlockingJoint, Family, IterationPath, Status
 from gelenk.robot.arrays import Array, Indices
 
 COUNTED = -2
@@ -37,19 +37,6 @@ class UnsolvedTarget:
     blocking_joints: tuple[BlockingJoint, ...] = ()
     unserved_directions: Array | None = None
     is_late: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class IterationPath:
-    """The path of one iterative method to where it stopped.
-
-    Attributes:
-        stop_reason: Why the method stopped.
-        trace: Every configuration of the iteration, if requested.
-    """
-
-    stop_reason: StopReason
-    trace: list[Iterate] | None
 
 
 @dataclass(frozen=True, slots=True)

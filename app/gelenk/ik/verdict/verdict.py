@@ -5,11 +5,11 @@ import numpy as np
 from gelenk.errors import counted, quoted
 from gelenk.ik.search import kernels
 from gelenk.ik.search.bounds import make_goal, target_rows
-from gelenk.ik.search.descent import Descent, blocked
+from gelenk.ik.search.descent import blocked
 from gelenk.ik.search.problem import TargetProblem
-from gelenk.ik.search.search import ITERATIONS_PER_START
+from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS, Found
 from gelenk.ik.search.task import Task
-from gelenk.ik.search.words import DIRECTIONS, BlockingJoint, Status, StopReason
+from gelenk.ik.search.words import DIRECTIONS, BlockingJoint, IterationPath, Status, StopReason
 from gelenk.ik.verdict.branches import wound_near
 from gelenk.ik.verdict.result import UnsolvedTarget
 from gelenk.robot.arrays import Array, Flags
@@ -50,32 +50,24 @@ _NOT_TRIED = "the time limit ended the call before this target's turn"
 
 
 def explain(
-    problem: TargetProblem,
-    i: int,
-    nearest: Array,
-    errors: tuple[float, float],
-    *,
-    is_too_far: bool,
-    beyond_limits: tuple[BlockingJoint, ...],
-    budget: int,
-    tried: bool,
+    problem: TargetProblem, i: int, found: Found, errors: Array, is_too_far: bool, outside: tuple[BlockingJoint, ...]
 ) -> UnsolvedTarget:
     """Return the verdict on a target that a search from many starts has not solved.
 
     Args:
         problem: The problem; after its deadline, no further reason is sought.
         i: Index of the target.
-        nearest: Nearest configuration found; shape (n,), [rad or m].
-        errors: Its distance [m] and angle [rad] from the target.
+        found: What the search has found.
+        errors: Distances [m] and angles [rad] of that from the targets; shape (2, N).
         is_too_far: Whether the target is beyond reach by distance alone.
-        beyond_limits: The joints beyond their limits in a solution without limits, if one was found.
-        budget: Iteration budget of the search.
-        tried: Whether there was time for a search.
+        outside: The joints beyond their limits in a solution without limits, if one was found.
     """
+    nearest, tried = found.qs[i], bool(found.in_time[i])
     late = problem.is_over
     directions = None if late or not tried or not len(problem.chain) else unserved_directions(problem, i, nearest)
     joints: tuple[BlockingJoint, ...] = ()
-    starts, away = max(1, budget // ITERATIONS_PER_START), _far(problem.task, errors)
+    budget = problem.options.max_iterations or MAX_ITERATIONS
+    starts, away = max(1, budget // ITERATIONS_PER_START), _far(problem.task, errors[:, i])
     status: Status = "not_converged"
     reason = f"none of {counted(starts, 'start')} came nearer than {away}"
     reach = problem.reach if is_too_far else None
@@ -86,8 +78,8 @@ def explain(
     elif reach is not None:
         reason = f"{reach.describe(problem.target(i))}; the tip of the nearest pose found is {away} away"
         status = "unreachable"
-    elif beyond_limits:
-        joints = beyond_limits
+    elif outside:
+        joints = outside
         status, reason = "outside_limits", f"solvable only beyond the joint limits: {_excesses(joints)}"
     elif directions is None:
         reason = (
@@ -106,45 +98,35 @@ def explain(
             status = "singular"
         else:
             directions = None
-    return UnsolvedTarget(status, reason, nearest, *errors, joints, directions, is_late=late or not tried)
+    return UnsolvedTarget(status, reason, nearest, *_pair(errors[:, i]), joints, directions, late or not tried)
 
 
 def verdict_on_path(
-    problem: TargetProblem,
-    i: int,
-    end: Array,
-    errors: tuple[float, float],
-    descent: Descent | None,
-    is_too_far: bool,
+    problem: TargetProblem, i: int, end: Array, errors: Array, path: IterationPath, is_too_far: bool
 ) -> UnsolvedTarget:
     """Return the verdict on a target that one method from one start has not solved.
 
-    Args:
-        problem: The problem.
-        i: Index of the target.
-        end: Last configuration, turned by full turns towards the limits and the seed; shape (n,), [rad or m].
-        errors: Its distance [m] and angle [rad] from the target.
-        descent: The iteration that led there; None if there was no time for it.
-        is_too_far: Whether the target is beyond reach by distance alone.
+    The method's path led to `end`, turned by full turns towards the limits and the seed, shape (n,), [rad or m], with
+    these errors, [m] and [rad]; `is_too_far` tells whether the target is beyond reach by distance alone.
     """
-    if descent is None:
-        return UnsolvedTarget("not_converged", _NOT_TRIED, end, *errors)
+    if not path.trace:
+        return UnsolvedTarget("not_converged", _NOT_TRIED, end, *_pair(errors))
     away = _far(problem.task, errors)
     if is_too_far and (reach := problem.reach):
         status: Status = "unreachable"
         reason = f"{reach.describe(problem.target(i))}; the method stopped {away} away"
-    elif descent.stop_reason == "converged":
+    elif path.stop_reason == "converged":
         joints = blocking_joints(problem.chain, end) if problem.options.respect_limits else ()
         if not joints:
             return refused(end, *errors)
         reason = f"converged, but beyond the joint limits: {_excesses(joints)}"
-        return UnsolvedTarget("outside_limits", reason, end, *errors, joints)
+        return UnsolvedTarget("outside_limits", reason, end, *_pair(errors), joints)
     else:
-        status, text = _STOPPED[descent.stop_reason]
+        status, text = _STOPPED[path.stop_reason]
         held = ", ".join(quoted(problem.chain.joint_names[j]) for j in np.flatnonzero(_linearised(problem, i, end)[2]))
-        reason = text.format(away=away, after=counted(len(descent.trace) - 1, "iteration"), held=held)
+        reason = text.format(away=away, after=counted(len(path.trace) - 1, "iteration"), held=held)
     directions = None if status == "not_converged" else unserved_directions(problem, i, end)
-    return UnsolvedTarget(status, reason, end, *errors, unserved_directions=directions)
+    return UnsolvedTarget(status, reason, end, *_pair(errors), unserved_directions=directions)
 
 
 def unserved_directions(problem: TargetProblem, i: int, q: Array) -> Array:
@@ -213,7 +195,7 @@ def _excesses(joints: tuple[BlockingJoint, ...]) -> str:
     )
 
 
-def _far(task: Task, errors: tuple[float, float]) -> str:
+def _far(task: Task, errors: Array) -> str:
     """Format the errors that count in words."""
     parts = []
     if {"x", "y", "z"} & set(task.directions):
@@ -221,3 +203,7 @@ def _far(task: Task, errors: tuple[float, float]) -> str:
     if {"rx", "ry", "rz"} & set(task.directions):
         parts.append(f"{errors[1]:.3g} rad")
     return " and ".join(parts)
+
+
+def _pair(errors: Array) -> tuple[float, float]:
+    return float(errors[0]), float(errors[1])
