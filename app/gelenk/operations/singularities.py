@@ -8,13 +8,12 @@ import numpy as np
 from gelenk.contract.singularities import MAX_NEAREST, MAX_PATH, MAX_PLACES, MAX_REPORTS, SingularityRequest
 from gelenk.errors import TooLarge, counted
 from gelenk.ik.search.task import Task
-from gelenk.kinematics.judge.judge import MAX_SAMPLES, certify_jacobians
+from gelenk.kinematics.judge.judge import MAX_SAMPLES
 from gelenk.kinematics.judge.words import JacobianCertificate, SingularityCertificate
-from gelenk.kinematics.simd.kernels import chain_jacobians
 from gelenk.kinematics.singularity.distance import NearestSingularity, Search, can_lose, nearest_singularity
 from gelenk.kinematics.singularity.path import PathMinimum, places_along
 from gelenk.kinematics.singularity.report import SingularityReport, certify_reports, singularity_report
-from gelenk.kinematics.velocity.jacobian import singular_values
+from gelenk.kinematics.velocity.jacobian import jacobians, singular_values
 from gelenk.kinematics.velocity.task_space import TaskSpace, slides, structure
 from gelenk.operations.chains import chain_and_positions, check_numbers, head, task_of
 from gelenk.operations.outcome import Limits, Outcome
@@ -34,7 +33,7 @@ def run(loaded: LoadedRobot, call: SingularityRequest, limits: Limits) -> Outcom
     chain, qs = chain_and_positions(loaded.robot, call)
     space = TaskSpace(task_of(call.task), call.characteristic_length, call.reference)
     _check_size(call, len(qs), len(chain), limits)
-    certificate = _certificate(loaded.robot, chain, qs)
+    certificate = jacobians(loaded.robot, chain, qs).certificate
     fits = not (call.nearest or call.path)
     return Outcome(
         lambda: _content(loaded.robot, chain, call, qs, space, certificate),
@@ -67,15 +66,14 @@ def singularity_info(chain: Chain, report: SingularityReport) -> dict[str, Any]:
         ],
         "dependent_joints": _names(chain, report.joints),
         "kinds": report.kinds,
-        "exit": _exit(chain, report),
+        "exit": None
+        if report.exit is None
+        else {
+            "joint": chain.joint_names[int(np.argmax(np.abs(report.exit)))],
+            "direction": report.exit.tolist(),
+            "rate": report.exit_rate,
+        },
     }
-
-
-def _exit(chain: Chain, report: SingularityReport) -> dict[str, Any] | None:
-    if report.exit is None:
-        return None
-    joint = chain.joint_names[int(np.argmax(np.abs(report.exit)))]
-    return {"joint": joint, "direction": report.exit.tolist(), "rate": report.exit_rate}
 
 
 def _names(chain: Chain, joints: tuple[int, ...]) -> list[str]:
@@ -91,10 +89,6 @@ def _check_size(call: SingularityRequest, count: int, joints: int, limits: Limit
     if call.nearest and count > most:
         raise TooLarge(f"configurations of {counted(joints, 'joint')} whose nearest singularity is wanted", count, most)
     check_numbers(count * (_ENTRY + joints * (joints + 4)) * (1 + call.path), limits)
-
-
-def _certificate(robot: RobotModel, chain: Chain, qs: Array) -> JacobianCertificate:
-    return certify_jacobians(robot, chain, qs, chain_jacobians(chain.flat, qs)[2])
 
 
 def _content(
@@ -132,7 +126,7 @@ def _content(
         certified += _recomputed(robot, chain, sample)
         products.append(certify_reports(robot, chain, space, np.array(sample), reports))
         answer["path"] = {
-            "places": list(_places(chain, len(qs), shown, reports)),
+            "places": [_place(chain, len(qs), *each) for each in zip(shown, reports, strict=True)],
             "omitted": len(places) - len(shown),
         }
     answer["certificate"] = SingularityCertificate(
@@ -154,7 +148,7 @@ def _units_are_mixed(chain: Chain, space: TaskSpace) -> bool:
 def _recomputed(robot: RobotModel, chain: Chain, rows: list[Array]) -> Iterator[JacobianCertificate]:
     """Yield certificates of further configurations, so few each that all are recomputed."""
     for first in range(0, len(rows), MAX_SAMPLES):
-        yield _certificate(robot, chain, np.array(rows[first : first + MAX_SAMPLES]))
+        yield jacobians(robot, chain, np.array(rows[first : first + MAX_SAMPLES])).certificate
 
 
 def _nearest(
@@ -205,15 +199,12 @@ def _positions_that_move(chain: Chain, space: TaskSpace) -> str | None:
     return " ".join(moving)
 
 
-def _places(
-    chain: Chain, count: int, places: list[PathMinimum], reports: list[SingularityReport]
-) -> Iterator[dict[str, Any]]:
-    for place, report in zip(places, reports, strict=True):
-        segment = min(int(place.start), max(count - 2, 0))
-        yield {
-            "segment": segment,
-            "fraction": place.start - segment,
-            "end": place.end,
-            "joint_positions": place.q.tolist(),
-            "report": singularity_info(chain, report),
-        }
+def _place(chain: Chain, count: int, place: PathMinimum, report: SingularityReport) -> dict[str, Any]:
+    segment = min(int(place.start), max(count - 2, 0))
+    return {
+        "segment": segment,
+        "fraction": place.start - segment,
+        "end": place.end,
+        "joint_positions": place.q.tolist(),
+        "report": singularity_info(chain, report),
+    }

@@ -183,7 +183,9 @@ class PinocchioDynamics:
             twist += sign * data.oMi[joint].act(data.v[joint])
             # The surroundings exert the opposite force on the robot.
             forces[joint] -= sign * data.oMi[joint].actInv(force)
-        torques = pin.computeStaticTorque(model, data, full_q, _force_vector(forces))
+        vector = pin.StdVec_Force()
+        vector.extend(forces)
+        torques = pin.computeStaticTorque(model, data, full_q, vector)
         return self._torques(torques), float(force.dot(twist))
 
     @property
@@ -198,10 +200,3 @@ class PinocchioDynamics:
 
     def _reduced(self, full: Array) -> Array:
         return np.asarray(self._matrix.T @ full @ self._matrix)
-
-
-def _force_vector(forces: Sequence[pin.Force]) -> pin.StdVec_Force:
-    vector = pin.StdVec_Force()
-    for force in forces:
-        vector.append(force)
-    return vector

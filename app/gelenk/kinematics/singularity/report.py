@@ -89,7 +89,8 @@ def singularity_report(
     """
     Js, least = space.with_rounding(chain, q[None])
     fixed = structure(chain, space.task, space.reference)
-    parts = _split_at_rank(Js[0], tolerance, float(least[0]), fixed.rank)
+    parts = subspaces(Js[0], tolerance)
+    parts = replace(parts, rank=min(parts.rank, int(np.sum(parts.sigmas > least[0])), fixed.rank))
     H = space.hessians(chain, q[None])[0]
     defect = fixed.rank - parts.rank
     T = np.einsum("ka,kij,ib->ajb", parts.left_kernel, H, parts.kernel)
@@ -148,13 +149,6 @@ def certify_reports(
         felt = np.linalg.norm(J.T @ report.lost_directions, axis=0)
         worst.add("max_lost_direction", "a lost direction", felt, scale, passed)
     return worst
-
-
-def _split_at_rank(J: Array, tolerance: float, least: float, most: int) -> Subspaces:
-    """Subspaces of J, with the rank limited to the structural rank and to singular values above rounding."""
-    parts = subspaces(J, tolerance)
-    rank = min(parts.rank, int(np.sum(parts.sigmas > least)), most)
-    return replace(parts, rank=rank)
 
 
 def _ordered(basis: Array, constant: Array, changes: Array, count: int) -> Array:
