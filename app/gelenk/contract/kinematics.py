@@ -56,8 +56,6 @@ RankTolerance = Annotated[
 CharacteristicLength = Annotated[float, Field(ge=1e-6, le=1e6)]
 
 Matrix = list[list[float]]
-Numbers = list[list[float]]
-"""One row of numbers per configuration."""
 
 
 class AboutChain(Answer):

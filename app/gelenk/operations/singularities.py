@@ -10,7 +10,7 @@ from gelenk.errors import TooLarge, counted
 from gelenk.ik.search.task import Task
 from gelenk.kinematics.judge.judge import MAX_SAMPLES
 from gelenk.kinematics.judge.words import JacobianCertificate, SingularityCertificate
-from gelenk.kinematics.singularity.distance import NearestSingularity, Search, can_lose, nearest_singularity
+from gelenk.kinematics.singularity.distance import NearestSingularity, can_lose, nearest_singularity
 from gelenk.kinematics.singularity.path import PathMinimum, places_along
 from gelenk.kinematics.singularity.report import SingularityReport, certify_reports, singularity_report
 from gelenk.kinematics.velocity.jacobian import jacobians, singular_values
@@ -113,11 +113,13 @@ def _content(
         "singularities": entries,
     }
     if call.nearest:
-        search = Search(call.search_radius, call.rank_tolerance, call.respect_limits)
-        found = [nearest_singularity(chain, q, space, search) for q in qs]
+        radius, tolerance, limited = call.search_radius, call.rank_tolerance, call.respect_limits
+        found = [
+            nearest_singularity(chain, q, space, radius=radius, tolerance=tolerance, respect_limits=limited) for q in qs
+        ]
         certified += _recomputed(robot, chain, [nearest.q for nearest in found if nearest is not None])
         for entry, q, nearest in zip(entries, qs, found, strict=True):
-            entry.update(_nearest(chain, space, search, q, nearest))
+            entry.update(_nearest(chain, space, call, q, nearest))
     if call.path:
         places = places_along(chain, qs, space, call.rank_tolerance, call.path_threshold)
         shown = sorted(sorted(places, key=lambda place: place.share)[:MAX_PLACES], key=lambda place: place.start)
@@ -152,11 +154,11 @@ def _recomputed(robot: RobotModel, chain: Chain, rows: list[Array]) -> Iterator[
 
 
 def _nearest(
-    chain: Chain, space: TaskSpace, search: Search, q: Array, nearest: NearestSingularity | None
+    chain: Chain, space: TaskSpace, call: SingularityRequest, q: Array, nearest: NearestSingularity | None
 ) -> dict[str, Any]:
     if nearest is None:
-        return {"nearest": None, "nearest_reason": _why_none(chain, space, search)}
-    report = singularity_report(chain, nearest.q, search.tolerance, space)
+        return {"nearest": None, "nearest_reason": _why_none(chain, space, call)}
+    report = singularity_report(chain, nearest.q, call.rank_tolerance, space)
     within = bool(((chain.lower <= nearest.q) & (nearest.q <= chain.upper)).all())
     return {
         "nearest": {
@@ -172,15 +174,15 @@ def _nearest(
     }
 
 
-def _why_none(chain: Chain, space: TaskSpace, search: Search) -> str:
+def _why_none(chain: Chain, space: TaskSpace, call: SingularityRequest) -> str:
     """Return why no singular configuration was found, and perhaps a smaller task that loses something."""
     rank = structure(chain, space.task, space.reference).rank
     if rank == 0:
         return "nothing can be lost: the tip has none of these directions at any configuration"
     if not can_lose(chain, space):
         return "nothing can be lost: of these directions the tip has the same at every configuration"
-    where = " within the joint limits" if search.respect_limits else ""
-    reason = f"no singular configuration was found within a radius of {search.radius:.6g}{where}"
+    where = " within the joint limits" if call.respect_limits else ""
+    reason = f"no singular configuration was found within a radius of {call.search_radius:.6g}{where}"
     if rank == len(space):
         return reason
     reason += (

@@ -109,7 +109,6 @@ class PinocchioDynamics:
     Not for a chain without joints, on which Pinocchio's algorithms crash.
 
     Args:
-        found: The mechanism.
         gravity: Gravity in the root's axes; shape (3,), [m/s²].
         load: A payload on the tip.
     """

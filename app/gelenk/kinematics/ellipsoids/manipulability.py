@@ -134,8 +134,6 @@ def manipulability(
     """Compute and certify velocity and force ellipsoids of a chain.
 
     Args:
-        robot: The robot.
-        chain: Base and tip.
         qs: Configurations in the chain's order; shape (N, n), [rad or m].
         task: The directions that count, in the axes of the reference.
         reference: Axes of all vectors: `local_world_aligned` (the base's) or `local` (the tip's).
@@ -190,7 +188,6 @@ def space_of(
     """Find the directions among some rows of J in which a chain moves at all, with angular rows scaled by a length.
 
     Args:
-        chain: Base and tip.
         rows: The rows that count.
         length: Factor of angular rows, [m].
         reference: Reference of the Jacobian.

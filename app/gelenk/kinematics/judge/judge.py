@@ -60,7 +60,6 @@ def certify_poses(
     """Compare poses with Pinocchio's.
 
     Args:
-        robot: The robot.
         chain: The chain in whose base the poses are expressed.
         qs: Configurations of the chain; shape (N, n), [rad or m].
         frames: Poses of one or more frames at these configurations, N each.
@@ -93,8 +92,6 @@ def certify_jacobians(
     """Compare geometric Jacobians (in the base frame, at the tip) with Pinocchio's, and ∂J/∂q through J̇.
 
     Args:
-        robot: The robot.
-        chain: The chain.
         qs: Configurations of the chain; shape (N, n), [rad or m].
         Js: Geometric Jacobians; shape (N, 6, n).
         hessians: ∂J/∂q of these; shape (N, 6, n, n).

@@ -49,8 +49,6 @@ def certify_motion(
     """Compare the tip's twist, acceleration, jerk and snap, in the reference that is sent, with Pinocchio's.
 
     Args:
-        robot: The robot.
-        chain: The chain.
         qs: Configurations of the chain; shape (N, n), [rad or m].
         rates: q̇, q̈, q⃛, q⁗, the first one to four of them; shape (K, N, n), [rad/sᵏ or m/sᵏ].
         derivatives: (ṗ; ω), (p̈; ω̇), … in the reference, K of them; shape (N, 6) each.

@@ -82,7 +82,6 @@ def singularity_report(
     as it moves away; the others it lacks or has everywhere.
 
     Args:
-        chain: Base and tip.
         q: Configuration; shape (n,), [rad or m].
         tolerance: A singular value counts if it exceeds this times the largest.
         space: The rows of the Jacobian that count.
@@ -123,8 +122,6 @@ def certify_reports(
     Both come from our own Jacobians, and from the chain's structure at other configurations.
 
     Args:
-        robot: The robot.
-        chain: Base and tip.
         space: The rows of the Jacobian that count.
         qs: Configurations; shape (N, n), [rad or m].
         reports: One report per configuration.
