@@ -22,12 +22,7 @@ from gelenk.ik.search.words import DIRECTIONS, Direction
 from gelenk.kinematics.judge.words import EllipsoidCertificate, Reference
 from gelenk.kinematics.velocity.jacobian import jacobians
 from gelenk.kinematics.velocity.subspaces import rounding
-from gelenk.kinematics.velocity.task_space import (
-    STRUCTURAL_TOLERANCE,
-    aligned_basis,
-    jacobians_with_terms,
-    structure,
-)
+from gelenk.kinematics.velocity.task_space import STRUCTURAL_TOLERANCE, aligned_basis, jacobians_with_terms, structure
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel

@@ -71,10 +71,7 @@ class SingularityReport:
 
 
 def singularity_report(
-    chain: Chain,
-    q: Array,
-    tolerance: float = RANK_TOLERANCE,
-    space: TaskSpace = FULL_SPACE,
+    chain: Chain, q: Array, tolerance: float = RANK_TOLERANCE, space: TaskSpace = FULL_SPACE
 ) -> SingularityReport:
     """Report rank, lost directions and internal motions at one configuration.
 
