@@ -14,7 +14,7 @@ from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import Direction
 from gelenk.kinematics.judge.words import Reference
 from gelenk.kinematics.simd.kernels import chain_jacobians
-from gelenk.kinematics.singularity.distance import NearestSingularity, Search, can_lose, nearest_singularity
+from gelenk.kinematics.singularity.distance import NearestSingularity, can_lose, nearest_singularity
 from gelenk.kinematics.singularity.path import PathMinimum, places_along
 from gelenk.kinematics.singularity.report import SingularityReport, certify_reports, singularity_report
 from gelenk.kinematics.velocity.jacobian import jacobians
@@ -72,7 +72,7 @@ def smallest(chain: Chain, qs: Array, space: TaskSpace) -> Array:
 def nearest(
     chain: Chain, q: Array, space: TaskSpace = FULL_SPACE, *, radius: float = np.pi, respect_limits: bool = False
 ) -> NearestSingularity | None:
-    return nearest_singularity(chain, q, space, Search(radius, 1e-10, respect_limits))
+    return nearest_singularity(chain, q, space, radius=radius, tolerance=1e-10, respect_limits=respect_limits)
 
 
 def changed(q: Array, **values: float) -> Array:
@@ -408,7 +408,7 @@ def test_rows_that_vanish_together_have_no_rank(
     step = smallest(chain, (np.array(q) + 1e-5 * found.exit)[None], space)[0]
     assert step == pytest.approx(1e-5 * found.exit_rate, rel=1e-3)
     near = np.array(q) + 0.4 * np.random.default_rng(0).normal(size=len(q))
-    reached = nearest_singularity(chain, near, space, Search(np.pi, tolerance, False))
+    reached = nearest_singularity(chain, near, space, radius=np.pi, tolerance=tolerance, respect_limits=False)
     assert reached is not None
     assert reached.distance <= np.linalg.norm(near - q) + 1e-9
 

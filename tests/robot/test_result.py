@@ -40,6 +40,30 @@ def test_the_docstring_describes_the_class_and_its_fields() -> None:
     assert (span["additionalProperties"], span["required"]) == (False, ["joint", "lower"])
 
 
+@dataclass(frozen=True, slots=True)
+class LimitedSpan(Span):
+    """A stretch with a limit.
+
+    Attributes:
+        lower: Where it begins, at the limit.
+        limit: Largest speed in it, [rad/s].
+    """
+
+    limit: float | None = None
+
+
+def test_what_a_base_describes_holds_where_the_class_says_nothing_else() -> None:
+    span = TypeAdapter(list[LimitedSpan]).json_schema()["$defs"]["LimitedSpan"]
+    described = {name: field["description"] for name, field in span["properties"].items()}
+    assert span["description"] == "A stretch with a limit."
+    assert described == {
+        "joint": "Name of the joint.",
+        "lower": "Where it begins, at the limit.",
+        "upper": "Where it ends; null if it does not.",
+        "limit": "Largest speed in it, [rad/s].",
+    }
+
+
 def test_it_is_written_as_it_is_and_read_back() -> None:
     span = Span("elbow", 0.5)
     written = orjson.dumps(span)

@@ -43,8 +43,6 @@ Configurations = Annotated[
 
 
 Matrix = list[list[float]]
-Numbers = list[list[float]]
-"""One row of numbers per configuration."""
 
 
 class AboutChain(Answer):

@@ -233,12 +233,10 @@ class ManipulabilityAnswer(AboutChain):
     characteristic_length: float | None = Field(description="Of the combined part, [m].")
     spaces: list[SpaceInfo] = Field(description="For each part that exists.")
     joints_without_velocity_limit: list[str] | None = Field(
-        default=None,
-        description="If polytopes were requested: joints without a velocity limit; then there is none.",
+        default=None, description="If polytopes were requested: joints without a velocity limit; then there is none."
     )
     joints_without_effort_limit: list[str] | None = Field(
-        default=None,
-        description="If polytopes were requested: joints without an effort limit; then there is none.",
+        default=None, description="If polytopes were requested: joints without an effort limit; then there is none."
     )
     results: list[ManipulabilityInfo]
     certificate: EllipsoidCertificate

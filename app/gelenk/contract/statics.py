@@ -109,8 +109,7 @@ class StaticsOptions(WrenchOptions):
     )
     subspaces: bool = Field(default=False, description="Whether to compute the four subspaces of the Jacobian.")
     rank_tolerance: Fraction = Field(
-        default=1e-10,
-        description="A singular value counts where it exceeds this times the largest; no unit.",
+        default=1e-10, description="A singular value counts where it exceeds this times the largest; no unit."
     )
     membership_tolerance: Fraction = Field(
         default=1e-9,

@@ -1,6 +1,7 @@
 """Warm-up: compile every kernel, or load it from the cache, before the first request needs it."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -51,11 +52,16 @@ def basics() -> None:
     chain_measures(chain.flat, qs, np.arange(3))
 
 
+def _arm(rows: Sequence[tuple[float, float, float, float]]) -> tuple[RobotModel, Chain]:
+    """Example robot from a DH table of revolute joints, and its chain."""
+    joints = tuple(DhJoint(f"joint_{i}", "revolute", *row) for i, row in enumerate(rows, start=1))
+    robot = RobotModel(describe_dh("warm-up", DhTable("standard", joints)))
+    return robot, robot.chain(None, None)
+
+
 def _small_arm() -> tuple[RobotModel, Chain, Array]:
     """Example robot with three joints, its chain, and a configuration; shape (1, 3), [rad]."""
-    rows = [DhJoint(f"joint_{i}", "revolute", 0.3, 1.0, 0.1, 0.5) for i in (1, 2, 3)]
-    robot = RobotModel(describe_dh("warm-up", DhTable("standard", tuple(rows))))
-    chain = robot.chain(None, None)
+    robot, chain = _arm([(0.3, 1.0, 0.1, 0.5)] * 3)
     return robot, chain, configurations(chain, [[0.1, 0.2, 0.3]])
 
 
@@ -68,25 +74,19 @@ def _searches() -> None:
     search(problem, max_iterations=100)
     all_branches(problem, 0)
     start_of(problem, 0, 1)
-    continuation(_six_joints().chain(None, None))
+    continuation(_six_joints()[1])
 
 
-def _six_joints() -> RobotModel:
+def _six_joints() -> tuple[RobotModel, Chain]:
     """Example arm that needs continuation: three parallel axes, the others skew."""
-    rows = [DhJoint(f"joint_{i}", "revolute", 0.3, 1.0 if i > 2 else 0.0, 0.1, 0.5) for i in range(1, 7)]
-    return RobotModel(describe_dh("warm-up", DhTable("standard", tuple(rows))))
+    return _arm([(0.3, 1.0 if i > 2 else 0.0, 0.1, 0.5) for i in range(1, 7)])
 
 
 def _closed_forms() -> None:
     """Solve an arm with a free elbow, which uses the kernels of every closed form."""
     alphas = (-0.5, 0.5, 0.5, -0.5, -0.5, 0.5, 0.0)
     lengths = (0.3, 0.0, 0.3, 0.0, 0.3, 0.0, 0.3)
-    rows = [
-        DhJoint(f"joint_{i}", "revolute", 0.0, math.pi * alpha, d, 0.0)
-        for i, (alpha, d) in enumerate(zip(alphas, lengths, strict=True))
-    ]
-    robot = RobotModel(describe_dh("warm-up", DhTable("standard", tuple(rows))))
-    chain = robot.chain(None, None)
+    robot, chain = _arm([(0.0, math.pi * alpha, d, 0.0) for alpha, d in zip(alphas, lengths, strict=True)])
     qs = np.full((1, 7), 0.4)
     poses = forward_kinematics(robot, chain, qs).poses
     for every in (False, True):
@@ -99,8 +99,7 @@ def _answers() -> None:
     poses, start = forward_kinematics(robot, chain, qs).poses, mid_range(chain)[None]
     for options in (Options(), Options(every=True), Options(trace=True, max_iterations=1)):
         inverse_kinematics(robot, chain, poses, start, options)
-    robot = _six_joints()
-    chain, qs = robot.chain(None, None), np.full((1, 6), 0.4)
+    (robot, chain), qs = _six_joints(), np.full((1, 6), 0.4)
     inverse_kinematics(robot, chain, forward_kinematics(robot, chain, qs).poses, qs, Options(every=True))
 
 

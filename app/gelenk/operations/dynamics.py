@@ -7,7 +7,6 @@ import numpy as np
 from gelenk.contract.dynamics import DynamicsRequest
 from gelenk.errors import InvalidField
 from gelenk.ik.search.words import DIRECTIONS
-from gelenk.kinematics.dynamics.bodies import Load
 from gelenk.kinematics.dynamics.dynamics import Dynamics, dynamics
 from gelenk.kinematics.dynamics.lagrangian import State
 from gelenk.kinematics.dynamics.mechanism import mechanism
@@ -63,10 +62,15 @@ def run(loaded: LoadedRobot, call: DynamicsRequest, limits: Limits) -> Outcome:
         torques=_rows(chain, call.torques, "torques", len(qs)),
     )
     array = _array(call, found)
-    return Outcome(
-        lambda: _content(loaded, chain, call, state, gravity, load, found),
-        None if array is None else lambda: (array, {}),
-    )
+
+    def content() -> dict[str, Any]:
+        notes = weight_notes(loaded, mechanism(robot, chain), load)
+        if not found.is_definite:
+            notes.append("the mass matrix is singular: some motion of the joints meets no inertia")
+        about = {**head(chain), "root_frame": robot.description.root, "gravity": gravity}
+        return about | _numbers(robot, chain, call, state, found) | {"notes": notes, "certificate": found.certificate}
+
+    return Outcome(content, None if array is None else lambda: (array, {}))
 
 
 def is_heavy(call: DynamicsRequest) -> bool:
@@ -134,24 +138,8 @@ def _array(call: DynamicsRequest, found: Dynamics) -> Array | None:
     return np.asarray(getattr(found, _FIELDS[call.terms[0]]))
 
 
-def _content(
-    loaded: LoadedRobot,
-    chain: Chain,
-    call: DynamicsRequest,
-    state: State,
-    gravity: Array,
-    load: Load | None,
-    found: Dynamics,
-) -> dict[str, Any]:
-    robot = loaded.robot
-    notes = weight_notes(loaded, mechanism(robot, chain), load)
-    if not found.is_definite:
-        notes.append("the mass matrix is singular: some motion of the joints meets no inertia")
-    answer: dict[str, Any] = {
-        **head(chain),
-        "root_frame": robot.description.root,
-        "gravity": gravity,
-    }
+def _numbers(robot: RobotModel, chain: Chain, call: DynamicsRequest, state: State, found: Dynamics) -> dict[str, Any]:
+    answer: dict[str, Any] = {}
     for field in (*_FIELDS.values(), "kinetic_energies", "potential_energies"):
         value = getattr(found, field)
         if value is not None:
@@ -163,4 +151,4 @@ def _content(
         answer["overloaded_joints"] = overloaded_joints(robot, chain, found.torques)
     if found.accelerations is not None:
         answer["joint_accelerations"] = found.accelerations
-    return {**answer, "notes": notes, "certificate": found.certificate}
+    return answer

@@ -25,12 +25,7 @@ def run(loaded: LoadedRobot, call: JacobianRequest, limits: Limits) -> Outcome:
     check_numbers(len(qs) * (12 + 6 * n * (1 + len(call.derivatives) + n * derivatives)), limits)
     velocities = _velocities(chain, call, len(qs))
     result = jacobians(
-        loaded.robot,
-        chain,
-        qs,
-        reference=call.reference,
-        representation=call.representation,
-        derivatives=derivatives,
+        loaded.robot, chain, qs, reference=call.reference, representation=call.representation, derivatives=derivatives
     )
 
     def content() -> dict[str, Any]:

@@ -9,7 +9,7 @@ from gelenk.contract.common import Vectors
 from gelenk.contract.dynamics import DynamicsRequest
 from gelenk.contract.statics import PayloadInfo, StaticsRequest, WrenchOptions, WrenchRequest
 from gelenk.errors import InvalidField, UnknownFrame, counted, listed
-from gelenk.kinematics.dynamics.bodies import Load
+from gelenk.kinematics.dynamics.bodies import Load, tensor
 from gelenk.kinematics.dynamics.mechanism import STANDARD_GRAVITY, ChainMechanism, known_mechanism, mechanism
 from gelenk.kinematics.force.wrenches import WrenchFrame
 from gelenk.operations.chains import check_count
@@ -69,35 +69,24 @@ def gravity_of(value: bool | Sequence[float]) -> Array | None:
 
 
 def load_of(payload: PayloadInfo | None) -> Load | None:
-    """Return the payload in the core's form.
-
-    Raises:
-        InvalidField: No body has this inertia.
-    """
+    """Return the payload in the core's form; raises InvalidField if no body has this inertia."""
     if payload is None:
         return None
-    inertia = np.zeros((3, 3))
-    if payload.inertia is not None:
-        ixx, ixy, ixz, iyy, iyz, izz = payload.inertia
-        inertia = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
-        moments = np.linalg.eigvalsh(inertia)
-        slack = 1e-9 * np.abs(moments).max()
-        # Each moment is the sum of two of the positive integrals of x², y² and z².
-        if moments[0] + moments[1] < moments[2] - slack or moments[0] < -slack:
-            raise InvalidField(
-                "payload",
-                "no body has this inertia: its principal moments must not be negative, and none larger than the sum "
-                "of the two others",
-            )
+    inertia = tensor(payload.inertia or np.zeros(6))
+    moments = np.linalg.eigvalsh(inertia)
+    slack = 1e-9 * np.abs(moments).max()
+    # Each moment is the sum of two of the positive integrals of x², y² and z².
+    if moments[0] + moments[1] < moments[2] - slack or moments[0] < -slack:
+        raise InvalidField(
+            "payload",
+            "no body has this inertia: its principal moments must not be negative, and none larger than the sum "
+            "of the two others",
+        )
     return Load(payload.mass, np.array(payload.center_of_mass, dtype=float), inertia)
 
 
 def wrench_frame(call: WrenchRequest) -> WrenchFrame:
-    """Return the axes and the point of the wrenches.
-
-    Raises:
-        InvalidField: Fields contradict each other.
-    """
+    """Return the axes and the point of the wrenches; raises InvalidField if fields contradict each other."""
     frame = WrenchFrame(call.reference, call.expressed_in, call.point, call.point_frame)
     frame.check()
     return frame

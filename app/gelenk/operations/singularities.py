@@ -8,13 +8,12 @@ import numpy as np
 from gelenk.contract.singularities import MAX_NEAREST, MAX_PATH, MAX_PLACES, MAX_REPORTS, SingularityRequest
 from gelenk.errors import TooLarge, counted
 from gelenk.ik.search.task import Task
-from gelenk.kinematics.judge.judge import MAX_SAMPLES, certify_jacobians
+from gelenk.kinematics.judge.judge import MAX_SAMPLES
 from gelenk.kinematics.judge.words import JacobianCertificate, SingularityCertificate
-from gelenk.kinematics.simd.kernels import chain_jacobians
-from gelenk.kinematics.singularity.distance import NearestSingularity, Search, can_lose, nearest_singularity
+from gelenk.kinematics.singularity.distance import NearestSingularity, can_lose, nearest_singularity
 from gelenk.kinematics.singularity.path import PathMinimum, places_along
 from gelenk.kinematics.singularity.report import SingularityReport, certify_reports, singularity_report
-from gelenk.kinematics.velocity.jacobian import singular_values
+from gelenk.kinematics.velocity.jacobian import jacobians, singular_values
 from gelenk.kinematics.velocity.task_space import TaskSpace, slides, structure
 from gelenk.operations.chains import chain_and_positions, check_numbers, head, task_of
 from gelenk.operations.outcome import Limits, Outcome
@@ -34,7 +33,7 @@ def run(loaded: LoadedRobot, call: SingularityRequest, limits: Limits) -> Outcom
     chain, qs = chain_and_positions(loaded.robot, call)
     space = TaskSpace(task_of(call.task), call.characteristic_length, call.reference)
     _check_size(call, len(qs), len(chain), limits)
-    certificate = _certificate(loaded.robot, chain, qs)
+    certificate = jacobians(loaded.robot, chain, qs).certificate
     fits = not (call.nearest or call.path)
     return Outcome(
         lambda: _content(loaded.robot, chain, call, qs, space, certificate),
@@ -67,15 +66,14 @@ def singularity_info(chain: Chain, report: SingularityReport) -> dict[str, Any]:
         ],
         "dependent_joints": _names(chain, report.joints),
         "kinds": report.kinds,
-        "exit": _exit(chain, report),
+        "exit": None
+        if report.exit is None
+        else {
+            "joint": chain.joint_names[int(np.argmax(np.abs(report.exit)))],
+            "direction": report.exit.tolist(),
+            "rate": report.exit_rate,
+        },
     }
-
-
-def _exit(chain: Chain, report: SingularityReport) -> dict[str, Any] | None:
-    if report.exit is None:
-        return None
-    joint = chain.joint_names[int(np.argmax(np.abs(report.exit)))]
-    return {"joint": joint, "direction": report.exit.tolist(), "rate": report.exit_rate}
 
 
 def _names(chain: Chain, joints: tuple[int, ...]) -> list[str]:
@@ -91,10 +89,6 @@ def _check_size(call: SingularityRequest, count: int, joints: int, limits: Limit
     if call.nearest and count > most:
         raise TooLarge(f"configurations of {counted(joints, 'joint')} whose nearest singularity is wanted", count, most)
     check_numbers(count * (_ENTRY + joints * (joints + 4)) * (1 + call.path), limits)
-
-
-def _certificate(robot: RobotModel, chain: Chain, qs: Array) -> JacobianCertificate:
-    return certify_jacobians(robot, chain, qs, chain_jacobians(chain.flat, qs)[2])
 
 
 def _content(
@@ -119,11 +113,13 @@ def _content(
         "singularities": entries,
     }
     if call.nearest:
-        search = Search(call.search_radius, call.rank_tolerance, call.respect_limits)
-        found = [nearest_singularity(chain, q, space, search) for q in qs]
+        radius, tolerance, limited = call.search_radius, call.rank_tolerance, call.respect_limits
+        found = [
+            nearest_singularity(chain, q, space, radius=radius, tolerance=tolerance, respect_limits=limited) for q in qs
+        ]
         certified += _recomputed(robot, chain, [nearest.q for nearest in found if nearest is not None])
         for entry, q, nearest in zip(entries, qs, found, strict=True):
-            entry.update(_nearest(chain, space, search, q, nearest))
+            entry.update(_nearest(chain, space, call, q, nearest))
     if call.path:
         places = places_along(chain, qs, space, call.rank_tolerance, call.path_threshold)
         shown = sorted(sorted(places, key=lambda place: place.share)[:MAX_PLACES], key=lambda place: place.start)
@@ -132,7 +128,7 @@ def _content(
         certified += _recomputed(robot, chain, sample)
         products.append(certify_reports(robot, chain, space, np.array(sample), reports))
         answer["path"] = {
-            "places": list(_places(chain, len(qs), shown, reports)),
+            "places": [_place(chain, len(qs), *each) for each in zip(shown, reports, strict=True)],
             "omitted": len(places) - len(shown),
         }
     answer["certificate"] = SingularityCertificate(
@@ -154,15 +150,15 @@ def _units_are_mixed(chain: Chain, space: TaskSpace) -> bool:
 def _recomputed(robot: RobotModel, chain: Chain, rows: list[Array]) -> Iterator[JacobianCertificate]:
     """Yield certificates of further configurations, so few each that all are recomputed."""
     for first in range(0, len(rows), MAX_SAMPLES):
-        yield _certificate(robot, chain, np.array(rows[first : first + MAX_SAMPLES]))
+        yield jacobians(robot, chain, np.array(rows[first : first + MAX_SAMPLES])).certificate
 
 
 def _nearest(
-    chain: Chain, space: TaskSpace, search: Search, q: Array, nearest: NearestSingularity | None
+    chain: Chain, space: TaskSpace, call: SingularityRequest, q: Array, nearest: NearestSingularity | None
 ) -> dict[str, Any]:
     if nearest is None:
-        return {"nearest": None, "nearest_reason": _why_none(chain, space, search)}
-    report = singularity_report(chain, nearest.q, search.tolerance, space)
+        return {"nearest": None, "nearest_reason": _why_none(chain, space, call)}
+    report = singularity_report(chain, nearest.q, call.rank_tolerance, space)
     within = bool(((chain.lower <= nearest.q) & (nearest.q <= chain.upper)).all())
     return {
         "nearest": {
@@ -178,15 +174,15 @@ def _nearest(
     }
 
 
-def _why_none(chain: Chain, space: TaskSpace, search: Search) -> str:
+def _why_none(chain: Chain, space: TaskSpace, call: SingularityRequest) -> str:
     """Return why no singular configuration was found, and perhaps a smaller task that loses something."""
     rank = structure(chain, space.task, space.reference).rank
     if rank == 0:
         return "nothing can be lost: the tip has none of these directions at any configuration"
     if not can_lose(chain, space):
         return "nothing can be lost: of these directions the tip has the same at every configuration"
-    where = " within the joint limits" if search.respect_limits else ""
-    reason = f"no singular configuration was found within a radius of {search.radius:.6g}{where}"
+    where = " within the joint limits" if call.respect_limits else ""
+    reason = f"no singular configuration was found within a radius of {call.search_radius:.6g}{where}"
     if rank == len(space):
         return reason
     reason += (
@@ -205,15 +201,12 @@ def _positions_that_move(chain: Chain, space: TaskSpace) -> str | None:
     return " ".join(moving)
 
 
-def _places(
-    chain: Chain, count: int, places: list[PathMinimum], reports: list[SingularityReport]
-) -> Iterator[dict[str, Any]]:
-    for place, report in zip(places, reports, strict=True):
-        segment = min(int(place.start), max(count - 2, 0))
-        yield {
-            "segment": segment,
-            "fraction": place.start - segment,
-            "end": place.end,
-            "joint_positions": place.q.tolist(),
-            "report": singularity_info(chain, report),
-        }
+def _place(chain: Chain, count: int, place: PathMinimum, report: SingularityReport) -> dict[str, Any]:
+    segment = min(int(place.start), max(count - 2, 0))
+    return {
+        "segment": segment,
+        "fraction": place.start - segment,
+        "end": place.end,
+        "joint_positions": place.q.tolist(),
+        "report": singularity_info(chain, report),
+    }

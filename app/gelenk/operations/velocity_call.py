@@ -61,11 +61,7 @@ def _split(chain: Chain, array: Array) -> tuple[Array, Array]:
 
 
 def asked_field(call: VelocityRequest, rates: int) -> str | None:
-    """Return the field to invert; None if the tip's motion is requested.
-
-    Raises:
-        InvalidField: The given fields do not make one question.
-    """
+    """Return the field to invert, None if the tip's motion is requested; raises InvalidField if neither is clear."""
     given = [field for field in TIP if getattr(call, field) is not None]
     if not given:
         if rates == 0:
@@ -148,11 +144,7 @@ def targets_of_call(call: VelocityRequest, asked: str, space: TaskSpace, count: 
 
 
 def null_motion_of_call(chain: Chain, call: VelocityRequest, qs: Array, asked: str, space: TaskSpace) -> Array | None:
-    """Return the null-space motion ξ, shape (N, n); None if not requested.
-
-    Raises:
-        InvalidField: It has the wrong order, or does not fit the configurations.
-    """
+    """Return the null-space motion ξ, shape (N, n), None if not requested; raises InvalidField if it does not fit."""
     wanted = call.null_space
     if wanted is None:
         return None

@@ -81,9 +81,8 @@ def _locked_joint(description: Description, chain: Chain, joint: Joint) -> Joint
     if drive is not None and drive.offset != 0.0:
         shift = np.array(joint.axis) * drive.offset
         slides = joint.type == "prismatic"
-        motion = (
-            transform(shift, np.eye(3)) if slides else transform(np.zeros(3), rotations_from_vectors(shift[None])[0])
-        )
+        turn = np.eye(3) if slides else rotations_from_vectors(shift[None])[0]
+        motion = transform(shift if slides else np.zeros(3), turn)
         origin = origin_of(placement(origin.xyz, origin.rpy) @ motion)
     return replace(joint, type="fixed", origin=origin, mimic=None)
 
@@ -93,7 +92,6 @@ def bodies(description: Description, chain: Chain) -> tuple[Body, ...]:
 
     Args:
         description: The robot, with its other joints `locked`.
-        chain: The chain.
     """
     parts: dict[str, list[tuple[Link, Array]]] = {j.child: [] for j in description.joints if j.type in MOVABLE}
     for link in description.links:
@@ -139,9 +137,12 @@ def _joined(description: Description, chain: Chain, first: str, links: Sequence[
 def _weight(inertial: Inertial, T: Array) -> tuple[float, Array, Array]:
     """Mass, centre of mass and inertia about it, transformed by T."""
     T = T @ placement(inertial.origin.xyz, inertial.origin.rpy)
-    ixx, ixy, ixz, iyy, iyz, izz = inertial.inertia
-    tensor = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
-    return inertial.mass, T[:3, 3], T[:3, :3] @ tensor @ T[:3, :3].T
+    return inertial.mass, T[:3, 3], T[:3, :3] @ tensor(inertial.inertia) @ T[:3, :3].T
+
+
+def tensor(entries: Sequence[float] | Array) -> Array:
+    """Return the matrix of an inertia from ixx, ixy, ixz, iyy, iyz, izz; shape (3, 3), [kg m²]."""
+    return np.asarray(entries, dtype=float)[[[0, 1, 2], [1, 3, 4], [2, 4, 5]]]
 
 
 def _columns(part: Chain, chain: Chain) -> Indices:
@@ -217,7 +218,6 @@ def motions(carried: Sequence[Body], qs: Array, speeds: Array | None = None) -> 
     """Compute positions, inertias and Jacobians of bodies.
 
     Args:
-        carried: The bodies.
         qs: Configurations of the chain; shape (N, n), [rad or m].
         speeds: q̇, if rates of the Jacobians are requested; shape (N, n), [rad/s or m/s].
     """
@@ -226,7 +226,8 @@ def motions(carried: Sequence[Body], qs: Array, speeds: Array | None = None) -> 
     positions, rotations = np.empty((*shape[:2], 3)), np.empty((*shape[:2], 3, 3))
     for b, body in enumerate(carried):
         part = np.ascontiguousarray(qs[:, body.columns])
-        positions[:, b], rotations[:, b], Js[:, b, :, body.columns] = _placed(body, part)
+        positions[:, b], rotations[:, b], moved = chain_jacobians(body.flat, part)
+        Js[:, b, :, body.columns] = moved.transpose(2, 0, 1)
         if speeds is not None:
             Hs = chain_hessians(body.flat, part)
             along = Hs @ speeds[:, None, body.columns, None]
@@ -245,12 +246,6 @@ def motions(carried: Sequence[Body], qs: Array, speeds: Array | None = None) -> 
     inertias = rotations @ tensors @ rotations.swapaxes(2, 3)
     still = speeds if speeds is not None else np.zeros_like(qs)
     return Motions(masses, positions + levers, inertias, linear, angular, still, linear_rates, angular_rates)
-
-
-def _placed(body: Body, part: Array) -> tuple[Array, Array, Array]:
-    """Position, rotation and Jacobian of a body's frame; the Jacobian's columns come first, for indexing."""
-    positions, rotations, Js = chain_jacobians(body.flat, part)
-    return positions, rotations, Js.transpose(2, 0, 1)
 
 
 def _skew(vectors: Array) -> Array:

@@ -67,7 +67,6 @@ def dynamics(
 
     Args:
         robot: The robot; joints off the chain are locked at zero.
-        chain: Base and tip.
         state: Configurations, velocities and the torques of the wrench at the tip.
         terms: The requested terms.
         gravity: Gravity in the axes of the robot's root; shape (3,), [m/s²].

@@ -48,8 +48,6 @@ class Lagrangian:
     """The equations of motion by sums over bodies, which check other results.
 
     Args:
-        moving: The bodies.
-        state: The states of the chain.
         gravity: Gravity in the root's axes; shape (3,), [m/s²].
     """
 

@@ -109,7 +109,6 @@ class PinocchioDynamics:
     Not for a chain without joints, on which Pinocchio's algorithms crash.
 
     Args:
-        found: The mechanism.
         gravity: Gravity in the root's axes; shape (3,), [m/s²].
         load: A payload on the tip.
     """
@@ -183,7 +182,9 @@ class PinocchioDynamics:
             twist += sign * data.oMi[joint].act(data.v[joint])
             # The surroundings exert the opposite force on the robot.
             forces[joint] -= sign * data.oMi[joint].actInv(force)
-        torques = pin.computeStaticTorque(model, data, full_q, _force_vector(forces))
+        vector = pin.StdVec_Force()
+        vector.extend(forces)
+        torques = pin.computeStaticTorque(model, data, full_q, vector)
         return self._torques(torques), float(force.dot(twist))
 
     @property
@@ -198,10 +199,3 @@ class PinocchioDynamics:
 
     def _reduced(self, full: Array) -> Array:
         return np.asarray(self._matrix.T @ full @ self._matrix)
-
-
-def _force_vector(forces: Sequence[pin.Force]) -> pin.StdVec_Force:
-    vector = pin.StdVec_Force()
-    for force in forces:
-        vector.append(force)
-    return vector

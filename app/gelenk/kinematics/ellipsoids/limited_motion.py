@@ -1,5 +1,6 @@
 """Largest velocities and forces of the tip with every joint within its limits, per configuration and direction."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +13,6 @@ from gelenk.kinematics.ellipsoids.polytope import (
     largest_forces,
     largest_velocities,
     largest_velocity_components,
-    subsets,
     velocity_polygon,
 )
 from gelenk.robot.arrays import Array, Flags
@@ -72,7 +72,6 @@ def limited_motion(ellipsoids: Ellipsoids, Js: Array, bounds: JointBounds, direc
     Args:
         ellipsoids: Ellipsoids of translation or of rotation.
         Js: The Jacobians of these ellipsoids; shape (N, 6, n).
-        bounds: The limits.
         directions: Unit vectors in the axes of the Jacobians; shape (D, 3). Numbers for directions outside the task are
             meaningless.
 
@@ -80,7 +79,7 @@ def limited_motion(ellipsoids: Ellipsoids, Js: Array, bounds: JointBounds, direc
         TooLarge: More sets of joints than `MAX_SUBSETS`.
     """
     space = ellipsoids.space
-    work = len(Js) * len(directions) * subsets(Js.shape[2], min(3, space.dimension))
+    work = len(Js) * len(directions) * math.comb(Js.shape[2], min(3, space.dimension))
     if work > MAX_SUBSETS:
         raise TooLarge("sets of joints, times directions and configurations", work, MAX_SUBSETS)
     along = directions[:, [row % 3 for row in space.rows]]
@@ -98,19 +97,20 @@ def _at(
     """One configuration; the columns of `range_` span range(J), those of `plane` the plane of all motion."""
     reduced, shares = range_.T @ J, along @ range_
     moves = inside & (np.linalg.norm(along - shares @ range_.T, axis=1) <= _WITHIN)
-    # In a lost direction only rounding is left, which would otherwise give the polygon a false width.
-    flat = None if plane is None else plane.T @ range_ @ reduced
+    velocities = forces = velocity_vertices = force_vertices = None
     has_velocity, has_effort = not np.isnan(bounds.velocity).any(), not np.isnan(bounds.effort).any()
-    return LimitedMotion(
-        _velocities(reduced, bounds.velocity, shares, moves) if has_velocity else None,
-        velocity_polygon(flat, bounds.velocity) @ plane.T
-        if has_velocity and plane is not None and flat is not None
-        else None,
-        _forces(reduced, bounds.effort, shares, moves) if has_effort else None,
-        force_polygon(flat, bounds.effort) @ plane.T
-        if has_effort and plane is not None and flat is not None and len(reduced) == 2
-        else None,
-    )
+    if has_velocity:
+        velocities = _velocities(reduced, bounds.velocity, shares, moves)
+    if has_effort:
+        forces = _forces(reduced, bounds.effort, shares, moves)
+    if plane is not None:
+        # In a lost direction only rounding is left, which would otherwise give the polygon a false width.
+        flat = plane.T @ range_ @ reduced
+        if has_velocity:
+            velocity_vertices = velocity_polygon(flat, bounds.velocity) @ plane.T
+        if has_effort and len(reduced) == 2:
+            force_vertices = force_polygon(flat, bounds.effort) @ plane.T
+    return LimitedMotion(velocities, velocity_vertices, forces, force_vertices)
 
 
 def _velocities(J: Array, limits: Array, shares: Array, moves: Flags) -> Array:

@@ -19,17 +19,10 @@ import numpy as np
 from gelenk.errors import CertificationFailed, InvalidField
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import DIRECTIONS, Direction
-from gelenk.kinematics.judge.judge import certify_jacobians
-from gelenk.kinematics.judge.words import EllipsoidCertificate, JacobianCertificate, Reference
-from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
+from gelenk.kinematics.judge.words import EllipsoidCertificate, Reference
+from gelenk.kinematics.velocity.jacobian import jacobians
 from gelenk.kinematics.velocity.subspaces import rounding
-from gelenk.kinematics.velocity.task_space import (
-    STRUCTURAL_TOLERANCE,
-    aligned_basis,
-    hessians_in_reference,
-    jacobians_with_terms,
-    structure,
-)
+from gelenk.kinematics.velocity.task_space import STRUCTURAL_TOLERANCE, aligned_basis, jacobians_with_terms, structure
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
@@ -136,8 +129,6 @@ def manipulability(
     """Compute and certify velocity and force ellipsoids of a chain.
 
     Args:
-        robot: The robot.
-        chain: Base and tip.
         qs: Configurations in the chain's order; shape (N, n), [rad or m].
         task: The directions that count, in the axes of the reference.
         reference: Axes of all vectors: `local_world_aligned` (the base's) or `local` (the tip's).
@@ -150,9 +141,8 @@ def manipulability(
         CertificationFailed: Pinocchio's Jacobians differ, or the ellipsoids do not match the Jacobians.
     """
     rows = task_rows(task)
-    Js, terms = jacobians_with_terms(chain, qs, reference)
-    certified = _certified(robot, chain, qs, Js, reference, derivatives=gradient)
-    Hs = hessians_in_reference(chain, qs, reference) if gradient else None
+    found = jacobians(robot, chain, qs, reference=reference, derivatives=gradient)
+    _, terms = jacobians_with_terms(chain, qs, reference)
     wanted: list[tuple[Part, tuple[int, ...], float]] = [
         ("translation", tuple(row for row in rows if row < 3), 1.0),
         ("rotation", tuple(row for row in rows if row >= 3), 1.0),
@@ -165,19 +155,11 @@ def manipulability(
         if some:
             space = space_of(chain, some, length, reference, components=6 if part == "combined" else 3)
             stretched = terms * _stretches(some, length).max()
-            parts[part], error = _ellipsoids(space, Js, Hs, length, stretched, rank_tolerance)
+            parts[part], error = _ellipsoids(space, found.values, found.hessians, length, stretched, rank_tolerance)
             worst = max(worst, error)
-    return Manipulability(parts, Js, EllipsoidCertificate(**asdict(certified), max_ellipsoid_error=worst))
-
-
-def _certified(
-    robot: RobotModel, chain: Chain, qs: Array, values: Array, reference: Reference, *, derivatives: bool
-) -> JacobianCertificate:
-    """Certify the geometric Jacobians and their derivatives, and with them the Jacobians in the tip's axes."""
-    Hs = chain_hessians(chain.flat, qs) if derivatives else None
-    if reference == "local_world_aligned":
-        return certify_jacobians(robot, chain, qs, values, Hs)
-    return certify_jacobians(robot, chain, qs, chain_jacobians(chain.flat, qs)[2], Hs, reference, values)
+    return Manipulability(
+        parts, found.values, EllipsoidCertificate(**asdict(found.certificate), max_ellipsoid_error=worst)
+    )
 
 
 def task_rows(task: Sequence[Direction]) -> tuple[int, ...]:
@@ -201,7 +183,6 @@ def space_of(
     """Find the directions among some rows of J in which a chain moves at all, with angular rows scaled by a length.
 
     Args:
-        chain: Base and tip.
         rows: The rows that count.
         length: Factor of angular rows, [m].
         reference: Reference of the Jacobian.
@@ -260,9 +241,6 @@ def _ellipsoid_error(Js: Array, axes: Array, sigmas: Array, sizes: Array) -> flo
     """Difference of Σ u_i σ_i² u_iᵀ from JJᵀ, relative to the square of the largest semi-axis or entry of the whole J.
 
     Where all rows of a part nearly vanish, motion that the structure excludes is as large as they are.
-
-    Raises:
-        CertificationFailed: The difference exceeds rounding.
     """
     squares = (Js @ Js.transpose(0, 2, 1)) - (axes * sigmas[:, None, :] ** 2) @ axes.transpose(0, 2, 1)
     largest = np.maximum(sigmas[:, 0], sizes)

@@ -6,9 +6,8 @@ exact, in coordinates of range(J), where J of shape (r, n) has full rank r ≤ 3
 r - 1 of its segments, and a linear programme over strips has its optimum where r of them are tight [Ziegler1995].
 """
 
-import math
 from itertools import combinations
-from typing import TypeAlias, cast
+from typing import cast
 
 import numpy as np
 
@@ -20,13 +19,6 @@ _NEXT_TO_NOTHING = 1e-14
 """A column shorter than this share of the longest is rounding."""
 _ON = 1e-9
 """Tolerance for rounding of a vertex outside a strip, as a share of its half-width."""
-
-Vertices: TypeAlias = list[list[float]]
-
-
-def subsets(joints: int, rank: int) -> int:
-    """Return the number of sets of joints that an exact computation examines."""
-    return math.comb(joints, rank)
 
 
 def largest_velocities(J: Array, limits: Array, directions: Array) -> Array:

@@ -93,7 +93,6 @@ def statics(
 
     Args:
         robot: The robot; joints off the chain are at zero, and their links have weight too.
-        chain: Base and tip.
         qs: Configurations; shape (N, n), [rad or m].
         frame: Axes and point of the wrench; at the tip if None.
         rows: Indices of the wrench components that count; shape (m,). All if None.
@@ -122,7 +121,6 @@ def balance(still: Statics, torques: Array, tolerance: float) -> NearestWrench:
     """Compute the wrench for given joint torques: γ = (Jᵀ)#(τ - g), which is J⁻ᵀ(τ - g) if J is square and regular.
 
     Args:
-        still: The robot at rest.
         torques: Torques of the motors; shape (N, n), [N m or N].
         tolerance: A singular value counts if it exceeds this times the largest.
     """
@@ -157,8 +155,6 @@ def overloaded_joints(robot: RobotModel, chain: Chain, torques: Array) -> list[l
     """List the joints whose torque exceeds the effort limit, per configuration; a limit of zero means no limit.
 
     Args:
-        robot: The robot.
-        chain: The chain.
         torques: Joint torques; shape (N, n), [N m or N].
     """
     given = (robot.description.joint[name].limits.effort for name in chain.joint_names)
@@ -174,7 +170,6 @@ def certify_statics(still: Statics, wrenches: Array, torques: Array, seed: int =
     """Compare torques that hold the robot while its tip exerts a wrench with Pinocchio's.
 
     Args:
-        still: The robot at rest.
         wrenches: Wrenches at the tip; shape (N, m), [N] and [N m].
         torques: Joint torques, including weight; shape (N, n), [N m or N].
         seed: Seed of the sample selection, the joint velocities and a random wrench that tests the whole Jacobian.

@@ -70,7 +70,6 @@ def frame_jacobians(robot: RobotModel, chain: Chain, qs: Array, frame: WrenchFra
 
     Args:
         robot: The robot; joints off the chain are at zero.
-        chain: Base and tip.
         qs: Configurations; shape (N, n), [rad or m].
         frame: Point and axes.
 

@@ -43,7 +43,7 @@ def agreed(quantity: str, difference: Array | float, scale: float, slack: float 
 
 def largest(values: Array | float) -> float:
     """Return the largest absolute value; 0 if there is none."""
-    return float(np.max(np.abs(values), initial=0.0))
+    return abs(values) if isinstance(values, float) else float(np.abs(values).max(initial=0.0))
 
 
 class Differences(dict[str, float]):
@@ -60,7 +60,6 @@ def certify_poses(
     """Compare poses with Pinocchio's.
 
     Args:
-        robot: The robot.
         chain: The chain in whose base the poses are expressed.
         qs: Configurations of the chain; shape (N, n), [rad or m].
         frames: Poses of one or more frames at these configurations, N each.
@@ -93,13 +92,11 @@ def certify_jacobians(
     """Compare geometric Jacobians (in the base frame, at the tip) with Pinocchio's, and ∂J/∂q through J̇.
 
     Args:
-        robot: The robot.
-        chain: The chain.
         qs: Configurations of the chain; shape (N, n), [rad or m].
         Js: Geometric Jacobians; shape (N, 6, n).
         hessians: ∂J/∂q of these; shape (N, 6, n, n).
         view: The reference frame, or the angles, of `values`.
-        values: The Jacobians that are sent; shape (N, 6, n). Not compared if None.
+        values: The Jacobians that are sent; shape (N, 6, n). Not compared if None, or the geometric ones themselves.
         seed: Seed of the sample selection in a large batch, and of the joint velocities for J̇.
 
     Raises:
@@ -115,7 +112,7 @@ def certify_jacobians(
         turn = from_tip(T_base_tip, "local_world_aligned").toActionMatrix()
         J = turn @ local
         worst.add("max_error", "the Jacobian", J - Js[row], largest(J))
-        if values is not None:
+        if values is not None and values is not Js:
             value = values[row]
             match view:
                 case "zyz" | "rpy":

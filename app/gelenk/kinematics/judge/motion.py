@@ -49,8 +49,6 @@ def certify_motion(
     """Compare the tip's twist, acceleration, jerk and snap, in the reference that is sent, with Pinocchio's.
 
     Args:
-        robot: The robot.
-        chain: The chain.
         qs: Configurations of the chain; shape (N, n), [rad or m].
         rates: q̇, q̈, q⃛, q⁗, the first one to four of them; shape (K, N, n), [rad/sᵏ or m/sᵏ].
         derivatives: (ṗ; ω), (p̈; ω̇), … in the reference, K of them; shape (N, 6) each.
@@ -96,13 +94,9 @@ def motion_scales(robot: RobotModel, chain: Chain, qs: Array, rates: Array) -> A
     """
     extents = 1.0 + np.abs(chain.flat.placements[:, 9:]).sum() + np.abs(qs).sum(axis=1)
     orders = np.arange(1, len(rates) + 1)[:, None]
-    return np.asarray(extents * _paces(robot, chain, rates) ** orders)
-
-
-def _paces(robot: RobotModel, chain: Chain, rates: Array) -> Array:
-    """Combined rate of all joints, the largest k-th root of a k-th derivative; shape (N,), [1/s]."""
+    # The combined rate of all joints is the largest k-th root of a k-th derivative, [1/s].
     totals = np.abs(rates @ robot.expansion(chain).matrix.T).sum(axis=2)
-    return np.asarray((totals ** (1.0 / np.arange(1, len(rates) + 1)[:, None])).max(axis=0))
+    return np.asarray(extents * (totals ** (1.0 / orders)).max(axis=0) ** orders)
 
 
 def _pinocchio_derivatives(

@@ -24,7 +24,6 @@ def certify_table(
     """Compare the product of a table's own transforms with Pinocchio's poses of a robot's chain.
 
     Args:
-        robot: The robot.
         chain: A chain of this robot; its variables are the table's, in the same order.
         table: The table that should describe the chain.
         exact: Whether to refuse more than rounding, at the scale of the table's longest length; a table that was

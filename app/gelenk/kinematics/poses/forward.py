@@ -33,8 +33,6 @@ def forward_kinematics(robot: RobotModel, chain: Chain, qs: Array, frames: Seque
     """Compute and certify poses of the tip, and of other frames on the chain.
 
     Args:
-        robot: The robot.
-        chain: Base and tip.
         qs: Configurations in the chain's order; shape (N, n), [rad or m].
         frames: Names of other frames whose poses are requested.
 

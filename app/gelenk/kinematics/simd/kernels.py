@@ -26,7 +26,6 @@ def chain_poses(flat: FlatChain, qs: Array) -> tuple[Array, Array]:
     """Compute T_base_tip at each configuration.
 
     Args:
-        flat: The chain.
         qs: Configurations; shape (N, n), [rad or m].
 
     Returns:
@@ -51,7 +50,6 @@ def chain_jacobians(flat: FlatChain, qs: Array) -> tuple[Array, Array, Array]:
     """Compute T_base_tip and the geometric Jacobian, in the base frame and at the tip, one column per variable.
 
     Args:
-        flat: The chain.
         qs: Configurations; shape (N, n), [rad or m].
 
     Returns:
@@ -82,7 +80,6 @@ def chain_measures(flat: FlatChain, qs: Array, rows: Indices) -> tuple[Array, Ar
     Gram-Schmidt orthogonalisation leaves of the rows (or of the columns, if fewer).
 
     Args:
-        flat: The chain.
         qs: Configurations; shape (N, n), [rad or m].
         rows: Indices of the rows that count, such as 0, 1, 2 for translation; shape (k,).
 
@@ -149,7 +146,6 @@ def chain_hessians(flat: FlatChain, qs: Array) -> Array:
     ∂v_i/∂q_j = w_j × v_i for j up to i, w_i × v_j for j after it [Hourtash2005].
 
     Args:
-        flat: The chain.
         qs: Configurations; shape (N, n), [rad or m].
 
     Returns:
@@ -194,7 +190,6 @@ def joint_columns(flat: FlatChain, work: Array, columns: Array) -> Frame:
     axis, o_i a point on it, p the tip.
 
     Args:
-        flat: The chain.
         work: The variables, one row of lanes each.
         columns: Output, `COLUMN` rows of lanes per joint.
     """

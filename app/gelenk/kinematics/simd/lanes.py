@@ -67,81 +67,55 @@ def _splat(builder: ir.IRBuilder, scalar: ir.Value) -> ir.Value:
     return builder.shuffle_vector(vector, ir.Constant(_DOUBLES, ir.Undefined), zeros)
 
 
-def _cast_scalar(context: Any, builder: ir.IRBuilder, given: Any, _: Any, value: ir.Value) -> ir.Value:
-    return _splat(builder, context.cast(builder, value, given, types.float64))
-
-
 def _as_lanes(context: Any, builder: ir.IRBuilder, type_: Any, value: ir.Value) -> ir.Value:
-    return value if isinstance(type_, LanesType) else _cast_scalar(context, builder, type_, lanes_type, value)
+    """Lanes and masks as they are, a number in every lane."""
+    if isinstance(type_, LanesType | MaskType):
+        return value
+    return _splat(builder, context.cast(builder, value, type_, types.float64))
 
 
-def _binary(function: Callable[..., Any], result: Any, emit: Callable[[ir.IRBuilder, Any, Any], Any]) -> None:
-    """Define an operator on two lanes, or on lanes and a number."""
+def _operator(function: Callable[..., Any], result: Any, emit: Callable[..., Any], *operands: tuple[Any, ...]) -> None:
+    """Define an operator on operands of any of the given kinds."""
 
     class Template(AbstractTemplate):
         key = function
 
         def generic(self, args: Any, kws: Any) -> Any:
-            if kws or not any(isinstance(arg, LanesType) for arg in args):
-                return None
-            if all(isinstance(arg, (LanesType, types.Float, types.Integer)) for arg in args):
-                return signature(result, *args)
-            return None
+            fits = any(len(args) == len(kinds) and all(map(isinstance, args, kinds)) for kinds in operands)
+            return signature(result, *args) if fits and not kws else None
 
     infer_global(function)(Template)
 
     def lower(context: Any, builder: ir.IRBuilder, sig: Any, args: Any) -> Any:
-        a, b = (_as_lanes(context, builder, type_, value) for type_, value in zip(sig.args, args, strict=True))
-        return emit(builder, a, b)
+        pairs = zip(sig.args, args, strict=True)
+        return emit(builder, *(_as_lanes(context, builder, type_, value) for type_, value in pairs))
 
-    for pair in (
-        (LanesType, LanesType),
-        (LanesType, types.Float),
-        (types.Float, LanesType),
-        (LanesType, types.Integer),
-        (types.Integer, LanesType),
-    ):
-        lower_builtin(function, *pair)(lower)
+    for kinds in operands:
+        lower_builtin(function, *kinds)(lower)
 
 
-def _ordered(relation: str) -> Callable[[ir.IRBuilder, Any, Any], Any]:
+def _comparison(relation: str) -> Callable[..., Any]:
     return lambda builder, a, b: builder.fcmp_ordered(relation, a, b)
 
 
-_binary(operator.add, lanes_type, lambda builder, a, b: builder.fadd(a, b))
-_binary(operator.sub, lanes_type, lambda builder, a, b: builder.fsub(a, b))
-_binary(operator.mul, lanes_type, lambda builder, a, b: builder.fmul(a, b))
-_binary(operator.truediv, lanes_type, lambda builder, a, b: builder.fdiv(a, b))
-_binary(operator.lt, mask_type, _ordered("<"))
-_binary(operator.le, mask_type, _ordered("<="))
-_binary(operator.gt, mask_type, _ordered(">"))
-_binary(operator.ge, mask_type, _ordered(">="))
-
-
-@infer_global(operator.neg)
-class _Negation(AbstractTemplate):
-    def generic(self, args: Any, kws: Any) -> Any:
-        return signature(lanes_type, lanes_type) if args == (lanes_type,) and not kws else None
-
-
-@lower_builtin(operator.neg, LanesType)
-def _negate(_context: Any, builder: ir.IRBuilder, _sig: Any, args: Any) -> Any:
-    return builder.fneg(args[0])
-
-
-def _mask_operator(function: Callable[..., Any], emit: Callable[[ir.IRBuilder, Any, Any], Any]) -> None:
-    class Template(AbstractTemplate):
-        key = function
-
-        def generic(self, args: Any, kws: Any) -> Any:
-            return signature(mask_type, *args) if args == (mask_type, mask_type) and not kws else None
-
-    infer_global(function)(Template)
-    lower_builtin(function, MaskType, MaskType)(lambda _context, builder, _sig, args: emit(builder, *args))
-
-
-_mask_operator(operator.and_, lambda builder, a, b: builder.and_(a, b))
-_mask_operator(operator.or_, lambda builder, a, b: builder.or_(a, b))
+_PAIRS = (
+    (LanesType, LanesType),
+    (LanesType, types.Float),
+    (types.Float, LanesType),
+    (LanesType, types.Integer),
+    (types.Integer, LanesType),
+)
+_operator(operator.add, lanes_type, ir.IRBuilder.fadd, *_PAIRS)
+_operator(operator.sub, lanes_type, ir.IRBuilder.fsub, *_PAIRS)
+_operator(operator.mul, lanes_type, ir.IRBuilder.fmul, *_PAIRS)
+_operator(operator.truediv, lanes_type, ir.IRBuilder.fdiv, *_PAIRS)
+_operator(operator.neg, lanes_type, ir.IRBuilder.fneg, (LanesType,))
+_operator(operator.lt, mask_type, _comparison("<"), *_PAIRS)
+_operator(operator.le, mask_type, _comparison("<="), *_PAIRS)
+_operator(operator.gt, mask_type, _comparison(">"), *_PAIRS)
+_operator(operator.ge, mask_type, _comparison(">="), *_PAIRS)
+_operator(operator.and_, mask_type, ir.IRBuilder.and_, (MaskType, MaskType))
+_operator(operator.or_, mask_type, ir.IRBuilder.or_, (MaskType, MaskType))
 
 
 def _call(builder: ir.IRBuilder, name: str, *values: ir.Value) -> ir.Value:

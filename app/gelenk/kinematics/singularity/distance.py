@@ -48,41 +48,30 @@ class NearestSingularity:
     sigma: float
 
 
-@dataclass(frozen=True, slots=True)
-class Search:
-    """Options of the search.
-
-    Attributes:
-        radius: Largest distance from the configuration, [rad and m].
-        tolerance: A singular value counts if it exceeds this times the largest.
-        respect_limits: Whether the singular configuration must be within the joint limits.
-    """
-
-    radius: float
-    tolerance: float
-    respect_limits: bool
-
-
-def nearest_singularity(chain: Chain, q: Array, space: TaskSpace, search: Search) -> NearestSingularity | None:
+def nearest_singularity(
+    chain: Chain, q: Array, space: TaskSpace, *, radius: float, tolerance: float, respect_limits: bool
+) -> NearestSingularity | None:
     """Find the nearest configuration that loses a direction the arm has elsewhere; None if none was found.
 
     The search is deterministic. Joint positions are compared without wrapping by full turns.
 
     Args:
-        chain: Base and tip.
         q: Configuration, within the limits if these are respected; shape (n,), [rad or m].
         space: The rows of the Jacobian that count.
-        search: Options of the search.
+        radius: Largest distance from the configuration, [rad and m].
+        tolerance: A singular value counts if it exceeds this times the largest.
+        respect_limits: Whether the singular configuration must be within the joint limits.
     """
     if not can_lose(chain, space):
         return None
     free = np.full(len(q), np.inf)
-    bounds = (chain.lower, chain.upper) if search.respect_limits else (-free, free)
-    projection = _Projection(chain, q, space, structure(chain, space.task, space.reference).rank, search, *bounds)
+    bounds = (chain.lower, chain.upper) if respect_limits else (-free, free)
+    rank = structure(chain, space.task, space.reference).rank
+    projection = _Projection(chain, q, space, rank, radius, tolerance, *bounds)
     if (here := projection.judged(q[None])) is not None:
         return here
-    best = projection.nearest(_minima(projection, search.radius, 0))
-    inside = projection.nearest(_minima(projection, search.radius if best is None else best.distance, 1))
+    best = projection.nearest(_minima(projection, radius, 0))
+    inside = projection.nearest(_minima(projection, radius if best is None else best.distance, 1))
     found = [singularity for singularity in (best, inside) if singularity is not None]
     return min(found, key=lambda singularity: singularity.distance, default=None)
 
@@ -96,7 +85,6 @@ def vanishing_block(chain: Chain, space: TaskSpace, rank: int, xs: Array) -> tup
     """Compute the block F, which is zero where the Jacobian has less than a rank, and its derivative by the joints.
 
     Args:
-        chain: Base and tip.
         space: The rows of the Jacobian that count.
         rank: The rank that the chain has elsewhere, at least 1.
         xs: Configurations; shape (N, n), [rad or m].
@@ -121,7 +109,8 @@ class _Projection:
     q: Array
     space: TaskSpace
     rank: int
-    search: Search
+    radius: float
+    tolerance: float
     lower: Array
     upper: Array
 
@@ -201,8 +190,8 @@ class _Projection:
         Js, least = self.space.with_rounding(self.chain, xs)
         sigmas = np.linalg.svd(Js, compute_uv=False)
         distances = np.linalg.norm(xs - self.q, axis=1)
-        vanished = sigmas[:, self.rank - 1] <= np.maximum(self.search.tolerance * sigmas[:, 0], least)
-        good = vanished & (distances <= self.search.radius)
+        vanished = sigmas[:, self.rank - 1] <= np.maximum(self.tolerance * sigmas[:, 0], least)
+        good = vanished & (distances <= self.radius)
         if not good.any():
             return None
         i = int(np.argmin(np.where(good, distances, np.inf)))

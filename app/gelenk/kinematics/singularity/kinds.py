@@ -73,7 +73,6 @@ def singularity_kinds(chain: Chain, q: Array, space: TaskSpace, tolerance: float
     """Return the names of a singularity; none if the geometry of the arm does not determine them.
 
     Args:
-        chain: Base and tip.
         q: A singular configuration; shape (n,), [rad or m].
         space: The rows of the Jacobian that count.
         tolerance: Relative size up to which a singular value counted as zero.

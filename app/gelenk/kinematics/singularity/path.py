@@ -50,7 +50,6 @@ def places_along(
     """Find the minima of the smallest singular value along a path, in path order.
 
     Args:
-        chain: Base and tip.
         qs: The path; shape (N, n), [rad or m].
         space: The rows of the Jacobian that count.
         tolerance: A singular value counts if it exceeds this times the largest.

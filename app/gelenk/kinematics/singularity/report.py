@@ -71,10 +71,7 @@ class SingularityReport:
 
 
 def singularity_report(
-    chain: Chain,
-    q: Array,
-    tolerance: float = RANK_TOLERANCE,
-    space: TaskSpace = FULL_SPACE,
+    chain: Chain, q: Array, tolerance: float = RANK_TOLERANCE, space: TaskSpace = FULL_SPACE
 ) -> SingularityReport:
     """Report rank, lost directions and internal motions at one configuration.
 
@@ -82,14 +79,14 @@ def singularity_report(
     as it moves away; the others it lacks or has everywhere.
 
     Args:
-        chain: Base and tip.
         q: Configuration; shape (n,), [rad or m].
         tolerance: A singular value counts if it exceeds this times the largest.
         space: The rows of the Jacobian that count.
     """
     Js, least = space.with_rounding(chain, q[None])
     fixed = structure(chain, space.task, space.reference)
-    parts = _split_at_rank(Js[0], tolerance, float(least[0]), fixed.rank)
+    parts = subspaces(Js[0], tolerance)
+    parts = replace(parts, rank=min(parts.rank, int(np.sum(parts.sigmas > least[0])), fixed.rank))
     H = space.hessians(chain, q[None])[0]
     defect = fixed.rank - parts.rank
     T = np.einsum("ka,kij,ib->ajb", parts.left_kernel, H, parts.kernel)
@@ -122,8 +119,6 @@ def certify_reports(
     Both come from our own Jacobians, and from the chain's structure at other configurations.
 
     Args:
-        robot: The robot.
-        chain: Base and tip.
         space: The rows of the Jacobian that count.
         qs: Configurations; shape (N, n), [rad or m].
         reports: One report per configuration.
@@ -148,13 +143,6 @@ def certify_reports(
         felt = np.linalg.norm(J.T @ report.lost_directions, axis=0)
         worst.add("max_lost_direction", "a lost direction", felt, scale, passed)
     return worst
-
-
-def _split_at_rank(J: Array, tolerance: float, least: float, most: int) -> Subspaces:
-    """Subspaces of J, with the rank limited to the structural rank and to singular values above rounding."""
-    parts = subspaces(J, tolerance)
-    rank = min(parts.rank, int(np.sum(parts.sigmas > least)), most)
-    return replace(parts, rank=rank)
 
 
 def _ordered(basis: Array, constant: Array, changes: Array, count: int) -> Array:

@@ -59,8 +59,6 @@ def inverse_motion(
     """Solve for the next derivative of q: q̇ (no rates given), q̈ (q̇ given) or q⃛ (q̇ and q̈ given).
 
     Args:
-        robot: The robot.
-        chain: Base and tip.
         qs: Configurations; shape (N, n), [rad or m].
         rates: The known rates, none, q̇, or q̇ and q̈; shape (K, N, n), K from 0 to 2, [rad/sᵏ or m/sᵏ].
         targets: Desired twist, acceleration or jerk in the directions that count; shape (N, k), [m/sᵏ, rad/sᵏ].

@@ -60,8 +60,6 @@ def jacobians(
     """Compute and certify Jacobians of a chain.
 
     Args:
-        robot: The robot.
-        chain: Base and tip.
         qs: Configurations in the chain's order; shape (N, n), [rad or m].
         reference: `local_world_aligned`: base axes, at the tip (the course's). `local`: tip axes, at the tip.
             `world`: base axes, at the point of the tip's body that coincides with the base origin (the spatial twist).

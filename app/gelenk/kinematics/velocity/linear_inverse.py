@@ -9,7 +9,7 @@ Without that length metres and radians are mixed: J#, σ, the condition number a
 depend on the unit of length. Only a unique solution of J x = b is independent of this choice.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -162,17 +162,27 @@ def invert(
     parts = decompose(Js, rule, row_scales, least)
     dampings = _dampings(parts, rule)
     xs = parts.apply(parts.gains(dampings), bs)
-    adaptive = rule.inverse == "damped" and rule.damping is None and limits is not None
-    if adaptive and limits is not None:
-        for row in np.flatnonzero((np.abs(xs) > limits).any(axis=1)):
-            dampings[row], xs[row] = _damped_to_limits(parts, int(row), bs[row], dampings[row], limits)
+    bounds = limits if rule.inverse == "damped" and rule.damping is None else None
+    if bounds is not None:
+        for row in np.flatnonzero((np.abs(xs) > bounds).any(axis=1)):
+            dampings[row], xs[row] = _damped_to_limits(parts, int(row), bs[row], dampings[row], bounds)
     shares = np.ones(len(Js))
     if null_motion is not None:
         added = parts.kernel_parts(null_motion)
-        if adaptive and limits is not None:
-            shares = _room(xs, added, limits)
+        if bounds is not None:
+            shares = _room(xs, added, bounds)
         xs = xs + shares[:, None] * added
-    return _judged(Js, bs, rule, Inversion(xs, np.zeros(bs.shape), (), dampings, shares, parts))
+    # A solution that does not exist, or is not finite or too large, becomes zero.
+    void: Flags = np.logical_not((np.abs(xs) <= _LARGEST).all(axis=1))
+    if rule.inverse == "exact":
+        void |= parts.ranks < Js.shape[1]
+    xs = np.where(void[:, None], 0.0, xs)
+    residuals = bs - np.einsum("bki,bi->bk", Js, xs)
+    solved = np.abs(residuals).max(axis=1, initial=0.0) <= SOLVED * np.maximum(1.0, np.abs(bs).max(axis=1, initial=0.0))
+    statuses: tuple[InverseStatus, ...] = tuple(
+        "singular" if none else "solved" if good else "approximate" for none, good in zip(void, solved, strict=True)
+    )
+    return Inversion(xs, residuals, statuses, dampings, shares, parts)
 
 
 def _dampings(parts: Decomposition, rule: InverseRule) -> Array:
@@ -218,19 +228,3 @@ def _room(xs: Array, added: Array, limits: Array) -> Array:
     too_far = np.abs(added) > rooms
     shares = np.where(too_far, rooms, 1.0) / np.where(too_far, np.abs(added), 1.0)
     return np.asarray(shares.min(axis=1, initial=1.0))
-
-
-def _judged(Js: Array, bs: Array, rule: InverseRule, inversion: Inversion) -> Inversion:
-    """Add residuals and statuses; a solution that does not exist, or is not finite or too large, becomes zero."""
-    parts = inversion.decomposition
-    void: Flags = np.logical_not((np.abs(inversion.xs) <= _LARGEST).all(axis=1))
-    if rule.inverse == "exact":
-        void |= parts.ranks < Js.shape[1]
-    xs = np.where(void[:, None], 0.0, inversion.xs)
-    residuals = bs - np.einsum("bki,bi->bk", Js, xs)
-    largest = np.maximum(1.0, np.abs(bs).max(axis=1, initial=0.0))
-    solved: Flags = np.abs(residuals).max(axis=1, initial=0.0) <= SOLVED * largest
-    statuses: tuple[InverseStatus, ...] = tuple(
-        "singular" if none else "solved" if good else "approximate" for none, good in zip(void, solved, strict=True)
-    )
-    return replace(inversion, xs=xs, residuals=residuals, statuses=statuses)

@@ -50,8 +50,6 @@ def tip_motion(
     """Compute and certify derivatives of the tip's motion.
 
     Args:
-        robot: The robot.
-        chain: Base and tip.
         qs: Configurations; shape (N, n), [rad or m].
         rates: q̇, q̈, q⃛, q⁗, the first one to four of them; shape (K, N, n), [rad/sᵏ or m/sᵏ].
         reference: `local_world_aligned`: derivatives of the tip's position and of its angular velocity, along the
@@ -111,7 +109,6 @@ def jacobian_derivatives(chain: Chain, qs: Array, rates: Array) -> Array:
     """Compute the geometric Jacobian in the base's axes at the tip and its exact time derivatives.
 
     Args:
-        chain: Base and tip.
         qs: Configurations; shape (N, n), [rad or m].
         rates: q̇, q̈, …, one per requested derivative; shape (K - 1, N, n), K - 1 may be 0.
 

@@ -116,8 +116,6 @@ def shares(robot: RobotModel, chain: Chain, positions: Array, seeds: Array, aske
     a closed form the share is a lower bound.
 
     Args:
-        robot: The robot.
-        chain: The chain.
         positions: Positions of the tip in the base frame; shape (M, 3), [m].
         seeds: Start configuration for each position; shape (M, n), [rad or m].
         asked: The orientations to reach.

@@ -24,7 +24,6 @@ class TipReach:
     """The directions in which a chain's tip moves at all, and its reach, from sampled configurations.
 
     Args:
-        chain: The chain.
         sampling: Configurations of the chain.
     """
 
