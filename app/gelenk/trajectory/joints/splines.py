@@ -100,7 +100,7 @@ class JointSpline:
             bound = scaling.binding
             raise InvalidField(
                 "times",
-                f"joint {bound.joint + 1} reaches {bound.ratio:.6g} times its limit of {bound.quantity} at "
+                f"joint {bound.joint} reaches {bound.ratio:.6g} times its limit of {bound.quantity} at "
                 f"{bound.time:.6g} s: to keep the limits, multiply all times by {scaling.course_factor:.10g}",
             )
         return self.path
