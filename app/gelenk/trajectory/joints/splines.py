@@ -15,7 +15,6 @@ ends.
 """
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -162,27 +161,20 @@ class JointSpline:
         return timed(geometry_of(None, self.path, limits), law).motion
 
 
-class SmoothnessClass(NamedTuple):
-    """Smoothness of a motion.
+def promised(segment: Segment) -> tuple[int, bool]:
+    """Return how smooth the motion of a joint segment is, for a spline or from point to point.
 
-    Attributes:
-        continuous: Order up to which derivatives of the joints do not jump within it.
-        has_bounded_jerk: Whether acceleration jumps neither within it nor at its ends, and jerk is limited.
+    Returns:
+        The order up to which its derivatives do not jump within it; whether acceleration jumps neither within it nor at
+        its ends, and jerk is limited.
     """
-
-    continuous: int
-    has_bounded_jerk: bool
-
-
-def promised(segment: Segment) -> SmoothnessClass:
-    """Return how smooth the motion of a joint segment is, for a spline or from point to point."""
     law = LAWS[segment.law]
     if segment.blends:
-        return SmoothnessClass(1, False)
+        return 1, False
     if segment.times is not None:
-        return SmoothnessClass(2, law.keeps_jerk and segment.boundary == "assigned")
+        return 2, law.keeps_jerk and segment.boundary == "assigned"
     is_scaled = segment.configurations is not None and law.scales_splines and segment.boundary in _AT_REST
-    return SmoothnessClass(2 if law.keeps_jerk or is_scaled else 1, law.keeps_jerk)
+    return 2 if law.keeps_jerk or is_scaled else 1, law.keeps_jerk
 
 
 def _check_law_of_times(segment: Segment) -> None:
