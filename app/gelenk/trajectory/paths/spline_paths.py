@@ -238,7 +238,7 @@ def _turn_over(turns: Sequence[Turn], entry: float, leaving: float) -> Orientati
     """Return the turn over the corner of two turns, from x = `entry` on the first to x = `leaving` on the second."""
     before, after = turns
     if isinstance(before, ZyzPath) and isinstance(after, ZyzPath):
-        return zyz_corner(before.triple_at(entry), after.start, after.triple_at(leaving))
+        return zyz_corner(before.triple_at(entry), after.triple_at(0.0), after.triple_at(leaving))
     at_entry = before.at(np.array([entry]))[0][0]
     return rotation_corner(at_entry, *after.at(np.array([0.0, leaving]))[0])
 
