@@ -87,12 +87,8 @@ def rotation_spline(rotations: Array, knots: Array) -> RotationVectorPath:
 def rotation_corner(entry: Array, corner: Array, exit_: Array) -> RotationVectorPath:
     """Return the turn over a corner, R(u) = R_B Exp((1 - u)² θ_a + u² θ_b), from R_B Exp(θ_a) to R_B Exp(θ_b).
 
-    As with the parabola of positions, the angular rates at both ends are those of the turns that it connects.
-
-    Args:
-        entry: Orientation at A', where the blend begins; shape (3, 3).
-        corner: Orientation at B, which is not reached; shape (3, 3).
-        exit_: Orientation at C', where the blend ends; shape (3, 3).
+    As with the parabola of positions, the angular rates at both ends are those of the turns that it connects. The
+    orientations, of shape (3, 3), are those at A', where the blend begins, at B, and at C', where it ends.
     """
     a, b = vectors_from_rotations(np.ascontiguousarray(corner.T @ np.array([entry, exit_])))
     coefficients = np.array([[a, -2.0 * a, a + b]])

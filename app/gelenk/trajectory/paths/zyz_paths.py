@@ -77,12 +77,8 @@ def zyz_spline(rotations: Array, knots: Array, flips: Sequence[bool]) -> ZyzPath
 def zyz_corner(entry: Array, corner: Array, leaving: Array) -> ZyzPath:
     """Return the turn over a corner, a parabola in the angles: c + (1 - u)² (e - c) + u² (l - c).
 
-    As with the parabola of positions, its rates at both ends are those of the turns that it connects.
-
-    Args:
-        entry: e, the triple at A', where the blend begins; shape (3,), [rad].
-        corner: c, the triple at B, which is not reached; shape (3,), [rad].
-        leaving: l, the triple at C', where the blend ends; shape (3,), [rad].
+    As with the parabola of positions, its rates at both ends are those of the turns that it connects. The triples, of
+    shape (3,), [rad], are those at A', where the blend begins, at B, and at C', where it ends.
     """
     a, b = entry - corner, leaving - corner
     return _polynomial(entry, -2.0 * a, a + b)
@@ -98,7 +94,7 @@ def zyz_triples(rotations: Array, flips: Sequence[bool]) -> Array:
     triples = zyz_from_rotations(rotations)
     other = np.logical_xor.accumulate(np.array([False, *flips]))
     triples[other] = triples[other] * [1.0, -1.0, 1.0] + [math.pi, 0.0, math.pi]
-    _settle(triples, _degenerate(rotations))
+    _settle(triples, np.hypot(rotations[:, 0, 2], rotations[:, 1, 2]) <= _DEGENERATE)
     for before, triple in pairwise(triples):
         for i in (0, 2):
             triple[i] = before[i] + math.remainder(triple[i] - before[i], 2.0 * math.pi)
@@ -109,25 +105,15 @@ def _polynomial(*coefficients: Array) -> ZyzPath:
     return ZyzPath(PiecewisePolynomial(np.array([0.0, 1.0]), np.array([coefficients])))
 
 
-def _degenerate(rotations: Array) -> Flags:
-    """Return at which orientations only φ + ψ or φ - ψ is determined; shape (N,)."""
-    flat: Flags = np.hypot(rotations[:, 0, 2], rotations[:, 1, 2]) <= _DEGENERATE
-    return flat
-
-
 def _settle(triples: Array, flat: Flags) -> None:
     """Give degenerate triples the φ of the previous one; those at the start get the first φ that is determined."""
     first = int(np.argmin(flat))
     for i in (*range(first - 1, -1, -1), *range(first + 1, len(triples))):
         if flat[i]:
-            _move_phi(triples[i], triples[i + 1 if i < first else i - 1][0])
-
-
-def _move_phi(triple: Array, phi: float) -> None:
-    """Change φ of a degenerate triple, keeping φ + ψ if θ = 0 and φ - ψ if θ = π."""
-    sign = 1.0 if math.cos(triple[1]) > 0.0 else -1.0
-    triple[2] += sign * (triple[0] - phi)
-    triple[0] = phi
+            phi, triple = triples[i + 1 if i < first else i - 1][0], triples[i]
+            # φ + ψ stays if θ = 0, φ - ψ if θ = π.
+            triple[2] += math.copysign(1.0, math.cos(triple[1])) * (triple[0] - phi)
+            triple[0] = phi
 
 
 def _motion(triples: Array, rates: Array, changes: Array) -> tuple[Array, Array, Array]:
