@@ -28,8 +28,9 @@ from gelenk.ik.search.words import DIRECTIONS, Direction
 from gelenk.ik.solve import inverse_kinematics
 from gelenk.ik.verdict.result import InverseKinematics
 from gelenk.kinematics.ellipsoids.manipulability import Manipulability, manipulability
+from gelenk.kinematics.judge.words import Reference
 from gelenk.kinematics.poses.forward import ForwardKinematics, forward_kinematics
-from gelenk.kinematics.velocity.jacobian import Jacobians, Reference, Representation, jacobians
+from gelenk.kinematics.velocity.jacobian import Jacobians, Representation, jacobians
 from gelenk.operations import trajectory_request
 from gelenk.operations.ik_request import TargetLimits, asked, options_of
 from gelenk.package_data import catalogue

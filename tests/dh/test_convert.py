@@ -13,7 +13,8 @@ from scipy.spatial.transform import Rotation
 
 from gelenk.dh.tables.convert import converted, describe_dh
 from gelenk.errors import CertificationFailed
-from gelenk.kinematics.judge.judge import certify_conversion, certify_table, pinocchio_poses, table_configurations
+from gelenk.kinematics.judge.judge import pinocchio_poses
+from gelenk.kinematics.judge.tables import certify_conversion, certify_table, table_configurations
 from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.robot.arrays import Array
 from gelenk.robot.description import Mimic

@@ -10,7 +10,7 @@ import pytest
 from gelenk.dh.tables.convert import describe_dh
 from gelenk.dh.tables.from_chain import dh_from_chain
 from gelenk.errors import InvalidField
-from gelenk.kinematics.judge.judge import certify_table, table_configurations
+from gelenk.kinematics.judge.tables import certify_table, table_configurations
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain, build_chain
 from gelenk.robot.description import Description

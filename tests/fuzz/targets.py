@@ -17,7 +17,7 @@ from gelenk.errors import KinematicsError
 from gelenk.http.messages.npy import npy_response, read_npy
 from gelenk.http.messages.payloads import read_json
 from gelenk.http.messages.problems import InvalidPayload, status_of
-from gelenk.kinematics.judge.judge import certify_table
+from gelenk.kinematics.judge.tables import certify_table
 from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.robot.description import Description
 from gelenk.robot.robot import RobotModel

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from gelenk.errors import CertificationFailed
-from gelenk.kinematics.judge.judge import MAX_SAMPLES, TOLERANCE, View, certify_jacobians, certify_poses
+from gelenk.kinematics.judge.judge import MAX_SAMPLES, TOLERANCE, certify_jacobians, certify_poses
+from gelenk.kinematics.judge.words import Reference, View
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians, chain_poses
-from gelenk.kinematics.velocity.jacobian import Reference, Representation, jacobians
+from gelenk.kinematics.velocity.jacobian import Representation, jacobians
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
 from tests.oracles.dh_columns import turn

@@ -9,6 +9,7 @@ import pytest
 from gelenk.ik.search.null_space import Objective
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import Direction, ObjectiveName
+from gelenk.kinematics.judge.words import Reference
 from gelenk.kinematics.velocity.inverse_velocity import (
     InverseMotion,
     descent,
@@ -16,7 +17,7 @@ from gelenk.kinematics.velocity.inverse_velocity import (
     inverse_motion,
     velocity_limits,
 )
-from gelenk.kinematics.velocity.jacobian import Reference, jacobians
+from gelenk.kinematics.velocity.jacobian import jacobians
 from gelenk.kinematics.velocity.linear_inverse import InverseRule, invert
 from gelenk.kinematics.velocity.task_space import FULL_SPACE, TaskSpace, structure
 from gelenk.kinematics.velocity.velocity import tip_motion

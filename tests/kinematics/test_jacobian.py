@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from gelenk.errors import RepresentationSingularity
-from gelenk.kinematics.velocity.jacobian import Jacobians, Reference, Representation, jacobians, ranks, singular_values
+from gelenk.kinematics.judge.words import Reference
+from gelenk.kinematics.velocity.jacobian import Jacobians, Representation, jacobians, ranks, singular_values
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel

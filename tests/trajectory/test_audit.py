@@ -14,9 +14,10 @@ from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
-from gelenk.trajectory.audit.audit import DERIVATIVES, Audit, audit
+from gelenk.trajectory.audit.audit import DERIVATIVES, audit
 from gelenk.trajectory.audit.demands import Demands, JointLimits, TipLimits
 from gelenk.trajectory.audit.pieces import extremes, pieces_of
+from gelenk.trajectory.audit.result import Audit
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from tests.oracles.catalogue import NAMES
 from tests.robots import robot

@@ -8,6 +8,7 @@ from gelenk.contract.common import Answer
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import Configurations, Matrix
 from gelenk.contract.statics import Gravity, Wrenches, WrenchOptions, WrenchRequest
+from gelenk.kinematics.judge.words import DynamicsCertificate
 
 Term = Literal["mass_matrix", "coriolis_matrix", "coriolis_torques", "gravity_torques", "energies"]
 _ALL: list[Term] = ["mass_matrix", "coriolis_matrix", "coriolis_torques", "gravity_torques", "energies"]
@@ -49,24 +50,6 @@ class DynamicsRequest(DynamicsOptions, WrenchRequest):
         description="γ, exerted by the tip on its surroundings, force before moment, six numbers, [N] and [N m]: a "
         "list of one for all configurations or of one each.",
     )
-
-
-class DynamicsCertificateInfo(Answer):
-    """Differences of these numbers from sums over the bodies by our own Jacobians; null if not requested."""
-
-    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
-    max_mass_error: float | None = Field(description="Of M = Σ m J_vᵀJ_v + J_ωᵀIJ_ω, [kg m², kg m or kg].")
-    max_coriolis_error: float | None = Field(description="Of C q̇, [N m or N].")
-    max_skew_error: float | None = Field(
-        description="Of C + Cᵀ - dM/dt, which is zero where dM/dt - 2C is skew, [kg m², kg m or kg] per second."
-    )
-    max_gravity_error: float | None = Field(description="Of g = -Σ m J_vᵀg₀, [N m or N].")
-    max_energy_error: float | None = Field(description="Of kinetic and potential energy, [J].")
-    max_torque_error: float | None = Field(description="Of M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N].")
-    max_round_trip_error: float | None = Field(
-        description="Of the torques that inverse dynamics give for the accelerations of forward dynamics, [N m or N]."
-    )
-    seed: int = Field(description="Random seed of the sampling.")
 
 
 class DynamicsAnswer(Answer):
@@ -111,7 +94,7 @@ class DynamicsAnswer(Answer):
         description="By inverse dynamics: joints whose torque is beyond the effort limit of the description.",
     )
     notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or assume.")
-    certificate: DynamicsCertificateInfo
+    certificate: DynamicsCertificate
 
 
 ENDPOINT = RobotEndpoint(

@@ -6,8 +6,9 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, FrameName
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import CertificateInfo, Configurations
+from gelenk.contract.kinematics import Configurations
 from gelenk.contract.pose import Pose, PoseFormat
+from gelenk.kinematics.judge.words import PoseCertificate
 
 
 class ForwardOptions(ChainOptions):
@@ -40,7 +41,7 @@ class ForwardAnswer(Answer):
     frames: list[dict[str, Pose]] | None = Field(
         default=None, description="If frames were requested: T_base_frame by name, one entry per configuration."
     )
-    certificate: CertificateInfo
+    certificate: PoseCertificate
 
 
 ENDPOINT = RobotEndpoint(

@@ -6,7 +6,8 @@ from pydantic import Field, model_validator
 
 from gelenk.contract.common import Answer, ChainOptions
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import Configurations, JacobianCertificateInfo, Matrix
+from gelenk.contract.kinematics import Configurations, Matrix
+from gelenk.kinematics.judge.words import JacobianCertificate
 
 
 class JacobianOptions(ChainOptions):
@@ -73,7 +74,7 @@ class JacobianAnswer(Answer):
     hessians: list[list[Matrix]] | None = Field(
         default=None, description="∂J/∂q: entry [k][i][j] is ∂J[k][i]/∂q_j, [m or rad] per [rad or m] squared."
     )
-    certificate: JacobianCertificateInfo
+    certificate: JacobianCertificate
 
 
 ENDPOINT = RobotEndpoint(

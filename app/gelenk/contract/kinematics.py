@@ -5,7 +5,7 @@ from typing import Annotated, Any, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
 
-from gelenk.contract.common import Answer, OnTheWire
+from gelenk.contract.common import OnTheWire
 from gelenk.robot.arrays import Array
 from gelenk.robot.arrays import Configuration as GivenConfiguration
 
@@ -40,30 +40,6 @@ Configurations = Annotated[
         examples=[[[0.0, -0.5, 0.0, -2.0, 0.0, 1.5, 0.8]]],
     ),
 ]
-
-
-class CertificateInfo(Answer):
-    """Differences of these poses from those computed through Pinocchio."""
-
-    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
-    max_position_error: float = Field(description="Largest distance, [m].")
-    max_orientation_error: float = Field(description="Largest angle, [rad].")
-    seed: int = Field(description="Random seed of the sampling.")
-
-
-class JacobianCertificateInfo(Answer):
-    """Differences of these Jacobians from those computed through Pinocchio."""
-
-    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
-    max_error: float = Field(
-        description="Largest difference of an entry, of the geometric Jacobian and of the one that is sent, "
-        "[m or rad] per [rad or m]."
-    )
-    max_time_variation_error: float | None = Field(
-        description="Largest difference of an entry of the geometric dJ/dt at random joint velocities, "
-        "[m or rad] per [rad or m] and second; null if no derivative was requested."
-    )
-    seed: int = Field(description="Random seed of the sampling.")
 
 
 Matrix = list[list[float]]

@@ -6,8 +6,9 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, Payload
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import Configuration, Configurations, JacobianCertificateInfo
+from gelenk.contract.kinematics import Configuration, Configurations
 from gelenk.ik.search.words import DIRECTIONS, Direction
+from gelenk.kinematics.judge.words import EllipsoidCertificate
 
 MAX_DETAILED = 10_000
 """Maximum number of configurations of an answer in JSON; as npy there may be more."""
@@ -226,16 +227,6 @@ class ManipulabilityInfo(Answer):
     combined: PartInfo | None = Field(description="Where a characteristic length was given.")
 
 
-class EllipsoidCertificateInfo(JacobianCertificateInfo):
-    """Differences of the Jacobians from Pinocchio's, and of the ellipsoids from the Jacobians."""
-
-    max_ellipsoid_error: float = Field(
-        description="Largest difference of an entry between JJᵀ and Σ u_i σ_i² u_iᵀ, relative to the largest σ² or the "
-        "square of the largest entry of the whole Jacobian; no unit. It also bounds the motion in a direction reported "
-        "as having none."
-    )
-
-
 class ManipulabilityAnswer(Answer):
     """Manipulability, one entry per configuration, in order."""
 
@@ -258,7 +249,7 @@ class ManipulabilityAnswer(Answer):
         description="If polytopes were requested: joints without an effort limit; then there is none.",
     )
     results: list[ManipulabilityInfo]
-    certificate: EllipsoidCertificateInfo
+    certificate: EllipsoidCertificate
 
 
 ENDPOINT = RobotEndpoint(

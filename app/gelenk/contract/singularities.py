@@ -7,8 +7,9 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import Configurations, JacobianCertificateInfo
+from gelenk.contract.kinematics import Configurations
 from gelenk.ik.search.words import Direction
+from gelenk.kinematics.judge.words import SingularityCertificate
 from gelenk.kinematics.velocity.words import SingularityKind
 
 MAX_REPORTS = 2000
@@ -197,18 +198,6 @@ class SingularPathInfo(Answer):
     omitted: int = Field(description="Number of further places; the 500 nearest to singular are listed.")
 
 
-class SingularityCertificateInfo(JacobianCertificateInfo):
-    """Differences of the Jacobians from Pinocchio's, and products of those with the reported motions and directions."""
-
-    max_internal_motion: float = Field(
-        description="Largest ‖J v‖ over the internal motions v of the same configurations, J the rows that count of "
-        "Pinocchio's Jacobian: rounding, or what `rank_tolerance` lets pass; in the unit of the singular values."
-    )
-    max_lost_direction: float = Field(
-        description="Largest ‖uᵀ J‖ over the lost directions u, unit vectors of these rows; likewise."
-    )
-
-
 class SingularityAnswer(Answer):
     """Singularity reports, one entry per configuration, in order."""
 
@@ -226,7 +215,7 @@ class SingularityAnswer(Answer):
     )
     singularities: list[SingularityEntry]
     path: SingularPathInfo | None = Field(default=None, description="If requested.")
-    certificate: SingularityCertificateInfo
+    certificate: SingularityCertificate
 
 
 ENDPOINT = RobotEndpoint(

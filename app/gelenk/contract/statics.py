@@ -8,6 +8,7 @@ from gelenk.contract.common import Answer, ChainOptions, FrameName, OnTheWire, P
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS, Configurations, Matrix
 from gelenk.ik.search.words import Direction
+from gelenk.kinematics.judge.words import StaticsCertificate
 
 MAX_TESTS = 100
 MAX_WRENCH = 1e6
@@ -184,19 +185,6 @@ class SubspacesInfo(Answer):
     joint_velocities: list[SplitInfo] | None = Field(default=None, description="Of `test_joint_velocities`.")
 
 
-class StaticsCertificateInfo(Answer):
-    """Differences of these torques from Pinocchio's."""
-
-    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
-    max_torque_error: float = Field(
-        description="Largest difference from Newton-Euler at rest with the wrench as an external force, [N m or N]."
-    )
-    max_virtual_work_error: float = Field(
-        description="Largest |τᵀq̇ - γᵀv| at random joint velocities q̇, the tip's twist v by Pinocchio, [W]."
-    )
-    seed: int = Field(description="Random seed of the samples and velocities.")
-
-
 class BalanceInfo(Answer):
     """What the torques determine about the wrench."""
 
@@ -238,7 +226,7 @@ class StaticsAnswer(Answer):
     )
     subspaces: list[SubspacesInfo] | None = Field(default=None, description="If requested.")
     notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or assume.")
-    certificate: StaticsCertificateInfo
+    certificate: StaticsCertificate
 
 
 ENDPOINT = RobotEndpoint(

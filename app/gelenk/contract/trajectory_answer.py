@@ -5,17 +5,9 @@ from typing import Literal
 from pydantic import Field
 
 from gelenk.contract.common import Answer
-from gelenk.contract.kinematics import CertificateInfo
 from gelenk.contract.pose import Pose
-from gelenk.trajectory.audit.result import (
-    Continuity,
-    LimitMargin,
-    PathError,
-    Peak,
-    Reason,
-    SmallestSingularValue,
-    TipPeaks,
-)
+from gelenk.kinematics.judge.words import PoseCertificate
+from gelenk.trajectory.audit.result import Audit
 from gelenk.trajectory.audit.words import Law, SegmentType
 from gelenk.trajectory.problem.result import Damping, PlanningFailure, SegmentBlend, TimingComparison
 
@@ -75,39 +67,6 @@ class TrajectorySegmentInfo(Answer):
     )
 
 
-class AuditInfo(Answer):
-    """The check of the motion, also between samples, by code independent of the planner.
-
-    A ratio is relative to the limit in force at the time.
-    """
-
-    passed: bool = Field(
-        description="Whether the motion keeps every limit and tolerance; one that does not is not sent."
-    )
-    velocity: Peak | None = Field(description="Of the joint nearest to its limit; null without joints.")
-    acceleration: Peak | None
-    jerk: Peak | None = Field(
-        description="Of the pieces: where the acceleration jumps it is infinite, as `continuity` reports. Its limits "
-        "are kept by `quintic`, `septic` and `jerk_limited`; another law is only compared with them, and `notes` of "
-        "its segment say where it goes beyond."
-    )
-    way_error: PathError | None = Field(
-        description="Difference of these three from those of the exact tip path; null without one."
-    )
-    path_deviation: Peak | None = Field(description="Distance from the tip's path, [m]; null without one.")
-    orientation_deviation: Peak | None = Field(description="Angle from the tip's path, [rad]; null without one.")
-    continuity: Continuity
-    min_singular_value: SmallestSingularValue | None = Field(description="Null without joints.")
-    limit_margin: LimitMargin | None = Field(description="Null where no joint has limits.")
-    ends: dict[str, float] = Field(
-        description="By name, how far a position, velocity or acceleration at the start or the end is from its "
-        "required value, [rad or m per sᵏ]."
-    )
-    tip: TipPeaks
-    certificate: CertificateInfo = Field(description="Of poses along the motion, recomputed through Pinocchio.")
-    reasons: list[Reason] = Field(description="Why the motion fails the audit.")
-
-
 class TrajectoryAnswer(Answer):
     """A motion, sampled; samples are k · sample_period and the end."""
 
@@ -127,11 +86,11 @@ class TrajectoryAnswer(Answer):
     )
     tip_poses: list[Pose] | None = Field(description="T_base_tip at each sample; null if not requested.")
     segments: list[TrajectorySegmentInfo] = Field(description="The segments completed, wholly or in part.")
-    audit: AuditInfo
+    audit: Audit
     timing: list[TimingComparison] | None = Field(default=None, description="If `compare_timing` was requested.")
     limits: MotionLimitsInfo = Field(description="Of the trajectory; each segment has its own.")
     limit_sources: LimitSourcesInfo
     notes: list[str] = Field(description="What was assumed.")
-    certificate: CertificateInfo | None = Field(
+    certificate: PoseCertificate | None = Field(
         description="Of `tip_poses`, a sample of them recomputed through Pinocchio; null without them."
     )

@@ -9,6 +9,7 @@ from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS, Configuration, Configurations, Matrix
 from gelenk.contract.singularities import SingularityInfo
 from gelenk.ik.search.words import Direction, ObjectiveName
+from gelenk.kinematics.judge.words import TipMotionCertificate
 from gelenk.kinematics.velocity.words import ExceededLimit, InverseName, InverseStatus
 
 MAX_MAGNITUDE = 1e6
@@ -233,23 +234,6 @@ class VelocityResult(Answer):
     singularity_report: SingularityInfo | None = Field(default=None, description="If requested.")
 
 
-class MotionCertificateInfo(Answer):
-    """Differences of the tip's motion from the one computed through Pinocchio.
-
-    The snap is compared with a difference quotient of Pinocchio's jerk, which is itself accurate to about nine digits.
-    """
-
-    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
-    max_twist_error: float = Field(description="Largest difference of an entry, [m/s or rad/s].")
-    max_acceleration_error: float | None = Field(description="The same, [m/s² or rad/s²]; null where there is none.")
-    max_spatial_acceleration_error: float | None = Field(
-        description="The same, [m/s² or rad/s²]; null where there is none."
-    )
-    max_jerk_error: float | None = Field(description="The same, [m/s³ or rad/s³]; null where there is none.")
-    max_snap_error: float | None = Field(description="The same, [m/s⁴ or rad/s⁴]; null where there is none.")
-    seed: int = Field(description="Random seed of the sampling.")
-
-
 _Rows = list[list[float]]
 _Solutions = list[list[float] | None]
 
@@ -293,7 +277,7 @@ class VelocityAnswer(Answer):
         "rates are given or found; [m or rad] per [rad or m], and per s, s², s³.",
     )
     results: list[VelocityResult]
-    certificate: MotionCertificateInfo
+    certificate: TipMotionCertificate
 
 
 ENDPOINT = RobotEndpoint(

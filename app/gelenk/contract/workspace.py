@@ -8,6 +8,7 @@ from gelenk.contract.common import Answer, ChainOptions, Payload
 from gelenk.contract.jobs import JobName
 from gelenk.contract.pose import Vector3
 from gelenk.ik.search.words import Direction
+from gelenk.kinematics.judge.words import WorkspaceCertificate
 
 _Bound = Annotated[float, Field(ge=-1e6, le=1e6)]
 JointRange = Annotated[list[_Bound], Field(min_length=2, max_length=2)]
@@ -186,19 +187,6 @@ class ArrayInfo(Answer):
     columns: list[str] = Field(description="What each column is; x y z in the base frame, [m].")
 
 
-class WorkspaceCertificateInfo(Answer):
-    """Differences of the results at a sample of the configurations from Pinocchio's."""
-
-    samples: int = Field(description="Configurations that were recomputed, spread over all of them.")
-    max_position_error: float = Field(description="Largest distance, [m].")
-    max_orientation_error: float = Field(description="Largest angle, [rad].")
-    seed: int = Field(description="Random seed of the choice among the samples.")
-    max_jacobian_error: float = Field(description="Largest difference of an entry, [m or rad] per [rad or m].")
-    max_measure_error: float = Field(
-        description="Largest difference of a measure from the product of singular values of that Jacobian; as those."
-    )
-
-
 class PlaneInfo(Answer):
     """A slice of space."""
 
@@ -229,4 +217,4 @@ class WorkspaceAnswer(Answer):
     dexterity: DexterityInfo | None = Field(description="If requested.")
     array: ArrayInfo
     notes: list[str] = Field(description="Assumptions, and what is special about the chain.")
-    certificate: WorkspaceCertificateInfo
+    certificate: WorkspaceCertificate

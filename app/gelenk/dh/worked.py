@@ -33,7 +33,8 @@ from gelenk.dh.lagrangian.symbolic import motion
 from gelenk.dh.lagrangian.texts import MotionTexts, NoMotion
 from gelenk.dh.tables.convert import BASE_FRAME, TOOL_FRAME, describe_dh
 from gelenk.errors import InvalidDhTable
-from gelenk.kinematics.judge.judge import JacobianCertificate, PoseCertificate, certify_jacobians, certify_poses
+from gelenk.kinematics.judge.judge import certify_jacobians, certify_poses
+from gelenk.kinematics.judge.words import JacobianCertificate, PoseCertificate
 from gelenk.robot.arrays import Array, Configuration
 from gelenk.robot.configuration import configurations
 from gelenk.robot.dh import DhJoint, DhTable

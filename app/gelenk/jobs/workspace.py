@@ -314,7 +314,6 @@ def _unpacked(pickled: bytes) -> tuple[RobotModel, Chain, _Arm]:
 def _summary(asked: WorkspaceWork, found: Workspace, dexterity: Array | None) -> dict[str, Any]:
     """Return the summary of a result, to be written as JSON."""
     chain, work, wish = asked.chain, asked.plan, asked.wish
-    certificate = found.certificate
     return {
         "robot": asked.name,
         "joint_names": chain.joint_names,
@@ -335,8 +334,7 @@ def _summary(asked: WorkspaceWork, found: Workspace, dexterity: Array | None) ->
         "array": {"shape": [found.count if wish.kind == "cloud" else len(found.voxels), len(asked.columns)]}
         | {"columns": asked.columns},
         "notes": work.notes,
-        "certificate": asdict(certificate.poses)
-        | {"max_jacobian_error": certificate.max_jacobian_error, "max_measure_error": certificate.max_measure_error},
+        "certificate": found.certificate,
     }
 
 

@@ -6,7 +6,7 @@ from typing import Any
 from gelenk.contract.convert_dh import ConvertRequest
 from gelenk.contract.dh import table_content
 from gelenk.dh.tables.convert import converted
-from gelenk.kinematics.judge.judge import certify_conversion
+from gelenk.kinematics.judge.tables import certify_conversion
 from gelenk.operations.outcome import Outcome
 
 

@@ -6,7 +6,7 @@ from typing import Any
 from gelenk.contract.dh_to_urdf import ToUrdfRequest
 from gelenk.dh.tables.convert import BASE_FRAME, TOOL_FRAME, describe_dh
 from gelenk.errors import listed
-from gelenk.kinematics.judge.judge import certify_table
+from gelenk.kinematics.judge.tables import certify_table
 from gelenk.operations.outcome import Outcome
 from gelenk.robot.appearance import INVENTED_MASSES
 from gelenk.robot.description import MOVABLE, Description

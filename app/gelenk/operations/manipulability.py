@@ -167,14 +167,7 @@ def _content(
             strict=True,
         )
     ]
-    certified = result.certificate.jacobians
-    answer["certificate"] = {
-        "samples": certified.samples,
-        "max_error": certified.max_error,
-        "max_time_variation_error": certified.max_time_variation_error,
-        "seed": certified.seed,
-        "max_ellipsoid_error": result.certificate.max_ellipsoid_error,
-    }
+    answer["certificate"] = result.certificate
     return answer
 
 

@@ -1,7 +1,6 @@
 """Singularities of a robot: at configurations and along a path."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,12 +15,12 @@ from gelenk.contract.singularities import (
 from gelenk.errors import InvalidField, TooLarge, counted
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import DIRECTIONS
-from gelenk.kinematics.judge.judge import MAX_SAMPLES, JacobianCertificate, certify_jacobians
+from gelenk.kinematics.judge.judge import MAX_SAMPLES, certify_jacobians
+from gelenk.kinematics.judge.words import JacobianCertificate, SingularityCertificate
 from gelenk.kinematics.simd.kernels import chain_jacobians
 from gelenk.kinematics.singularity.distance import NearestSingularity, Search, can_lose, nearest_singularity
-from gelenk.kinematics.singularity.judge import certify_reports
 from gelenk.kinematics.singularity.path import PathMinimum, places_along
-from gelenk.kinematics.singularity.report import SingularityReport, singularity_report
+from gelenk.kinematics.singularity.report import SingularityReport, certify_reports, singularity_report
 from gelenk.kinematics.velocity.jacobian import singular_values
 from gelenk.kinematics.velocity.task_space import TaskSpace, slides, structure
 from gelenk.operations.chains import chain_and_positions, check_numbers
@@ -119,6 +118,7 @@ def _content(
     space = _space(call)
     reports = [singularity_report(chain, q, call.rank_tolerance, space) for q in qs]
     products = [certify_reports(robot, chain, space, qs, reports)]
+    certified = [certificate]
     entries = [singularity_info(chain, report) for report in reports]
     answer: dict[str, Any] = {
         "joint_names": chain.joint_names,
@@ -134,30 +134,28 @@ def _content(
     if call.nearest:
         search = Search(call.search_radius, call.rank_tolerance, call.respect_limits)
         found = [nearest_singularity(chain, q, space, search) for q in qs]
-        certificate = _with_more(robot, chain, certificate, [nearest.q for nearest in found if nearest is not None])
+        certified += _recomputed(robot, chain, [nearest.q for nearest in found if nearest is not None])
         for entry, q, nearest in zip(entries, qs, found, strict=True):
             entry.update(_nearest(chain, space, search, q, nearest))
     if call.path:
         places = places_along(chain, qs, space, call.rank_tolerance, call.path_threshold)
-        told = sorted(sorted(places, key=lambda place: place.share)[:MAX_PLACES], key=lambda place: place.start)
-        reports = [singularity_report(chain, place.q, call.rank_tolerance, space) for place in told]
-        certificate = _with_more(robot, chain, certificate, [place.q for place in told[:MAX_SAMPLES]])
-        products += [
-            certify_reports(robot, chain, space, place.q[None], [report])
-            for place, report in zip(told[:MAX_SAMPLES], reports, strict=False)
-        ]
+        shown = sorted(sorted(places, key=lambda place: place.share)[:MAX_PLACES], key=lambda place: place.start)
+        reports = [singularity_report(chain, place.q, call.rank_tolerance, space) for place in shown]
+        sample = [place.q for place in shown[:MAX_SAMPLES]]
+        certified += _recomputed(robot, chain, sample)
+        products.append(certify_reports(robot, chain, space, np.array(sample), reports))
         answer["path"] = {
-            "places": list(_places(chain, len(qs), told, reports)),
-            "omitted": len(places) - len(told),
+            "places": list(_places(chain, len(qs), shown, reports)),
+            "omitted": len(places) - len(shown),
         }
-    answer["certificate"] = {
-        "samples": certificate.samples,
-        "max_error": certificate.max_error,
-        "max_time_variation_error": certificate.max_time_variation_error,
-        "seed": certificate.seed,
-        "max_internal_motion": max(product.max_internal_motion for product in products),
-        "max_lost_direction": max(product.max_lost_direction for product in products),
-    }
+    answer["certificate"] = SingularityCertificate(
+        sum(part.samples for part in certified),
+        max(part.max_error for part in certified),
+        None,
+        certificate.seed,
+        max(product["max_internal_motion"] for product in products),
+        max(product["max_lost_direction"] for product in products),
+    )
     return answer
 
 
@@ -166,18 +164,10 @@ def _units_are_mixed(chain: Chain, space: TaskSpace) -> bool:
     return rows or len(set(slides(chain).tolist())) > 1
 
 
-def _with_more(
-    robot: RobotModel, chain: Chain, certificate: JacobianCertificate, rows: list[Array]
-) -> JacobianCertificate:
-    """Add further configurations, whose Jacobians are recomputed, to the certificate."""
+def _recomputed(robot: RobotModel, chain: Chain, rows: list[Array]) -> Iterator[JacobianCertificate]:
+    """Yield certificates of further configurations, so few each that all are recomputed."""
     for first in range(0, len(rows), MAX_SAMPLES):
-        part = _certificate(robot, chain, np.array(rows[first : first + MAX_SAMPLES]))
-        certificate = replace(
-            certificate,
-            samples=certificate.samples + part.samples,
-            max_error=max(certificate.max_error, part.max_error),
-        )
-    return certificate
+        yield _certificate(robot, chain, np.array(rows[first : first + MAX_SAMPLES]))
 
 
 def _nearest(

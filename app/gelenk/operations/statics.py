@@ -14,13 +14,13 @@ from gelenk.kinematics.dynamics.mechanism import mechanism
 from gelenk.kinematics.force.statics import (
     NearestWrench,
     Statics,
-    StaticsCertificate,
     balance,
     certify_statics,
     components,
     overloaded_joints,
     statics,
 )
+from gelenk.kinematics.judge.words import StaticsCertificate
 from gelenk.kinematics.velocity.subspaces import Subspaces
 from gelenk.operations.chains import check_numbers, positions
 from gelenk.operations.loads import (

@@ -13,7 +13,6 @@ from gelenk.kinematics.velocity.inverse_velocity import (
     inverse_motion,
     velocity_limits,
 )
-from gelenk.kinematics.velocity.judge import DerivativeCertificate
 from gelenk.kinematics.velocity.linear_inverse import Decomposition, InverseRule, Inversion, decompose
 from gelenk.kinematics.velocity.subspaces import rounding
 from gelenk.kinematics.velocity.task_space import TaskSpace, jacobians_with_terms, structure
@@ -147,21 +146,8 @@ def _with_proof(answer: dict[str, Any], call: VelocityRequest, motion: TipMotion
     """Add the certificate to the answer, and the Jacobian's derivatives if requested."""
     if call.jacobian_derivatives:
         answer["jacobian_derivatives"] = np.ascontiguousarray(motion.jacobians.swapaxes(0, 1))
-    answer["certificate"] = _certificate(motion.certificate)
+    answer["certificate"] = motion.certificate
     return answer
-
-
-def _certificate(certificate: DerivativeCertificate) -> dict[str, Any]:
-    errors: list[float | None] = [*certificate.max_errors, None, None, None]
-    return {
-        "samples": certificate.samples,
-        "max_twist_error": errors[0],
-        "max_acceleration_error": errors[1],
-        "max_spatial_acceleration_error": certificate.max_spatial_acceleration_error,
-        "max_jerk_error": errors[2],
-        "max_snap_error": errors[3],
-        "seed": certificate.seed,
-    }
 
 
 def _results(

@@ -20,11 +20,12 @@ class Result:
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: Callable[[Any], dict[str, Any]]) -> dict[str, Any]:
-        """Return the JSON schema, with the descriptions that the docstring gives."""
+        """Return the JSON schema, with the descriptions that the docstring gives, and those of inherited fields."""
         reference = handler(schema)
         whole: dict[str, Any] = handler.resolve_ref_schema(reference)  # type: ignore[attr-defined]
-        text, _, attributes = inspect.cleandoc(cls.__doc__ or "").partition("\n\nAttributes:\n")
-        whole["description"] = text
-        for name, description in _ATTRIBUTE.findall(attributes):
-            whole["properties"][name]["description"] = re.sub(r"\s+", " ", description)
+        for each in reversed(cls.__mro__[: cls.__mro__.index(Result)]):
+            text, _, attributes = inspect.cleandoc(each.__doc__ or "").partition("\n\nAttributes:\n")
+            whole["description"] = text
+            for name, description in _ATTRIBUTE.findall(attributes):
+                whole["properties"][name]["description"] = re.sub(r"\s+", " ", description)
         return reference

@@ -4,5 +4,5 @@
 - `laws`: from one state to another under limits. `paths`: paths of the tip without time. `timing`: the time that
   joints take along a path. `joints`: motions through configurations. `follow`: joints along a path of the tip.
 - `audit`: checks a motion with code that shares nothing with the planners.
-- `plan` joins `joint_part` and `tip_part`; `whole_audit` joins their audits.
+- `plan` joins `joint_part` and `tip_part`.
 """

@@ -10,21 +10,19 @@ from dataclasses import replace
 import numpy as np
 
 from gelenk.errors import AuditFailed, InvalidField
-from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import check_limits
 from gelenk.robot.robot import RobotModel
-from gelenk.trajectory.audit.audit import Audit, audit
+from gelenk.trajectory.audit.audit import audit, whole_audit
 from gelenk.trajectory.audit.demands import Demands
-from gelenk.trajectory.audit.result import TipPeaks
+from gelenk.trajectory.audit.result import Audit, TipPeaks
 from gelenk.trajectory.joint_part import joint_part
 from gelenk.trajectory.motion.extremes import peaks
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
+from gelenk.trajectory.motion.polynomial import joined
 from gelenk.trajectory.paths.segment_paths import is_blended
 from gelenk.trajectory.problem.parts import PlannedPart, standing
 from gelenk.trajectory.problem.problem import Segment, Trajectory, TrajectoryProblem
 from gelenk.trajectory.tip_part import tip_part
-from gelenk.trajectory.whole_audit import whole
 
 _SAME_DURATION = 1e-9
 """Relative tolerance for a requested duration that falls short of the shortest one, and then means it."""
@@ -61,9 +59,9 @@ def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Traject
     ]
     motion = joined([part.motion for part, _ in moving]) if moving else standing(problem.start)
     if moving:
-        judgement = whole(chain, motion, audits, [start for _, start in moving])
-    else:
-        judgement = _of_standing(robot, chain, motion)
+        judgement = whole_audit(chain, motion, audits, [start for _, start in moving])
+    else:  # An audit needs pieces that take time.
+        judgement = audit(robot, chain, standing(problem.start, _MOMENT), Demands())
     refuse_failed(judgement)
     return Trajectory(
         motion,
@@ -84,21 +82,15 @@ def _parts(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> list[
     parts: list[PlannedPart] = []
     configuration = problem.start
     for first, segments in _grouped(problem.segments):
-        part = _part(robot, chain, configuration, first, segments, problem)
+        if segments[0].type == "joint" or segments[0].configurations is not None:
+            part = joint_part(robot, chain, configuration, segments[0], first, problem)
+        else:
+            part = tip_part(robot, chain, configuration, segments, first, problem)
         parts.append(part)
         if part.failure is not None:
             break
         configuration = part.motion.at(part.motion.breaks[-1:])[0]
     return parts
-
-
-def _part(
-    robot: RobotModel, chain: Chain, start: Array, first: int, segments: tuple[Segment, ...], problem: TrajectoryProblem
-) -> PlannedPart:
-    segment = segments[0]
-    if segment.type == "joint" or segment.configurations is not None:
-        return joint_part(robot, chain, start, segment, first, problem)
-    return tip_part(robot, chain, start, segments, first, problem)
 
 
 def _grouped(segments: tuple[Segment, ...]) -> Iterator[tuple[int, tuple[Segment, ...]]]:
@@ -208,12 +200,6 @@ def _excess(found: Audit) -> float:
         getattr(found.tip, name) for name in TipPeaks.__slots__
     ]
     return max(peak.ratio or 0.0 for peak in beyond if peak is not None)
-
-
-def _of_standing(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial) -> Audit:
-    """Audit joints that stand still, as a motion of tiny duration, because an audit needs pieces that take time."""
-    still = PiecewisePolynomial(np.array([0.0, _MOMENT]), motion.coefficients)
-    return audit(robot, chain, still, Demands())
 
 
 def refuse_failed(judgement: Audit) -> None:

@@ -2,7 +2,8 @@
 
 from gelenk.dh.compare.words import ORIENTATION_TOLERANCE, POSITION_TOLERANCE
 from gelenk.dh.tables.from_chain import FAR, ChainTable, FarNormal, dh_from_chain
-from gelenk.kinematics.judge.judge import PoseCertificate, certify_table
+from gelenk.kinematics.judge.tables import certify_table
+from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.robot.chain import Chain
 from gelenk.robot.dh import Convention, DhTable
 from gelenk.robot.robot import RobotModel

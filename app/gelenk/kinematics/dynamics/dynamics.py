@@ -12,9 +12,10 @@ import numpy as np
 
 from gelenk.errors import InvalidField, listed
 from gelenk.kinematics.dynamics.bodies import Load, motions
-from gelenk.kinematics.dynamics.lagrangian import SINGULAR, DynamicsCertificate, Lagrangian, State, scaled, unit_scales
+from gelenk.kinematics.dynamics.lagrangian import SINGULAR, Lagrangian, State, scaled, unit_scales
 from gelenk.kinematics.dynamics.mechanism import ChainMechanism, PinocchioDynamics, mechanism
 from gelenk.kinematics.judge.judge import agreed, sampled_rows
+from gelenk.kinematics.judge.words import DynamicsCertificate
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel

@@ -30,33 +30,6 @@ class State:
     held: Array
 
 
-@dataclass(frozen=True, slots=True)
-class DynamicsCertificate:
-    """Largest differences between Pinocchio's dynamics and sums over the bodies; None where not requested.
-
-    Attributes:
-        samples: Number of configurations recomputed.
-        max_mass_error: Error in an entry of M.
-        max_coriolis_error: Error in C q̇, [N m or N].
-        max_skew_error: Error in an entry of C + Cᵀ - Ṁ, which is zero if Ṁ - 2C is skew.
-        max_gravity_error: Error in g, [N m or N].
-        max_energy_error: Error in T or U, [J].
-        max_torque_error: Residual M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N].
-        max_round_trip_error: Error in the torques of inverse after forward dynamics, [N m or N].
-        seed: Seed of the sample selection.
-    """
-
-    samples: int
-    max_mass_error: float | None
-    max_coriolis_error: float | None
-    max_skew_error: float | None
-    max_gravity_error: float | None
-    max_energy_error: float | None
-    max_torque_error: float | None
-    max_round_trip_error: float | None
-    seed: int
-
-
 def unit_scales(Ms: Array) -> Array:
     """Return the square roots of M's diagonal, zero where an entry is rounding; shape (N, n, n) → (N, n)."""
     diagonals = np.diagonal(Ms, axis1=1, axis2=2)

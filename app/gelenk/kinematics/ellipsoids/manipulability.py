@@ -11,7 +11,7 @@ found at random configurations. A configuration is singular where one of the rem
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import lru_cache
 from typing import Literal, TypeAlias, cast
 
@@ -19,9 +19,9 @@ import numpy as np
 
 from gelenk.errors import CertificationFailed, InvalidField
 from gelenk.ik.search.words import DIRECTIONS, Direction
-from gelenk.kinematics.judge.judge import JacobianCertificate, certify_jacobians
+from gelenk.kinematics.judge.judge import certify_jacobians
+from gelenk.kinematics.judge.words import EllipsoidCertificate, JacobianCertificate, Reference
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
-from gelenk.kinematics.velocity.jacobian import Reference
 from gelenk.kinematics.velocity.subspaces import rounding
 from gelenk.kinematics.velocity.task_space import hessians_in_reference, jacobians_with_terms, random_configurations
 from gelenk.robot.arrays import Array, Flags, Indices
@@ -106,20 +106,6 @@ class Ellipsoids:
 
 
 @dataclass(frozen=True, slots=True)
-class ManipulabilityCertificate:
-    """Agreement of ellipsoids with their Jacobians, and of these with Pinocchio's.
-
-    Attributes:
-        jacobians: Differences of the Jacobians from Pinocchio's.
-        max_ellipsoid_error: Largest entry of JJᵀ - Σ u_i σ_i² u_iᵀ, relative to the larger of σ₁² and the square of the
-            largest entry of J; includes motion along directions that do not count as axes.
-    """
-
-    jacobians: JacobianCertificate
-    max_ellipsoid_error: float
-
-
-@dataclass(frozen=True, slots=True)
 class Manipulability:
     """Ellipsoids at N configurations, by part.
 
@@ -131,7 +117,7 @@ class Manipulability:
 
     parts: dict[Part, Ellipsoids]
     Js: Array
-    certificate: ManipulabilityCertificate
+    certificate: EllipsoidCertificate
 
 
 def manipulability(
@@ -179,7 +165,7 @@ def manipulability(
             stretched = terms * _stretches(some, length).max()
             parts[part], error = _ellipsoids(space, Js, Hs, length, stretched, rank_tolerance)
             worst = max(worst, error)
-    return Manipulability(parts, Js, ManipulabilityCertificate(certified, worst))
+    return Manipulability(parts, Js, EllipsoidCertificate(**asdict(certified), max_ellipsoid_error=worst))
 
 
 def _certified(

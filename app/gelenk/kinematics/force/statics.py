@@ -11,7 +11,8 @@ import numpy as np
 from gelenk.kinematics.dynamics.bodies import Load, motions
 from gelenk.kinematics.dynamics.mechanism import PinocchioDynamics, mechanism
 from gelenk.kinematics.force.wrenches import WrenchFrame, frame_jacobians, in_base_axes
-from gelenk.kinematics.judge.judge import agreed, pinocchio_poses, sampled_rows
+from gelenk.kinematics.judge.judge import Differences, largest, pinocchio_poses, sampled_rows
+from gelenk.kinematics.judge.words import StaticsCertificate
 from gelenk.kinematics.velocity.subspaces import Subspaces, subspaces
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
@@ -22,24 +23,6 @@ ALL_ROWS: Indices = np.arange(6)
 AT_TIP = WrenchFrame()
 _NUMBERS_AT_ONCE = 1_000_000
 """Largest number of entries of the bodies' Jacobians held in memory at once."""
-
-
-@dataclass(frozen=True, slots=True)
-class StaticsCertificate:
-    """Agreement of torques with Pinocchio's.
-
-    Attributes:
-        samples: Number of configurations recomputed through Pinocchio.
-        max_torque_error: Largest difference of a torque from Pinocchio's (Newton-Euler at rest with the wrench as an
-            external force), [N m or N].
-        max_virtual_work_error: Largest difference between τᵀq̇ and γᵀv at random q̇, v by Pinocchio, [W].
-        seed: Seed of the sample selection, of q̇ and of a random wrench that tests the whole Jacobian.
-    """
-
-    samples: int
-    max_torque_error: float
-    max_virtual_work_error: float
-    seed: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -212,20 +195,19 @@ def certify_statics(still: Statics, wrenches: Array, torques: Array, seed: int =
     judge = PinocchioDynamics(found, gravity, still.load)
     others = rng.uniform(-1.0, 1.0, (len(rows), len(still.rows)))
     by_others = np.einsum("kij,ki->kj", still.Js[rows], others) + still.gravity_torques[rows]
-    worst, worst_work = 0.0, 0.0
+    worst = Differences()
     for given, held in ((wrenches[rows], torques[rows]), (others, by_others)):
         in_base = in_base_axes(places, still.rows, given)
         for k, row in enumerate(rows):
             q_dot = rng.uniform(-1.0, 1.0, len(chain))
             expected, power = judge.static_torques(qs[row], q_dot, places.positions[k], in_base[k])
             scale = max(_largest_term(still.Js[row], given[k], places.positions[k]), still.gravity_scale)
-            worst = max(worst, agreed("a torque", held[k] - expected, scale))
+            worst.add("max_torque_error", "a torque", held[k] - expected, scale)
             work = (held[k] - still.gravity_torques[row]) @ q_dot - power
-            worst_work = max(worst_work, agreed("the virtual work", np.array([work]), scale * len(chain)))
-    return StaticsCertificate(len(rows), worst, worst_work, seed)
+            worst.add("max_virtual_work_error", "the virtual work", work, scale * len(chain))
+    return StaticsCertificate(samples=len(rows), seed=seed, **worst)
 
 
 def _largest_term(J: Array, wrench: Array, point: Array) -> float:
     """Largest term in computing torques from a wrench, here or through its moment about the base origin."""
-    force = float(np.abs(wrench).max(initial=0.0))
-    return max(float((np.abs(J.T) @ np.abs(wrench)).max()), force * (1.0 + float(np.abs(point).max())))
+    return max(largest(np.abs(J.T) @ np.abs(wrench)), largest(wrench) * (1.0 + largest(point)))

@@ -11,8 +11,8 @@ import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.kinematics.dynamics.mechanism import mechanism
+from gelenk.kinematics.judge.words import Reference
 from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
-from gelenk.kinematics.velocity.jacobian import Reference
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses

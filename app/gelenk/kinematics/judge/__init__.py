@@ -1,4 +1,5 @@
 """Recomputation of answers through Pinocchio, and the differences.
 
-- `judge`: poses, frames, Jacobians and DH tables.
+- `judge`: samples, the allowed difference, poses and Jacobians; `tables`: DH tables; `motion`: twists up to snaps.
+- `words`: the certificates, without the code that computes them.
 """

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gelenk.kinematics.judge.judge import PoseCertificate, certify_poses
+from gelenk.kinematics.judge.judge import certify_poses
+from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain

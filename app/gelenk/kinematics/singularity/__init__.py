@@ -1,6 +1,5 @@
 """Configurations in which the tip loses a direction.
 
-- `report`: lost directions, and the joints that cause the loss; `kinds` names the singularity.
+- `report`: lost directions, and the joints that cause the loss, checked with Pinocchio; `kinds` names the singularity.
 - `distance` finds the nearest one, `path` those along a path of configurations.
-- `judge` checks the reports with Pinocchio's Jacobian.
 """

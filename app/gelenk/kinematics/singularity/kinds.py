@@ -15,8 +15,8 @@ import numpy as np
 
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import Direction
+from gelenk.kinematics.judge.words import Reference
 from gelenk.kinematics.simd.kernels import chain_jacobians
-from gelenk.kinematics.velocity.jacobian import Reference
 from gelenk.kinematics.velocity.task_space import TaskSpace, random_configurations, structure
 from gelenk.kinematics.velocity.words import SingularityKind
 from gelenk.robot.arrays import Array, Flags

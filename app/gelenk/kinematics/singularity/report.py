@@ -4,16 +4,19 @@ A configuration is singular if the Jacobian's rank is below the chain's structur
 last structurally nonzero singular value is small.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gelenk.kinematics.judge.judge import Differences, largest, pinocchio_jacobian, sampled_rows
 from gelenk.kinematics.singularity.kinds import singularity_kinds
 from gelenk.kinematics.velocity.subspaces import Subspaces, subspaces
 from gelenk.kinematics.velocity.task_space import FULL_SPACE, STRUCTURAL_TOLERANCE, TaskSpace, aligned_basis, structure
 from gelenk.kinematics.velocity.words import SingularityKind
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
 
 RANK_TOLERANCE = 1e-10
 _INVOLVED = 1e-6
@@ -109,6 +112,42 @@ def singularity_report(
         exit_,
         rate,
     )
+
+
+def certify_reports(
+    robot: RobotModel, chain: Chain, space: TaskSpace, qs: Array, reports: Sequence[SingularityReport], seed: int = 0
+) -> Differences:
+    """Check with Pinocchio's Jacobian that internal motions leave the tip at rest and lost directions need no torque.
+
+    Both come from our own Jacobians, and from the chain's structure at other configurations.
+
+    Args:
+        robot: The robot.
+        chain: Base and tip.
+        space: The rows of the Jacobian that count.
+        qs: Configurations; shape (N, n), [rad or m].
+        reports: One report per configuration.
+        seed: Seed of the sample selection in a large batch.
+
+    Returns:
+        The fields that `SingularityCertificate` adds.
+
+    Raises:
+        CertificationFailed: An internal motion moves the tip, or a lost direction loads a joint, by more than the
+            singular values allow.
+    """
+    worst = Differences(max_internal_motion=0.0, max_lost_direction=0.0)
+    for row in sampled_rows(len(qs) if len(chain) else 0, seed):
+        report = reports[row]
+        J = space.picked(pinocchio_jacobian(robot, chain, qs[row], space.reference)[None])[0]
+        # The structure was found with unscaled rows, and its tolerance is larger.
+        scale = 10.0 * max(1.0, largest(report.sigmas), largest(space.scales))
+        passed = largest(report.sigmas[report.rank :])
+        moved = np.linalg.norm(J @ report.internal_motions, axis=0)
+        worst.add("max_internal_motion", "the tip's rest", moved, scale, passed)
+        felt = np.linalg.norm(J.T @ report.lost_directions, axis=0)
+        worst.add("max_lost_direction", "a lost direction", felt, scale, passed)
+    return worst
 
 
 def _split_at_rank(J: Array, tolerance: float, least: float, most: int) -> Subspaces:

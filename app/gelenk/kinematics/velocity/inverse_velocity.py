@@ -11,8 +11,9 @@ import numpy as np
 from gelenk.errors import CertificationFailed
 from gelenk.ik.search.null_space import Objective, objective_gradients
 from gelenk.kinematics.judge.judge import TOLERANCE
-from gelenk.kinematics.velocity.jacobian import Reference, jacobians
-from gelenk.kinematics.velocity.judge import motion_scales
+from gelenk.kinematics.judge.motion import motion_scales
+from gelenk.kinematics.judge.words import Reference
+from gelenk.kinematics.velocity.jacobian import jacobians
 from gelenk.kinematics.velocity.linear_inverse import InverseRule, Inversion, decompose, invert
 from gelenk.kinematics.velocity.subspaces import rounding
 from gelenk.kinematics.velocity.task_space import FULL_SPACE, TaskSpace, hessians_in_reference, jacobians_with_terms

@@ -10,7 +10,8 @@ from typing import Literal, TypeAlias, cast
 import numpy as np
 
 from gelenk.errors import RepresentationSingularity
-from gelenk.kinematics.judge.judge import JacobianCertificate, certify_jacobians
+from gelenk.kinematics.judge.judge import certify_jacobians
+from gelenk.kinematics.judge.words import JacobianCertificate, Reference
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
@@ -18,7 +19,6 @@ from gelenk.robot.notations import rpy_from_rotations, zyz_from_rotations
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 
-Reference: TypeAlias = Literal["local_world_aligned", "local", "world"]
 Representation: TypeAlias = Literal["geometric", "zyz", "rpy"]
 
 REPRESENTATION_TOLERANCE = 1e-6

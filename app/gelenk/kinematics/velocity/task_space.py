@@ -12,8 +12,8 @@ import numpy as np
 
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.ik.search.words import DIRECTIONS
+from gelenk.kinematics.judge.words import Reference
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
-from gelenk.kinematics.velocity.jacobian import Reference
 from gelenk.kinematics.velocity.subspaces import rounding, subspaces
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain

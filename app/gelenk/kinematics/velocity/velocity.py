@@ -14,9 +14,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from gelenk.kinematics.judge.motion import certify_motion
+from gelenk.kinematics.judge.words import Reference, TipMotionCertificate
 from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
-from gelenk.kinematics.velocity.jacobian import Reference
-from gelenk.kinematics.velocity.judge import DerivativeCertificate, certify_motion
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain, FlatChain
 from gelenk.robot.poses import Poses
@@ -45,7 +45,7 @@ class TipMotion:
     derivatives: tuple[Array, ...]
     spatial_accelerations: Array | None
     jacobians: Array
-    certificate: DerivativeCertificate
+    certificate: TipMotionCertificate
 
 
 def tip_motion(

@@ -1,11 +1,12 @@
 """Assembly of a workspace from the parts of its samples, and its certification."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from gelenk.kinematics.judge.judge import PoseCertificate, agreed, certify_jacobians, certify_poses
+from gelenk.kinematics.judge.judge import agreed, certify_jacobians, certify_poses
+from gelenk.kinematics.judge.words import WorkspaceCertificate
 from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
 from gelenk.kinematics.workspace.voxels import NO_VOXELS, Grid, VoxelTable, coarser, merged
 from gelenk.kinematics.workspace.workspace import SampledPart, SamplingPlan
@@ -45,21 +46,6 @@ class Measures:
 
 
 @dataclass(frozen=True, slots=True)
-class SurveyCertificate:
-    """Agreement of workspace samples with Pinocchio's results.
-
-    Attributes:
-        poses: Differences of positions and orientations.
-        max_jacobian_error: Largest difference in an entry of the Jacobian, [m, rad per rad or m].
-        max_measure_error: Largest difference of a measure from the product of the Jacobian's singular values.
-    """
-
-    poses: PoseCertificate
-    max_jacobian_error: float
-    max_measure_error: float
-
-
-@dataclass(frozen=True, slots=True)
 class Workspace:
     """The workspace of a chain as found by samples; bounds, reach, measures and late are None if no sample counts.
 
@@ -85,7 +71,7 @@ class Workspace:
     volume: tuple[float, float]
     late: float | None
     points: Array | None
-    certificate: SurveyCertificate
+    certificate: WorkspaceCertificate
 
     def voxel_rows(self, plan: SamplingPlan) -> Array:
         """Return one row per cell with the columns `VOXEL_COLUMNS`; shape (M, 5)."""
@@ -161,7 +147,7 @@ class Survey:
         position = self._plan.measured(q)[0][0]
         return Measures(least, total / self._count, most, position, q[0])
 
-    def _certificate(self, robot: RobotModel, chain: Chain) -> SurveyCertificate:
+    def _certificate(self, robot: RobotModel, chain: Chain) -> WorkspaceCertificate:
         """Recompute some evenly spaced samples, and compare them with the stored ones and with Pinocchio's."""
         plan, total = self._plan, self._plan.sampling.count
         numbers = np.unique(np.linspace(0, total - 1, min(total, 16)).astype(np.int64))
@@ -175,10 +161,10 @@ class Survey:
         if self._points is not None and self._count == total:
             agreed("a sample's position", self._points[numbers, :3] - positions, plan.extent)
             agreed("a sample's measure", self._points[numbers, 3] - measures, scale)
-        return SurveyCertificate(
-            certify_poses(robot, chain, qs, {chain.tip_frame: poses}),
-            certify_jacobians(robot, chain, qs, Js).max_error,
-            error,
+        return WorkspaceCertificate(
+            **asdict(certify_poses(robot, chain, qs, {chain.tip_frame: poses})),
+            max_jacobian_error=certify_jacobians(robot, chain, qs, Js).max_error,
+            max_measure_error=error,
         )
 
 

@@ -7,19 +7,22 @@ samples. The result passes, or gives the reasons why not.
 """
 
 import math
-from dataclasses import dataclass, replace
-from typing import Literal
+from collections.abc import Sequence
+from dataclasses import astuple, dataclass, replace
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 
 from gelenk.errors import CertificationFailed
-from gelenk.kinematics.judge.judge import MAX_SAMPLES, PoseCertificate, certify_poses
+from gelenk.kinematics.judge.judge import MAX_SAMPLES, certify_poses
+from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.demands import Demands
 from gelenk.trajectory.audit.pieces import Pieces, extremes, largest_jumps, pieces_of
 from gelenk.trajectory.audit.result import (
+    Audit,
     Continuity,
     Jump,
     LimitMargin,
@@ -32,6 +35,8 @@ from gelenk.trajectory.audit.result import (
 from gelenk.trajectory.audit.tip import Largest, poses_at, smallest_singular_value, tip_peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
+_Timed = TypeVar("_Timed", Peak, LimitMargin, SmallestSingularValue, Reason)
+
 DERIVATIVES = ("position", "velocity", "acceleration", "jerk")
 _RATES: tuple[Literal["velocity", "acceleration", "jerk"], ...] = ("velocity", "acceleration", "jerk")
 _DIGIT = 10.0
@@ -39,43 +44,6 @@ _DIGIT = 10.0
 _ZONE_SAMPLES = 200
 """Samples of a zone that has its own limits."""
 _TIP_UNITS = {"speed": "m/s", "angular_speed": "rad/s", "acceleration": "m/s²", "angular_acceleration": "rad/s²"}
-
-
-@dataclass(frozen=True, slots=True)
-class Audit:
-    """The result of auditing a motion.
-
-    Attributes:
-        passed: Whether the motion passes, with no reason against it.
-        velocity: The joint velocity nearest to or furthest beyond its limit; None without joints.
-        acceleration: Likewise.
-        jerk: Likewise, within pieces: a jump of acceleration, where jerk is infinite, appears in `continuity` only.
-        path_deviation: Largest distance from the demanded path, [m]; None without one.
-        orientation_deviation: Largest angle from its orientation, [rad]; None without one.
-        continuity: The largest jump of position, velocity, acceleration and jerk where pieces meet.
-        min_singular_value: None without joints.
-        limit_margin: Distance to the joint limits; None if no joint has limits.
-        ends: Largest joint error of each demanded quantity at an end, such as `end_velocity`, [rad or m per sᵏ].
-        tip: Largest speed, angular speed, acceleration and angular acceleration, [m/s, rad/s, m/s², rad/s²].
-        certificate: How far Pinocchio's poses are from ours at some samples.
-        way_error: How much ratios to joint limits may differ from the exact path's; None without such a path.
-        reasons: Reasons why the motion does not pass.
-    """
-
-    passed: bool
-    velocity: Peak | None
-    acceleration: Peak | None
-    jerk: Peak | None
-    path_deviation: Peak | None
-    orientation_deviation: Peak | None
-    continuity: Continuity
-    min_singular_value: SmallestSingularValue | None
-    limit_margin: LimitMargin | None
-    ends: dict[str, float]
-    tip: TipPeaks
-    certificate: PoseCertificate
-    way_error: PathError | None
-    reasons: tuple[Reason, ...]
 
 
 def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands: Demands) -> Audit:
@@ -118,10 +86,75 @@ def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands:
     )
 
 
-def continuity_of(chain: Chain, motion: PiecewisePolynomial) -> tuple[Continuity, tuple[Reason, ...]]:
-    """Return the largest jumps where pieces meet, and a reason for each of position or velocity; no other checks."""
-    examination = _Examination(pieces_of(motion), chain, Demands(), [])
-    return examination.continuity({}), tuple(examination.reasons)
+def whole_audit(chain: Chain, motion: PiecewisePolynomial, audits: Sequence[Audit], starts: Sequence[float]) -> Audit:
+    """Combine the audits of parts, each against its own limits, and how the parts meet into one of the whole motion.
+
+    Args:
+        chain: Chain that moves.
+        motion: The whole motion.
+        audits: Audits of its parts, at least one.
+        starts: Start time of each part, [s].
+    """
+    if len(audits) == 1:
+        return audits[0]
+    timed = list(zip(audits, starts, strict=True))
+    meeting = _Examination(pieces_of(motion), chain, Demands(), [])
+    continuity = meeting.continuity({})
+    reasons = (*(_moved(reason, at) for one, at in timed for reason in one.reasons), *meeting.reasons)
+    certificates, errors = [one.certificate for one in audits], [one.way_error for one in audits if one.way_error]
+
+    def moved(name: str) -> list[Any]:
+        found = ((getattr(one, name), at) for one, at in timed)
+        return [_moved(one, at) for one, at in found if one is not None]
+
+    return Audit(
+        not reasons,
+        _worst_part(moved("velocity")),
+        _worst_part(moved("acceleration")),
+        _worst_part(moved("jerk")),
+        _worst_part(moved("path_deviation")),
+        _worst_part(moved("orientation_deviation")),
+        continuity,
+        min(moved("min_singular_value"), key=lambda one: one.value, default=None),
+        min(moved("limit_margin"), key=lambda one: one.value, default=None),
+        _of(audits[0], "start") | _of(audits[-1], "end"),
+        TipPeaks(*(_worst_tip([_moved(getattr(one.tip, name), at) for one, at in timed]) for name in _TIP_UNITS)),
+        PoseCertificate(
+            sum(one.samples for one in certificates),
+            max(one.max_position_error for one in certificates),
+            max(one.max_orientation_error for one in certificates),
+            certificates[0].seed,
+        ),
+        _largest_error(errors) if errors else None,
+        reasons,
+    )
+
+
+def _moved(one: _Timed, start: float) -> _Timed:
+    return replace(one, time=one.time + start)
+
+
+def _of(audit: Audit, end: str) -> dict[str, float]:
+    return {name: error for name, error in audit.ends.items() if name.startswith(end)}
+
+
+def _worst_part(peaks: Sequence[Peak]) -> Peak | None:
+    """Return the peak nearest to its limit or furthest beyond it; the largest peak if none has a limit."""
+    limited = [peak for peak in peaks if peak.ratio is not None]
+    if limited:
+        return max(limited, key=lambda peak: peak.ratio or 0.0)
+    return max(peaks, key=lambda peak: abs(peak.value), default=None)
+
+
+def _worst_tip(peaks: Sequence[Peak]) -> Peak:
+    """Return the largest value of all parts, with the largest ratio to the limit of a part."""
+    largest = max(peaks, key=lambda peak: peak.value)
+    return replace(largest, ratio=max((peak.ratio for peak in peaks if peak.ratio is not None), default=None))
+
+
+def _largest_error(errors: Sequence[PathError]) -> PathError:
+    columns = zip(*(astuple(error) for error in errors), strict=True)
+    return PathError(*(None if None in column else max(column) for column in columns))
 
 
 @dataclass(frozen=True, slots=True)

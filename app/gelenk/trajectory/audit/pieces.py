@@ -88,7 +88,7 @@ class Pieces:
         return values / self.widths[piece, None] ** order
 
     def times(self, piece: Indices, tau: Array) -> Array:
-        """When that is, [s]."""
+        """Return the times at τ of some pieces, [s]."""
         times: Array = self.starts[piece] + tau * self.widths[piece]
         return times
 

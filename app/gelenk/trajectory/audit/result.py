@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
+from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.robot.result import Result
 from gelenk.trajectory.audit.words import Check
 
@@ -122,3 +123,42 @@ class PathError(Result):
     velocity: float | None
     acceleration: float | None
     jerk: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Audit(Result):
+    """The check of the motion, also between samples, by code independent of the planner.
+
+    A ratio is relative to the limit in force at the time.
+
+    Attributes:
+        passed: Whether the motion keeps every limit and tolerance; one that does not is not sent.
+        velocity: Of the joint nearest to its limit; null without joints.
+        jerk: Of the pieces: where the acceleration jumps it is infinite, as `continuity` reports. Its limits are kept
+            by `quintic`, `septic` and `jerk_limited`; another law is only compared with them, and `notes` of its
+            segment say where it goes beyond.
+        path_deviation: Distance from the tip's path, [m]; null without one.
+        orientation_deviation: Angle from the tip's path, [rad]; null without one.
+        min_singular_value: Null without joints.
+        limit_margin: Null where no joint has limits.
+        ends: By name, how far a position, velocity or acceleration at the start or the end is from its required value,
+            [rad or m per sᵏ].
+        certificate: Of poses along the motion, recomputed through Pinocchio.
+        way_error: Difference of these three from those of the exact tip path; null without one.
+        reasons: Why the motion fails the audit.
+    """
+
+    passed: bool
+    velocity: Peak | None
+    acceleration: Peak | None
+    jerk: Peak | None
+    path_deviation: Peak | None
+    orientation_deviation: Peak | None
+    continuity: Continuity
+    min_singular_value: SmallestSingularValue | None
+    limit_margin: LimitMargin | None
+    ends: dict[str, float]
+    tip: TipPeaks
+    certificate: PoseCertificate
+    way_error: PathError | None
+    reasons: tuple[Reason, ...]

@@ -159,9 +159,7 @@ def _tip_motion(chain: Chain, qs: Array, velocities: Array, accelerations: Array
 
 
 def _times(Js: Array, rates: Array) -> Array:
-    """Multiply matrices by vectors; shapes (N, 6, n) and (N, n) → (N, 6)."""
-    products: Array = np.einsum("nij,nj->ni", Js, rates)
-    return products
+    return cast(Array, np.einsum("nij,nj->ni", Js, rates))
 
 
 def _deviations(poses: Poses, wanted: Poses, task: Task) -> list[Array]:
@@ -181,15 +179,15 @@ def _between(
     quantities: Callable[[Indices, Array], Array],
     least: Array,
 ) -> list[tuple[float, int, float]]:
-    """Find the largest value of each column, also between samples.
+    """Find the largest value of each of Q columns, also between samples.
 
     Args:
-        places: Places of the samples, increasing in each piece; shape (N,).
+        places: Places of the N samples, increasing in each piece.
         values: Values there; shape (N, Q).
         inner: Samples with neighbours in their piece.
-        piece: Piece of each sample; shape (N,).
+        piece: Piece of each sample.
         quantities: Returns the values in a piece at a place; shape (M,) each → (M, Q).
-        least: Differences that do not matter; shape (Q,).
+        least: Differences that do not matter, for each column.
 
     Returns:
         For each column the value, the sample it is next to, and its place.

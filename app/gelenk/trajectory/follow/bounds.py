@@ -80,13 +80,8 @@ def threshold_crossing(
 ) -> tuple[Crossing | None, float]:
     """Find the first place in a piece at which σ falls below the threshold, and the largest σ so far.
 
-    If the path began below the threshold, σ must grow instead until it is above.
-
-    Args:
-        field: Field of joint rates.
-        piece: A piece of the joint path.
-        best: The largest σ before the piece.
-        stretch: The breaks of the path before and after.
+    If the path began below the threshold, σ must grow instead until it is above; `best` is the largest σ before the
+    piece. The path has no break between the two ends of `stretch`.
     """
     threshold = field.threshold
     taus, sigmas = _resolved(field, piece, _floor(threshold, best), stretch)
@@ -128,14 +123,7 @@ def _resolved(field: RateField, piece: Piece, floor: float, stretch: tuple[float
 def located(
     field: RateField, piece: Piece, crossing: Crossing, stretch: tuple[float, float]
 ) -> tuple[Piece | None, Crossing]:
-    """Locate a violation more exactly; return the part of the piece before it (None if empty) and the crossing.
-
-    Args:
-        field: Field of joint rates.
-        piece: The piece that contains the violation.
-        crossing: The violation as bracketed on the quintic.
-        stretch: The breaks of the path before and after.
-    """
+    """Locate a violation in a piece more exactly; return the part of the piece before it (None if empty) too."""
     good, bad, kept = piece.a.s, crossing.bad, None
     kind, joint = crossing.kind, crossing.joint
     room, lack = _margin(field, piece.a, crossing.floor), -np.inf

@@ -77,12 +77,7 @@ class Damped:
 
 
 def damped(exact: RateField, start: Array, since: float) -> Trace:
-    """Follow the damped path from a configuration to a joint limit or to the end of the path.
-
-    Args:
-        exact: The field without damping.
-        start: First configuration; shape (n,).
-        since: Place on the path where it begins, [m or rad].
+    """Follow the damped path from a configuration at place `since` to a joint limit or to the end of the path.
 
     Raises:
         InvalidField: It takes too many knots.

@@ -6,6 +6,7 @@ exact configuration is taken.
 """
 
 import math
+from typing import cast
 
 import numpy as np
 
@@ -124,7 +125,7 @@ def _divided(field: RateField, positions: PiecewisePolynomial, parts: Indices) -
 def _exact(field: RateField, s: Array, q: Array, first: Array, second: Array) -> tuple[Array, Flags]:
     """Return q, q', q'' of the exact path next to given ones, (3, N, n), and whether found; if not, the given ones."""
     chain, task, at = field.chain, field.task, field.path.at(s)
-    rows, exact, step = task_rows(chain, task, at, q), q, np.zeros_like(q)
+    rows, exact = task_rows(chain, task, at, q), q
     inverses = _inverses(rows.jacobians)
     for _ in range(_STEPS):
         step = _times(inverses, rows.errors)
@@ -139,8 +140,7 @@ def _exact(field: RateField, s: Array, q: Array, first: Array, second: Array) ->
 
 
 def _inverses(matrices: Array) -> Array:
-    inverses: Array = np.asarray(np.linalg.pinv(matrices, rcond=_RANK), dtype=np.float64)
-    return inverses
+    return cast(Array, np.linalg.pinv(matrices, rcond=_RANK))
 
 
 def _times(matrices: Array, vectors: Array) -> Array:

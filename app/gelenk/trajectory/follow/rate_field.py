@@ -104,20 +104,21 @@ class RateField:
 
     def velocities(self, at: PathSamples, qs: Array) -> tuple[Array, Array]:
         """Return the field's rates q', shape (N, n), and the smallest singular value, shape (N,)."""
-        rows = task_rows(self.chain, self.task, at, qs)
+        dqs, (_, sigmas, _) = self._rates(task_rows(self.chain, self.task, at, qs), qs)
+        return dqs, sigmas[:, -1]
+
+    def _rates(self, rows: CountedRows, qs: Array) -> tuple[Array, tuple[Array, Array, Array]]:
+        """Return the field's rates q', shape (N, n), and the singular value decompositions of J."""
         left, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
         dqs = _applied(left, sigmas, right, rows.rates)
         if self.push > 0.0:
             dqs = dqs + self._pushed(right, rows.rates, qs)
-        return dqs, sigmas[:, -1]
+        return dqs, (left, sigmas, right)
 
     def knot(self, s: float, at: PathSamples, q: Array, rows: CountedRows | None = None) -> Knot:
         """Return the knot at a configuration on the path; `at` is one sample, `rows` its task rows if known."""
         rows = task_rows(self.chain, self.task, at, q[None]) if rows is None else rows
-        left, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
-        dq = _applied(left, sigmas, right, rows.rates)
-        if self.push > 0.0:
-            dq = dq + self._pushed(right, rows.rates, q[None])
+        dq, (left, sigmas, right) = self._rates(rows, q[None])
         dJ, dxi = row_derivatives(self.chain, self.task, at, q[None], dq)
         if self.push > 0.0:
             ddq = derivative_along(self.velocities, at, q, dq[0], float(sigmas[0, -1]))

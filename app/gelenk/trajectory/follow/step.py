@@ -85,14 +85,7 @@ def end_conditions(a: Knot, b: Knot) -> Array:
 
 
 def attempt(field: RateField, a: Knot, s: float, stretch: tuple[float, float]) -> Piece | None:
-    """Return the piece from a knot to a place, whatever its errors; None if no exact knot is found there.
-
-    Args:
-        field: Field of joint rates.
-        a: First knot of the piece.
-        s: Place where it ends, [m or rad].
-        stretch: The breaks of the path before and after.
-    """
+    """Return the piece from a knot to a place in the same stretch, whatever its errors; None without an exact knot."""
     at = field.samples(np.append(a.s + (s - a.s) * INNER, s), *stretch)
     b = next_knot(field, a, s, taken(at, slice(-1, None)))
     return None if b is None else piece_between(field, a, b, taken(at, slice(0, -1)))

@@ -88,12 +88,7 @@ class Arc:
 
 
 def arc_through(start: Array, via: Array, end: Array) -> Arc:
-    """Return the arc from a start through a via point to an end.
-
-    Args:
-        start: Shape (3,), [m].
-        via: Shape (3,), [m].
-        end: Shape (3,), [m].
+    """Return the arc from a start through a via point to an end; shape (3,) each, [m].
 
     Raises:
         InvalidField: Two of the points coincide, or all three lie on a line.
@@ -119,10 +114,5 @@ def arc_through(start: Array, via: Array, end: Array) -> Arc:
     x = start - centre
     x /= math.hypot(*x)
     y = np.cross(normal, x)
-    via_angle, angle = (_angle(point - centre, x, y) for point in (via, end))
+    via_angle, angle = (math.atan2(arm @ y, arm @ x) % (2.0 * math.pi) for arm in (via - centre, end - centre))
     return Arc(centre, x, y, radius, angle, via_angle)
-
-
-def _angle(arm: Array, x: Array, y: Array) -> float:
-    """Return the angle on the circle of a point relative to the centre, in [0, 2π), [rad]."""
-    return math.atan2(arm @ y, arm @ x) % (2.0 * math.pi)

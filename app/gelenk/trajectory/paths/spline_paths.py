@@ -97,10 +97,6 @@ class PolynomialPath:
         return PathSamples(Poses(positions, rotations), by_s, bends)
 
     @cached_property
-    def _velocity(self) -> PiecewisePolynomial:
-        return self.position.derivative()
-
-    @cached_property
     def _table(self) -> tuple[Array, Array]:
         """Edges of the panels in u, and the arc length up to each edge; shape (P + 1,) each."""
         panels, before = 8, np.inf
@@ -120,6 +116,10 @@ class PolynomialPath:
         u = (begin + half)[:, None] + half[:, None] * _NODES
         lengths: Array = half * (self._speeds(u.ravel()).reshape(u.shape) @ _WEIGHTS)
         return lengths
+
+    @cached_property
+    def _velocity(self) -> PiecewisePolynomial:
+        return self.position.derivative()
 
     def _speeds(self, u: Array) -> Array:
         return _sizes(self._velocity.at(u))
@@ -180,13 +180,13 @@ def spline(
     knots = np.concatenate(([0.0], np.cumsum(chords)))
     curve = cubic_spline(knots, waypoints.positions, boundary).motion
     path = PolynomialPath(curve, through_orientations(waypoints.rotations, knots / knots[-1], orientation))
-    _refuse_cusps(path)
+    speeds = path._speeds(path._table[0])
+    if speeds.min() <= _SLOWEST * speeds.mean():
+        raise InvalidField("waypoints", "the spline turns back on the spot at a waypoint, where it has no tangent")
     return path
 
 
-def blended_lines(
-    poses: Poses, radii: Sequence[float], field: str = "blend_radius", turns: Sequence[Turn] | None = None
-) -> PathSequence:
+def blended_lines(poses: Poses, radii: Sequence[float], turns: Sequence[Turn] | None = None) -> PathSequence:
     """Return a polyline through poses whose corners are replaced by parabolas.
 
     If its parameter advances at a constant rate, such a parabola is the fly-over with equal speeds. Position and
@@ -195,7 +195,6 @@ def blended_lines(
     Args:
         poses: At least two poses; successive ones differ in position.
         radii: Distance from each inner pose at which its parabola begins and ends, > 0, [m].
-        field: Request field that contains the radii, for refusals.
         turns: Turns from each pose to the next, each beginning where the previous one ends, all about axes or all by
             ZYZ angles; by default each about one axis.
 
@@ -211,10 +210,12 @@ def blended_lines(
     for i, leg in enumerate(legs):
         taken = cuts[i] + cuts[i + 1]
         if taken > leg.curve.length * (1.0 + 1e-12) or leg.curve.length <= POINT:
-            raise InvalidField(field, f"leg {i} is {leg.curve.length:g} m long, and its blends take {taken:g} m of it")
+            raise InvalidField(
+                "blend_radius", f"leg {i} is {leg.curve.length:g} m long, and its blends take {taken:g} m of it"
+            )
         if i > 0:
             a, b = (legs[k].curve.at(np.zeros(1))[1][0] for k in (i - 1, i))
-            refuse_reversal(a, b, field)
+            refuse_reversal(a, b, "blend_radius")
             parts.append(_corner(legs[i - 1 : i + 1], turns[i - 1 : i + 1], cuts[i]))
         begin, finish = cuts[i] / leg.curve.length, 1.0 - cuts[i + 1] / leg.curve.length
         if finish - begin > 1e-12:
@@ -238,7 +239,7 @@ def _turn_over(turns: Sequence[Turn], entry: float, leaving: float) -> Orientati
     """Return the turn over the corner of two turns, from x = `entry` on the first to x = `leaving` on the second."""
     before, after = turns
     if isinstance(before, ZyzPath) and isinstance(after, ZyzPath):
-        return zyz_corner(before.triple_at(entry), after.start, after.triple_at(leaving))
+        return zyz_corner(before.triple_at(entry), after.triple_at(0.0), after.triple_at(leaving))
     at_entry = before.at(np.array([entry]))[0][0]
     return rotation_corner(at_entry, *after.at(np.array([0.0, leaving]))[0])
 
@@ -246,15 +247,3 @@ def _turn_over(turns: Sequence[Turn], entry: float, leaving: float) -> Orientati
 def _sizes(vectors: Array) -> Array:
     sizes: Array = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     return sizes
-
-
-def _refuse_cusps(path: PolynomialPath) -> None:
-    """Refuse a spline with a cusp at the edge of a panel.
-
-    Raises:
-        InvalidField: There is a cusp.
-    """
-    edges = path._table[0]
-    speeds = path._speeds(edges)
-    if speeds.min() <= _SLOWEST * speeds.mean():
-        raise InvalidField("waypoints", "the spline turns back on the spot at a waypoint, where it has no tangent")

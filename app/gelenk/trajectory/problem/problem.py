@@ -12,8 +12,8 @@ import numpy as np
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
-from gelenk.trajectory.audit.audit import Audit
 from gelenk.trajectory.audit.demands import TipLimits
+from gelenk.trajectory.audit.result import Audit
 from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw, SegmentType
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import Boundary

@@ -6,15 +6,14 @@ snap: that is the difference quotient of the jerk along the motion, with Richard
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeAlias
 
 import numpy as np
 import pinocchio as pin
 
-from gelenk.kinematics.judge.judge import demand, sampled_rows
-from gelenk.kinematics.velocity.jacobian import Reference
+from gelenk.kinematics.judge.judge import Differences, from_tip, largest, sampled_rows
+from gelenk.kinematics.judge.words import Reference, TipMotionCertificate
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
@@ -22,7 +21,12 @@ from gelenk.robot.robot import RobotModel
 BodyMotion: TypeAlias = list[pin.Motion]
 """A frame's twist in its own axes, followed by its time derivatives."""
 
-QUANTITIES = ("the twist", "the acceleration", "the jerk", "the snap")
+_QUANTITIES = {
+    "max_twist_error": "the twist",
+    "max_acceleration_error": "the acceleration",
+    "max_jerk_error": "the jerk",
+    "max_snap_error": "the snap",
+}
 
 _STEP, _LEVELS = 0.02, 3
 """First step of the difference quotient, as a share of the time for about 1 rad of joint motion; number of steps."""
@@ -30,23 +34,6 @@ _STEPS_LOST = 1e-3
 """Relative increase of the snap's allowed error per radian of joint position."""
 _SLOWEST = 1e-6
 """Smallest rate from which that time is computed, [1/s]."""
-
-
-@dataclass(frozen=True, slots=True)
-class DerivativeCertificate:
-    """Agreement of a motion's derivatives with Pinocchio's.
-
-    Attributes:
-        samples: Number of configurations recomputed through Pinocchio.
-        max_errors: Largest difference of an entry, one for each order: twist, acceleration, jerk, snap; [m/sᵏ, rad/sᵏ].
-        max_spatial_acceleration_error: Largest difference in the spatial acceleration; None if not compared.
-        seed: Seed of the sample selection.
-    """
-
-    samples: int
-    max_errors: tuple[float, ...]
-    max_spatial_acceleration_error: float | None
-    seed: int
 
 
 def certify_motion(
@@ -58,7 +45,7 @@ def certify_motion(
     spatial: Array | None = None,
     reference: Reference = "local_world_aligned",
     seed: int = 0,
-) -> DerivativeCertificate:
+) -> TipMotionCertificate:
     """Compare the tip's twist, acceleration, jerk and snap, in the reference that is sent, with Pinocchio's.
 
     Args:
@@ -76,19 +63,30 @@ def certify_motion(
     """
     # Without joints nothing moves, and Pinocchio crashes on the Jacobian of a robot without joints.
     rows = sampled_rows(len(qs) if len(chain) else 0, seed)
-    worst, worst_spatial = [0.0] * len(rates), 0.0
+    worst = Differences(dict.fromkeys(list(_QUANTITIES)[: len(rates)], 0.0))
+    if spatial is not None:
+        worst["max_spatial_acceleration_error"] = 0.0
     for row in rows:
         judge, judge_spatial = _pinocchio_derivatives(robot, chain, qs[row], rates[:, row], reference)
         scales = motion_scales(robot, chain, qs[[row]], rates[:, [row]])[:, 0].tolist()
         # At large joint positions a double resolves the small steps of the snap's difference quotient less finely.
-        scales[3:] = [scale * (1.0 + _STEPS_LOST * float(np.abs(qs[row]).max())) for scale in scales[3:]]
-        for k, expected in enumerate(judge):
-            error = float(np.abs(expected - derivatives[k][row]).max())
-            worst[k] = max(worst[k], demand(QUANTITIES[k], error, scales[k]))
+        scales[3:] = [scale * (1.0 + _STEPS_LOST * largest(qs[row])) for scale in scales[3:]]
+        for (field, quantity), expected, ours, scale in zip(
+            _QUANTITIES.items(), judge, derivatives, scales, strict=False
+        ):
+            worst.add(field, quantity, expected - ours[row], scale)
         if spatial is not None and judge_spatial is not None:
-            error = float(np.abs(judge_spatial - spatial[row]).max())
-            worst_spatial = max(worst_spatial, demand("the spatial acceleration", error, scales[1]))
-    return DerivativeCertificate(len(rows), tuple(worst), None if spatial is None else worst_spatial, seed)
+            difference = judge_spatial - spatial[row]
+            worst.add("max_spatial_acceleration_error", "the spatial acceleration", difference, scales[1])
+    return TipMotionCertificate(
+        len(rows),
+        worst["max_twist_error"],
+        worst.get("max_acceleration_error"),
+        worst.get("max_spatial_acceleration_error"),
+        worst.get("max_jerk_error"),
+        worst.get("max_snap_error"),
+        seed,
+    )
 
 
 def motion_scales(robot: RobotModel, chain: Chain, qs: Array, rates: Array) -> Array:
@@ -120,17 +118,10 @@ def _pinocchio_derivatives(
     derivatives = _of_point(T.rotation, motion, point)
     if len(rates) > 3:
         derivatives.append(_snap(robot, chain, full_q, full_rates, point))
-    spatial = None if len(motion) < 2 else _seen(T, reference).act(motion[1]).vector
+    spatial = None if len(motion) < 2 else from_tip(T, reference).act(motion[1]).vector
     if reference == "local":
         derivatives = [(vector.reshape(2, 3) @ T.rotation).ravel() for vector in derivatives]
     return derivatives, spatial
-
-
-def _seen(T: pin.SE3, reference: Reference) -> pin.SE3:
-    """Transform that takes a twist from the tip's axes into a reference."""
-    if reference == "local":
-        return pin.SE3.Identity()
-    return T if reference == "world" else pin.SE3(T.rotation, np.zeros(3))
 
 
 def _snap(robot: RobotModel, chain: Chain, q: Array, rates: Array, point: Array) -> Array:
