@@ -143,7 +143,7 @@ def test_the_forgotten_split_is_made_where_the_node_is_named() -> None:
     found = built("planar", SIX_BAR_FORGOTTEN, (Node("B", ("plate", "rocker", "rod")),))
     counted = tally(found)
     assert (counted.pairs, counted.constraints, counted.mobility, counted.mobility_without_split) == (7, 14, 1, 3)
-    assert [(pair.kind, pair.joint) for pair in found.pairs if pair.added] == [("revolute", "B")]
+    assert [(pair.type, pair.joint) for pair in found.pairs if pair.added] == [("revolute", "B")]
     assert "3 links meet at joint 'B'" in warnings(counted, found)[0]
     assert found.topology.chain == "closed"
 
@@ -200,7 +200,7 @@ def test_idle_freedoms_are_found_and_taken_off(name: str, idle: int, left: int) 
 
 def test_an_idle_freedom_names_what_spins_and_where() -> None:
     (spin,) = lecture("RSSR").idle_spins()
-    assert (spin.links, spin.joints) == (("rod",), ("pair_2", "pair_3"))
+    assert (spin.links, spin.joints) == (["rod"], ["pair_2", "pair_3"])
 
 
 def test_bars_of_a_spatial_truss_spin_about_their_nodes() -> None:

@@ -9,7 +9,7 @@ import pytest
 from gelenk.course.mobility.mechanism import GivenPair, Mechanism, Node, mechanism
 from gelenk.course.mobility.mobility import tally, verdict, warnings
 from gelenk.course.mobility.pairs import LETTERS, PairGeometry, Space
-from gelenk.course.mobility.screws import MAX_LINKS, Posture, posture
+from gelenk.course.mobility.screws import MAX_LINKS, PostureMobility, posture
 from gelenk.course.mobility.steps import steps
 from gelenk.errors import InvalidField, TooLarge
 from gelenk.robot.arrays import Array
@@ -52,7 +52,7 @@ def needed(kind: str, geometry: PairGeometry) -> PairGeometry:
     return replace(geometry, axis=axis, second_axis=geometry.second_axis if kind == "universal" else None)
 
 
-def stands(found: Mechanism, output: str | None = None) -> Posture:
+def stands(found: Mechanism, output: str | None = None) -> PostureMobility:
     link = None if output is None else found.links.index(output)
     result = posture(found, link, TOLERANCE)
     assert result is not None
@@ -91,9 +91,9 @@ def freedoms(kind: str, geometry: PairGeometry) -> list[closure.Freedom]:
 
 
 def by_closure(found: Mechanism) -> int:
-    geometries = [pair.geometry or PairGeometry() for pair in found.pairs]
-    left = [freedoms(pair.kind, geometry) for pair, geometry in zip(found.pairs, geometries, strict=True)]
-    return closure.mobility(len(found.links), [pair.links for pair in found.pairs], left)
+    geometries = [geometry or PairGeometry() for geometry in found.geometries]
+    left = [freedoms(pair.type, geometry) for pair, geometry in zip(found.pairs, geometries, strict=True)]
+    return closure.mobility(len(found.links), found.ends, left)
 
 
 def ring(kinds: str, geometries: list[PairGeometry]) -> list[Placed]:

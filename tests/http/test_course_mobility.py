@@ -7,7 +7,7 @@ from typing import Any, cast
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.contract.mobility_answer import MobilityAnswer
+from gelenk.contract.mobility import MobilityAnswer
 from tests.course import linkages
 
 PATH = "/v1/course/mobility"

@@ -5,6 +5,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BeforeValidator, Field
 
 from gelenk.contract.common import Answer, Payload
+from gelenk.course.motion.check import MotionCertificate
 
 MAX_JOINTS = 32
 MAX_KNOTS = 1000
@@ -93,23 +94,6 @@ class PeaksInfo(Answer):
     velocity: list[PeakInfo]
     acceleration: list[PeakInfo]
     jerk: list[PeakInfo] = Field(description="Of the pieces: jumps of the acceleration between them do not count.")
-
-
-class MotionCertificate(Answer):
-    """The motion's numbers checked a second way: Bézier control points, their differences and repeated means.
-
-    Each number is a difference as a fraction of the largest value of its kind; an answer with more than 1e-9 is not
-    sent.
-    """
-
-    boundary_error: float = Field(description="Of the derivatives at both ends, as far as they were given; no unit.")
-    knot_error: float = Field(description="Of the positions at the knots, both ends included; no unit.")
-    continuity: int = Field(description="Order of the highest derivative that is promised to be continuous; no unit.")
-    continuity_error: float = Field(description="Largest jump at the joins, up to that order; no unit.")
-    peak_error: float = Field(
-        description="Of a peak from the value at its time, or of any value on a grid beyond a peak; no unit."
-    )
-    samples: int = Field(description="Times of that grid.")
 
 
 class MotionAnswer(Answer):

@@ -20,7 +20,7 @@ from gelenk.contract.quantities import (
     Voltage,
     Warnings,
 )
-from gelenk.course.actuators.dc_motor import Damping, Motor, Regime
+from gelenk.course.actuators.dc_motor import Damping, Motor, OperatingPoint, TorqueSpeedLine
 
 MAX_SAMPLES = 10_000
 
@@ -68,39 +68,6 @@ class DcMotorRequest(Payload):
         )
 
 
-class SteadyStateInfo(Answer):
-    """The motor's steady state."""
-
-    angular_velocity: float = Field(description="ω, [rad/s].")
-    current: float = Field(description="i, [A].")
-    torque: float = Field(description="k_t i, friction included, [N m].")
-    electrical_power: float = Field(description="V i, [W]: negative where it flows to the supply.")
-    shaft_power: float = Field(description="τ_L ω, power delivered to the load, [W]: negative where the load drives.")
-    copper_loss: float = Field(description="R i², [W].")
-    friction_loss: float = Field(description="b ω², [W].")
-    efficiency: float | None = Field(
-        description="Shaft over electrical power where the motor drives, electrical over shaft power where it is a "
-        "generator, in [0, 1]; null where neither is useful, and where `back_emf_constant` is not `torque_constant`: "
-        "the powers do not add up then."
-    )
-    regime: Regime = Field(
-        description="`motoring`; `standstill`; `assisted`: the load helps; `generating`: the load is faster than the "
-        "motor without load, and power flows to the supply; `driven_backwards`: the load is beyond the stall torque; "
-        "`braking`: no voltage, the terminals shorted."
-    )
-
-
-class TorqueSpeedInfo(Answer):
-    """The torque-speed line at this voltage."""
-
-    no_load_angular_velocity: float = Field(description="ω₀ = k_t V / (R b + k_t k_e), [rad/s].")
-    no_load_current: float = Field(description="Current that friction alone needs, [A].")
-    stall_torque: float = Field(description="k_t V / R, [N m].")
-    stall_current: float = Field(description="V / R, [A].")
-    slope: float = Field(description="dω/dτ_L, [rad/s per N m].")
-    most_power: float = Field(description="Largest shaft power, reached at half the stall torque, [W].")
-
-
 class PoleInfo(Answer):
     """An eigenvalue of the motor's equations."""
 
@@ -144,8 +111,8 @@ class MotorCertificate(Answer):
 class DcMotorAnswer(Answer):
     """A motor's behaviour at a voltage and a load."""
 
-    steady_state: SteadyStateInfo
-    torque_speed_line: TorqueSpeedInfo
+    steady_state: OperatingPoint
+    torque_speed_line: TorqueSpeedLine
     dynamics: MotorDynamicsInfo
     response: StepResponseInfo | None = Field(description="Null if no times were requested.")
     steps: Steps

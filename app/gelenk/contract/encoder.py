@@ -7,9 +7,9 @@ from pydantic import Field
 from gelenk.contract.common import Answer, Payload
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Ratio, Steps
-from gelenk.course.actuators.encoders import TURN, Decoding
-from gelenk.course.actuators.gray import Code
-from gelenk.course.actuators.quadrature import Direction
+from gelenk.course.actuators.encoders import TURN, Decoding, EncoderResolution, RequiredEncoder
+from gelenk.course.actuators.gray import Code, DiscPosition
+from gelenk.course.actuators.quadrature import Quadrature
 
 MAX_READINGS = 10_000
 MAX_BITS = 32
@@ -62,91 +62,25 @@ class EncoderRequest(Payload):
     table: bool = Field(default=False, description="Whether to list all positions of an absolute encoder of ≤ 8 bits.")
 
 
-class ResolutionInfo(Answer):
-    """Size of one count."""
-
-    counts_per_revolution: int = Field(description="Of the motor, no unit.")
-    motor: float = Field(description="Angle of a count at the motor, [rad].")
-    load: float = Field(description="Angle of a count at the load, [rad].")
-    motor_velocity_quantum: float | None = Field(
-        description="2π / (counts · T_s): one count more in a sample period, at the motor, [rad/s]; null without T_s."
-    )
-    load_velocity_quantum: float | None = Field(description="The same at the load, [rad/s].")
-    count_rate: float | None = Field(description="Counts per second at the given speed, [1/s]; null without one.")
-
-
-class RequiredInfo(Answer):
-    """The coarsest encoder with the wanted resolution."""
-
-    motor_resolution: float = Field(description="The wanted resolution at the motor, [rad].")
-    counts_per_revolution: int = Field(description="Of the motor, no unit.")
-    bits: int = Field(description="Of an absolute encoder, no unit.")
-    pulses_per_revolution: int = Field(description="Lines of an incremental one with this decoding, no unit.")
-    count_rate: float | None = Field(
-        description="With exactly these counts, at the given speed, [1/s]; null without one."
-    )
-
-
-class IndexPulseInfo(Answer):
-    """A rise of channel Z: the shaft is at the same angle each time."""
-
-    sample: int = Field(description="Sample at which it rises, from 0.")
-    count: int = Field(description="The count there, no unit.")
-    count_error: int | None = Field(
-        description="How far the count since the first pulse is from whole turns: counts that were lost, or the width "
-        "of the pulse where the direction has changed. No unit; null without `pulses_per_revolution`."
-    )
-
-
-class QuadratureInfo(Answer):
-    """Motion decoded from the samples of A and B."""
-
-    count: int = Field(description="Of the last sample, from 0 at the first one; no unit.")
-    counts: list[int] = Field(description="At each sample, no unit.")
-    direction: Direction = Field(description="Of the count.")
-    reversals: int = Field(description="How often the motion changes its direction.")
-    illegal_transitions: list[int] = Field(
-        description="Samples, from 0, at which both channels have changed: a sample between was missed, and two "
-        "quarters of a line in an unknown direction are lost. They count nothing."
-    )
-    motor_angle: float | None = Field(description="Since the first sample, [rad]; null without lines.")
-    load_angle: float | None = Field(description="The same at the load, [rad].")
-    motor_angle_in_turn: float | None = Field(description="motor_angle in [0, 2π), [rad].")
-    register_value: int | None = Field(description="Of a counter of `counter_bits`, no unit; null without them.")
-    index_pulses: list[IndexPulseInfo] = Field(description="Of channel Z; none where it was not read.")
-    count_from_index: int | None = Field(
-        description="Count since the last index pulse: from here on the angle is absolute. No unit; null without one."
-    )
-
-
-class CodeInfo(Answer):
-    """A position of an absolute encoder."""
-
-    value: int = Field(description="Number of the position, no unit.")
-    binary: str = Field(description="In binary digits.")
-    gray: str = Field(description="In Gray code.")
-    angle: float = Field(description="Of the motor, in [0, 2π), [rad].")
-
-
 class AbsoluteInfo(Answer):
     """Readings and codes of an absolute encoder."""
 
-    readings: list[CodeInfo] = Field(description="One entry per reading.")
+    readings: list[DiscPosition] = Field(description="One entry per reading.")
     unwrapped: list[int] = Field(
         description="The readings' numbers, counted on across the end of a turn, each step the shorter way; no unit."
     )
     motor_travel: float | None = Field(description="From the first to the last reading, [rad]; null without readings.")
     load_travel: float | None = Field(description="The same at the load, [rad].")
-    values: list[CodeInfo] = Field(description="One entry per value.")
-    table: list[CodeInfo] | None = Field(description="All positions; null if not requested.")
+    values: list[DiscPosition] = Field(description="One entry per value.")
+    table: list[DiscPosition] | None = Field(description="All positions; null if not requested.")
 
 
 class EncoderAnswer(Answer):
     """Resolution, counts and codes of an encoder."""
 
-    resolution: ResolutionInfo | None = Field(description="Null when only the required encoder is requested.")
-    required: RequiredInfo | None = Field(description="Null without `wanted_resolution`.")
-    quadrature: QuadratureInfo | None = Field(description="Null without `samples`.")
+    resolution: EncoderResolution | None = Field(description="Null when only the required encoder is requested.")
+    required: RequiredEncoder | None = Field(description="Null without `wanted_resolution`.")
+    quadrature: Quadrature | None = Field(description="Null without `samples`.")
     absolute: AbsoluteInfo | None = Field(description="Null for an incremental encoder, or without `bits`.")
     steps: Steps
 

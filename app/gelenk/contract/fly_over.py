@@ -7,8 +7,9 @@ from pydantic import AfterValidator, Field
 from gelenk.contract.common import Answer, Payload
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Steps, Warnings
-from gelenk.course.motion.blended_motion import PhaseName
+from gelenk.course.motion.blended_motion import Phase
 from gelenk.course.motion.fly_over import Given, Turn
+from gelenk.course.motion.fly_over_check import BlendCheck
 
 MAX_SAMPLES = 10_000
 
@@ -74,17 +75,10 @@ class FlyOverBlend(Answer):
     longest_blend_time: float = Field(description="ΔT with which the blend would take all of AB or BC, [s].")
 
 
-class PhaseInfo(Answer):
-    """A part of the motion with constant acceleration."""
-
-    name: PhaseName = Field(description="What happens in the phase.")
-    duration: float = Field(description="How long it takes, [s]; 0 where it is left out.")
-
-
 class RestToRestInfo(Answer):
     """The whole motion, from rest in A to rest in C."""
 
-    phases: list[PhaseInfo]
+    phases: list[Phase]
     duration: float = Field(description="Of all phases, [s].")
     stopping_duration: float = Field(description="The same with a stop in B, each leg with its own trapezoid, [s].")
     time_saved: float = Field(description="The difference, [s].")
@@ -109,15 +103,6 @@ class FlyOverSamples(Answer):
     accelerations: list[list[float]] = Field(description="p̈(t), [m/s²]; where it jumps, that of the later phase.")
 
 
-class FlyOverCertificate(Answer):
-    """The blend recomputed by small steps along its acceleration, and B's distance from each of them."""
-
-    steps: int = Field(description="Number of time steps; 0 where the blend takes no time.")
-    max_position_error: float = Field(description="At C', and of the motion where phases meet, [m].")
-    max_velocity_error: float = Field(description="Likewise, [m/s].")
-    closest_distance_error: float = Field(description="Smallest distance of a step to B against the one sent, [m].")
-
-
 class FlyOverAnswer(Answer):
     """A corner passed without a stop."""
 
@@ -128,7 +113,7 @@ class FlyOverAnswer(Answer):
     samples: FlyOverSamples | None = Field(description="Null if none were requested or there is no motion.")
     steps: Steps
     warnings: Warnings
-    certificate: FlyOverCertificate
+    certificate: BlendCheck
 
 
 EXAMPLE_FLY_OVER: dict[str, Any] = {

@@ -6,14 +6,8 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, Payload
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.quantities import (
-    AngularVelocity,
-    Inertia,
-    Ratio,
-    Steps,
-    Torque,
-)
-from gelenk.course.actuators.gear import PowerFlow
+from gelenk.contract.quantities import AngularVelocity, Inertia, Ratio, Steps, Torque
+from gelenk.course.actuators.gear import GearSide, PowerFlow, ReflectedInertias
 
 
 class GearRequest(Payload):
@@ -33,29 +27,6 @@ class GearRequest(Payload):
     load_inertia: Inertia | None = Field(default=None, description="J_L of the load, [kg m²].")
 
 
-class GearSideInfo(Answer):
-    """One side of the gear; null where not given."""
-
-    angular_velocity: float | None = Field(description="ω, [rad/s].")
-    torque: float | None = Field(description="τ, from the motor towards the load, [N m].")
-    power: float | None = Field(description="τ ω, [W]: negative where it flows from the load to the motor.")
-
-
-class ReflectedInertiaInfo(Answer):
-    """Rotor and load as one inertia."""
-
-    at_motor: float = Field(description="J_m + J_L / N², [kg m²].")
-    at_load: float = Field(description="N² J_m + J_L, [kg m²].")
-    reflected_load: float = Field(description="J_L / N², [kg m²].")
-    reflected_motor: float = Field(description="N² J_m, [kg m²].")
-    optimal_ratio: float = Field(
-        description="N* = √(J_L / J_m), with which a given motor torque accelerates the load most; no unit."
-    )
-    acceleration_share: float = Field(
-        description="Acceleration with this ratio over that with N*, same torque, no losses; in [0, 1]."
-    )
-
-
 class BackDrivingInfo(Answer):
     """What happens when the load drives."""
 
@@ -67,11 +38,11 @@ class BackDrivingInfo(Answer):
 class GearAnswer(Answer):
     """Both sides of a gear."""
 
-    motor: GearSideInfo
-    load: GearSideInfo
+    motor: GearSide
+    load: GearSide
     power_loss: float | None = Field(description="What the gear turns into heat, [W]; null where a power is missing.")
     power_flow: PowerFlow = Field(description="Which side drives; `none` without a torque.")
-    inertia: ReflectedInertiaInfo | None = Field(description="Null without both inertias.")
+    inertia: ReflectedInertias | None = Field(description="Null without both inertias.")
     back_driving: BackDrivingInfo
     steps: Steps
 

@@ -1,8 +1,76 @@
-"""Degrees of freedom of a mechanism: the operation."""
+"""Degrees of freedom of a mechanism: answer, operation."""
 
+from pydantic import Field
+
+from gelenk.contract.common import Answer
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.mobility_answer import MobilityAnswer
 from gelenk.contract.mobility_request import EXAMPLE_FOUR_BAR, MobilityRequest
+from gelenk.course.mobility.mechanism import IdleSpin, JointSplit, Pair
+from gelenk.course.mobility.mobility import PairCount, Verdict
+from gelenk.course.mobility.pairs import Space
+from gelenk.course.mobility.screws import PostureMobility
+from gelenk.course.mobility.spaces import TaskKind
+from gelenk.course.mobility.topology import ChainKind
+from gelenk.course.steps import Step
+
+
+class SpacesInfo(Answer):
+    """Joint space and task space of a robot's default chain."""
+
+    base_frame: str = Field(description="Where the chain begins.")
+    tip_frame: str = Field(description="Where the chain ends.")
+    configuration_dimension: int = Field(description="n: joints of the chain with a position of their own.")
+    tasks: list[TaskKind]
+
+
+class MobilityAnswer(Answer):
+    """The mobility, how it was counted, and how to read it."""
+
+    mobility: int = Field(description="M = λ(n - 1) - Σc, Grübler and Kutzbach; the number of freedoms.")
+    verdict: Verdict = Field(
+        description="By the mobility less the idle freedoms: ≥ 1, 0, < 0; that of `posture` where there is one."
+    )
+    space: Space = Field(description="In which its links move.")
+    space_freedoms: int = Field(description="λ: degrees of freedom of a free body.")
+    link_count: int = Field(description="n, the ground included.")
+    pair_count: int = Field(description="j, after joints of more than two links have been split.")
+    constraint_count: int = Field(description="Σc over the pairs.")
+    coupling_count: int = Field(description="Mimic joints of a robot: one constraint each, beside those of the pairs.")
+    kinds: list[PairCount]
+    splits: list[JointSplit] = Field(description="The joints of more than two links.")
+    mobility_without_split: int | None = Field(
+        description="The wrong result if the missing pairs at such joints are forgotten; null if none is missing."
+    )
+    idle: list[IdleSpin] | None = Field(description="Idle freedoms; null where only counts of pairs were given.")
+    mobility_without_idle: int | None = Field(
+        description="Mobility, that of `posture` where there is one, less the idle freedoms; null where only counts of "
+        "pairs were given."
+    )
+    ground: str | None = Field(
+        description="The link at rest; null where only counts of pairs were given, as all below."
+    )
+    chain: ChainKind | None = Field(
+        description="Closed: each link is joined to each other by two paths that share no pair. Open: no loop. Mixed: "
+        "anything else."
+    )
+    loop_count: int | None = Field(description="L = j - n + number of components: independent loops.")
+    components: list[list[str]] | None = Field(description="The links by connected parts.")
+    bridges: list[str] | None = Field(description="Pairs that lie on no loop.")
+    pairs: list[Pair] | None
+    mobility_by_loops: int | None = Field(
+        description="The certificate: the same number by Σf - λL + λ(components - 1) less the couplings."
+    )
+    posture: PostureMobility | None = Field(
+        description="Where the pairs say where they are: the mobility from that; else null."
+    )
+    rank_tolerance: float | None = Field(
+        description="By which constraints counted in `posture`, relative to the largest; no unit; null where there is "
+        "none."
+    )
+    spaces: SpacesInfo | None = Field(description="Of a robot: joint space and task spaces; else null.")
+    warnings: list[str] = Field(description="What the number alone does not show.")
+    steps: list[Step] = Field(description="The calculation, step by step.")
+
 
 ENDPOINT = Endpoint(
     name="mobility",

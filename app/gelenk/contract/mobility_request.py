@@ -90,10 +90,10 @@ class PairPayload(Payload):
         if not self.has_geometry():
             return None
         axis, second = (
-            None if direction is None else _triple(unit_axis(direction, f"pairs/{number}/{name}").tolist())
+            None if direction is None else unit_axis(direction, f"pairs/{number}/{name}").tolist()
             for name, direction in (("axis", self.axis), ("second_axis", self.second_axis))
         )
-        return PairGeometry(None if self.point is None else _triple(self.point), axis, second, self.pitch)
+        return PairGeometry(self.point, axis, second, self.pitch)
 
 
 class NodePayload(Payload):
@@ -262,11 +262,6 @@ class MobilityRequest(Payload):
             )
             for i, node in enumerate(self.coincident or (), start=1)
         ]
-
-
-def _triple(numbers: list[float]) -> tuple[float, float, float]:
-    x, y, z = numbers
-    return x, y, z
 
 
 def _kind(name: Any) -> Any:

@@ -9,6 +9,7 @@ from gelenk.contract.common import Answer, Payload
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.pose import MAX_MAGNITUDE, ORIENTATIONS, Matrix3, Pose, Vector3, Vector4
 from gelenk.course.orientation.composition import FrameMotion
+from gelenk.course.orientation.orientation import Degeneracy
 from gelenk.course.orientation.rotations import DEGENERATE, Validation, about_axis, elementary, unit_axis, validated
 from gelenk.errors import InvalidPose
 from gelenk.robot.arrays import Array
@@ -77,8 +78,8 @@ class MotionPayload(Payload):
         """
         validation = None
         if self.rotation is not None:
-            validation = validated(np.array(self.rotation))
-            R = self._accepted(validation, place)
+            validation, nearest = validated(np.array(self.rotation))
+            R = self._accepted(validation, nearest, place)
         elif self.axis_angle is not None:
             R = about_axis(unit_axis(self.axis_angle.axis, f"{place}axis_angle/axis"), self.axis_angle.angle)
         elif self.elementary is not None:
@@ -94,24 +95,20 @@ class MotionPayload(Payload):
         except InvalidPose as error:
             raise InvalidPose(error.reason, error.distance, place + name) from None
 
-    def _accepted(self, found: Validation, place: str) -> Array:
-        if found.distance <= ROTATION_TOLERANCE:
+    def _accepted(self, found: Validation, nearest: Array, place: str) -> Array:
+        if not found.projected:
             return self._as_in_a_pose(place)
-        if self.project and self._is_zero():
-            raise InvalidPose(
-                "the matrix is zero: no rotation is nearer to it than any other", field=f"{place}rotation"
-            )
+        if self.project and float(np.abs(self.rotation or 0.0).max()) <= DEGENERATE:
+            reason = "the matrix is zero: no rotation is nearer to it than any other"
+            raise InvalidPose(reason, field=f"{place}rotation")
         if self.project:
-            return found.nearest
+            return nearest
         kind = "a reflection" if found.is_reflection else "not a rotation"
         reason = (
             f"the matrix is {kind}: ‖RᵀR - I‖ = {found.orthogonality_error:.6g}, det R = {found.determinant:.6g}; "
             f"the limit is a distance of {ROTATION_TOLERANCE:g} from SO(3), or `project` for the nearest rotation"
         )
         raise InvalidPose(reason, found.distance, f"{place}rotation")
-
-    def _is_zero(self) -> bool:
-        return float(np.abs(self.rotation or 0.0).max()) <= DEGENERATE
 
 
 class FurtherPayload(MotionPayload):
@@ -158,29 +155,6 @@ class AxisAngleInfo(Answer):
     angle: float = Field(description="In [0, π], [rad].")
 
 
-class DegeneracyInfo(Answer):
-    """A notation that degenerates at this orientation."""
-
-    notation: Literal["zyz", "rpy", "axis_angle"] = Field(description="Which one it is.")
-    case: str = Field(description="What makes it so.")
-    determined: str | None = Field(description="What is still determined; null if nothing is.")
-    value: float | None = Field(description="Of the combination that is determined, in (-π, π], [rad].")
-    chosen: str = Field(description="How the given triple was chosen among all.")
-
-
-class ValidationInfo(Answer):
-    """Distance of a given matrix from a rotation."""
-
-    orthogonality_error: float = Field(description="‖RᵀR - I‖ (Frobenius), no unit.")
-    determinant: float = Field(description="Of the matrix; +1 of a rotation, no unit.")
-    distance: float = Field(description="‖R - nearest rotation‖ (Frobenius), no unit.")
-    is_reflection: bool = Field(description="Whether the determinant is negative.")
-    is_unique: bool = Field(description="Whether one rotation is nearer than all others; not so of a pure reflection.")
-    projected: bool = Field(
-        description="Whether the nearest rotation was taken for a matrix further than 1e-6 from it."
-    )
-
-
 class FrameInfo(Answer):
     """A frame by its rotation matrix and origin."""
 
@@ -221,13 +195,13 @@ class OrientationAnswer(Answer):
     rpy_solutions: list[Triple] = Field(
         description="Both branches, the second with |pitch| > π/2, [rad]; where it degenerates the chosen one alone."
     )
-    degenerate: list[DegeneracyInfo] = Field(description="Degeneracies; usually empty.")
+    degenerate: list[Degeneracy] = Field(description="Degeneracies; usually empty.")
     degenerate_threshold: float = Field(description="Sines and cosines below it count as zero, no unit.")
     position: Triple = Field(description="Of the frame's origin, [m].")
     inverse: FrameInfo = Field(description="Rᵀ and -Rᵀp.")
     points: list[Triple] = Field(description="The given points, written in the frame that stays: R x + p, [m].")
     frames: list[FrameInfo] = Field(description="The frame after each motion.")
-    validations: list[ValidationInfo | None] = Field(
+    validations: list[Validation | None] = Field(
         description="Of each motion in order: how far its `rotation` is from one; null for another notation."
     )
     warnings: list[str] = Field(description="Near degeneracies, and choices made.")

@@ -1,12 +1,13 @@
 """Workspaces of planar arms: request, answer, operation."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import Field
 
 from gelenk.contract.common import Answer, Payload
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Steps
+from gelenk.course.planar import WorkspacePlace, WorkspaceTrial
 
 MAX_LENGTH = 1e6
 
@@ -38,32 +39,17 @@ class RegionInfo(Answer):
     area: float = Field(description="Of the region, [m²].")
 
 
-class PlaceInfo(Answer):
-    """Where the point lies relative to a workspace."""
-
-    location: Literal["inside", "boundary", "outside"] = Field(description="`boundary` within the tolerance.")
-    boundary: float | None = Field(description="Radius of the nearest boundary, [m]; null for an empty workspace.")
-    distance: float | None = Field(description="To that boundary, [m]: positive inside, negative outside.")
-
-
 class PointInfo(Answer):
     """A point and the orientations of the last link with which the tip reaches it."""
 
     radius: float = Field(description="Distance from the base, [m].")
-    primary: PlaceInfo
-    secondary: PlaceInfo
+    primary: WorkspacePlace
+    secondary: WorkspacePlace
     orientations: list[list[float]] = Field(
         description="Intervals of φ, the angle of the last link to the x axis, both ends included, [rad]. Each begins "
         "in (-π, π] and may end beyond π; -π to π are all; one with both ends the same is a single orientation."
     )
     orientation_share: float = Field(description="Part of all orientations; 1 within WS₂; no unit.")
-
-
-class PlanarWorkspaceCertificate(Answer):
-    """Comparison of both workspaces with moving the joints, before anything is sent."""
-
-    radii: int = Field(description="Distances at which they were compared.")
-    orientations: int = Field(description="Orientations tried at each.")
 
 
 class PlanarWorkspaceAnswer(Answer):
@@ -73,7 +59,7 @@ class PlanarWorkspaceAnswer(Answer):
     secondary: RegionInfo = Field(description="WS₂: reached with all orientations.")
     point: PointInfo | None = Field(description="Null where no point was given.")
     steps: Steps
-    certificate: PlanarWorkspaceCertificate
+    certificate: WorkspaceTrial
 
 
 EXAMPLE_WORKSPACE: dict[str, Any] = {"links": [1.0, 0.9, 0.5], "point": [0.3, 0.2]}

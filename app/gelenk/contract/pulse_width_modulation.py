@@ -17,6 +17,7 @@ from gelenk.contract.quantities import (
     Voltage,
     Warnings,
 )
+from gelenk.course.actuators.pwm import Ripple
 
 
 class PwmRequest(Payload):
@@ -48,18 +49,6 @@ class PwmRequest(Payload):
     load_torque: Torque | None = Field(default=None, description="τ_L, for a wanted speed, [N m]; 0 if left out.")
 
 
-class RippleInfo(Answer):
-    """The current in the steady state, through R and L against a constant back-EMF."""
-
-    average: float = Field(description="(V_avg - E) / R, [A].")
-    lowest: float = Field(description="Smallest in a period, [A].")
-    highest: float = Field(description="Largest in a period, [A].")
-    ripple: float = Field(description="highest - lowest, [A].")
-    closing_error: float = Field(
-        description="Certificate: how far the current is from where it began after one period of both equations, [A]."
-    )
-
-
 class PwmAnswer(Answer):
     """Voltages, times and current of a switched supply."""
 
@@ -73,7 +62,7 @@ class PwmAnswer(Answer):
     approximate_ripple: float | None = Field(
         description="V_s D (1 - D) / (L f), [A]: without resistance. Null without inductance."
     )
-    current: RippleInfo | None = Field(description="Exact; null without both R and L.")
+    current: Ripple | None = Field(description="Exact; null without both R and L.")
     steps: Steps
     warnings: Warnings
 

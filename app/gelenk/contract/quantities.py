@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
-from gelenk.contract.derive import StepInfo
+from gelenk.course.steps import Step
 
 
 def _zero_or_measurable(value: float) -> float:
@@ -25,5 +25,5 @@ Current = Annotated[float, Field(ge=-1e9, le=1e9)]
 Time = Annotated[float, Field(ge=0.0, le=1e9)]
 Ratio = Annotated[float, Field(ge=1e-6, le=1e6)]
 
-Steps = Annotated[list[StepInfo], Field(description="The worked solution, with the numbers put in.")]
+Steps = Annotated[list[Step], Field(description="The worked solution, with the numbers put in.")]
 Warnings = Annotated[list[str], Field(description="What to know before using the numbers.")]

@@ -4,7 +4,6 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer
 from gelenk.contract.course_motion import (
     Coordinates,
     Duration,
@@ -17,7 +16,7 @@ from gelenk.contract.course_motion import (
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Steps, Warnings
 from gelenk.trajectory.audit.words import PolynomialLaw
-from gelenk.trajectory.laws.time_scaling import Quantity
+from gelenk.trajectory.laws.time_scaling import Bound
 from gelenk.trajectory.motion.splines import Boundary
 
 
@@ -50,21 +49,6 @@ class TimeScalingRequest(SampledRequest):
     )
 
 
-class BindingInfo(Answer):
-    """The joint that is nearest to its limit of a quantity, or furthest beyond it, in the given motion."""
-
-    quantity: Quantity = Field(description="Whose limit sets the duration.")
-    ratio: float = Field(description="Peak over limit, no unit.")
-    factor: float = Field(
-        description="The k that this quantity alone requires: the ratio of a velocity, the square root of that of an "
-        "acceleration, the cube root of that of a jerk; no unit."
-    )
-    joint: int = Field(description="Number of the joint, from 1; no unit.")
-    time: float = Field(description="Time of the peak, [s].")
-    peak: float = Field(description="Signed peak, [rad or m per s, s² or s³].")
-    limit: float = Field(description="The limit, in the unit of the peak.")
-
-
 class TimeScalingAnswer(MotionAnswer):
     """The factor k with which a motion keeps its limits, and the motion scaled by it."""
 
@@ -79,8 +63,8 @@ class TimeScalingAnswer(MotionAnswer):
     applied_factor: float = Field(description="The k of the motion in this answer, no unit.")
     k_vel: float | None = Field(description="max{1, …} of the velocity ratios, as in the notes; no unit.")
     k_acc: float | None = Field(description="max{1, …} of the acceleration ratios, as in the notes; no unit.")
-    bounds: list[BindingInfo] = Field(description="One per limited quantity.")
-    binding: BindingInfo = Field(description="The one that requires the largest k.")
+    bounds: list[Bound] = Field(description="One per limited quantity.")
+    binding: Bound = Field(description="The one that requires the largest k.")
     original_duration: float = Field(description="T of the motion as given, [s].")
     steps: Steps
     warnings: Warnings

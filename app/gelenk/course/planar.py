@@ -16,9 +16,10 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from gelenk.course.steps import Step, tex
+from gelenk.course.steps import Step, step, tex
 from gelenk.errors import CertificationFailed
 from gelenk.robot.arrays import Array
+from gelenk.robot.result import Result
 
 Interval: TypeAlias = tuple[float, float]
 Location: TypeAlias = Literal["inside", "boundary", "outside"]
@@ -85,13 +86,13 @@ def area(rings: Sequence[Interval]) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class WorkspacePlace:
-    """Position of a point relative to a workspace.
+class WorkspacePlace(Result):
+    """Where the point lies relative to a workspace.
 
     Attributes:
-        location: Inside, outside, or on the boundary within the tolerance.
-        boundary: Radius of the nearest boundary, [m]; None for an empty workspace.
-        distance: Distance to that boundary, positive inside, [m]; None for an empty workspace.
+        location: `boundary` within the tolerance.
+        boundary: Radius of the nearest boundary, [m]; null for an empty workspace.
+        distance: To that boundary, [m]: positive inside, negative outside.
     """
 
     location: Location
@@ -107,9 +108,8 @@ def place(rings: Sequence[Interval], radius: float, tolerance: float) -> Workspa
         return WorkspacePlace("outside", None, None)
     nearest = min(bounds, key=lambda bound: abs(bound - radius))
     distance = abs(nearest - radius)
-    if distance <= tolerance:
-        return WorkspacePlace("boundary", nearest, distance if inside else -distance)
-    return WorkspacePlace("inside" if inside else "outside", nearest, distance if inside else -distance)
+    location: Location = "boundary" if distance <= tolerance else "inside" if inside else "outside"
+    return WorkspacePlace(location, nearest, distance if inside else -distance)
 
 
 def orientations(arm: PlanarWorkspace, x: float, y: float) -> tuple[Interval, ...]:
@@ -182,19 +182,19 @@ def posture(arm: PlanarWorkspace, x: float, y: float, orientation: float) -> Arr
 
 
 @dataclass(frozen=True, slots=True)
-class Trial:
-    """Size of a check of both workspaces by trying joint positions.
+class WorkspaceTrial(Result):
+    """Comparison of both workspaces with moving the joints, before anything is sent.
 
     Attributes:
-        radii: Number of distances tried, none within a thousandth of the reach from a boundary.
-        orientations: Number of orientations tried at each distance.
+        radii: Distances at which they were compared.
+        orientations: Orientations tried at each.
     """
 
     radii: int
     orientations: int
 
 
-def tried(arm: PlanarWorkspace) -> Trial:
+def tried(arm: PlanarWorkspace) -> WorkspaceTrial:
     """Check both workspaces by trying orientations of the last link at distances inside and outside their boundaries.
 
     The wrist's ring comes from positions of the links before it, from folded to stretched. Since the wrist's distance
@@ -205,7 +205,7 @@ def tried(arm: PlanarWorkspace) -> Trial:
     """
     reach = sum(arm.links)
     if reach == 0.0:
-        return Trial(0, 0)
+        return WorkspaceTrial(0, 0)
     turned = np.exp(1j * np.linspace(0.0, math.pi, _ORIENTATIONS))
     before = np.abs(arm.links[0] + sum(arm.links[1:-1]) * turned)
     bounds = np.array([bound for ring in (*arm.primary, *arm.secondary) for bound in ring])
@@ -221,41 +221,32 @@ def tried(arm: PlanarWorkspace) -> Trial:
         said = np.array([any(lower <= radius <= upper for lower, upper in rings) for radius in radii.tolist()])
         if wrong := int(np.count_nonzero(said != found)):
             raise CertificationFailed(f"{name}, in number of distances,", wrong, 0.0)
-    return Trial(len(radii), _ORIENTATIONS)
+    return WorkspaceTrial(len(radii), _ORIENTATIONS)
 
 
 def workspace_steps(arm: PlanarWorkspace) -> tuple[Step, ...]:
     """Return the worked solution: the reach, and the circle of the wrist."""
     lengths = ", ".join(rf"l_{number} = {tex(length)}" for number, length in enumerate(arm.links, start=1))
-    (inner, outer), last = arm.wrist, len(arm.links)
-    total, longest = sum(arm.links), max(arm.links)
-    r_min, unit = tex(arm.primary[0][0]), r"\,\mathrm{m}"
-    excess = tex(2.0 * longest - total)
-    near, far = tex(arm.links[-1] - inner), tex(arm.links[-1] + inner)
+    (inner, outer), n, last = arm.wrist, len(arm.links), arm.links[-1]
+    total, excess = sum(arm.links), tex(2.0 * max(arm.links) - sum(arm.links))
+    near, far = tex(last - inner), tex(last + inner, "m")
+    rings = r" \cup ".join(rf"[{tex(lower)},\ {tex(upper)}]" for lower, upper in arm.secondary) or r"\varnothing"
     return (
-        Step(
+        step(
             "Primary workspace",
             "Stretched the arm reaches farthest. It reaches the base unless one link is longer than all the others.",
-            (
-                lengths,
-                rf"r_{{\max}} = \sum l_i = {tex(total)}{unit}",
-                rf"r_{{\min}} = \max(0,\ 2\,l_{{\max}} - \sum l_i) = \max(0,\ {excess}) = {r_min}{unit}",
-            ),
+            lengths,
+            rf"r_{{\max}} = \sum l_i = {tex(total, 'm')}",
+            rf"r_{{\min}} = \max(0,\ 2\,l_{{\max}} - \sum l_i) = \max(0,\ {excess}) = {tex(arm.primary[0][0], 'm')}",
         ),
-        Step(
+        step(
             "Secondary workspace",
-            f"With all orientations at distance r the wrist goes round a circle of radius l_{last} about the tip, and "
-            f"comes as near to the base as |r - l_{last}| and as far as r + l_{last}: all of it has to be within the "
+            f"With all orientations at distance r the wrist goes round a circle of radius l_{n} about the tip, and "
+            f"comes as near to the base as |r - l_{n}| and as far as r + l_{n}: all of it has to be within the "
             "ring that the wrist can reach.",
-            (
-                rf"\rho \in [{tex(inner)},\ {tex(outer)}]{unit}",
-                rf"r + l_{last} \le {tex(outer)} \;\Rightarrow\; r \le {tex(outer - arm.links[-1])}{unit}",
-                rf"|r - l_{last}| \ge {tex(inner)} \;\Rightarrow\; r \ge {far}{unit}\ \text{{or}}\ r \le {near}{unit}",
-                rf"\mathrm{{WS}}_2:\ r \in {_tex_rings(arm.secondary)}",
-            ),
+            rf"\rho \in [{tex(inner)},\ {tex(outer)}]\,\mathrm{{m}}",
+            rf"r + l_{n} \le {tex(outer)} \;\Rightarrow\; r \le {tex(outer - last, 'm')}",
+            rf"|r - l_{n}| \ge {tex(inner)} \;\Rightarrow\; r \ge {far}\ \text{{or}}\ r \le {near}\,\mathrm{{m}}",
+            rf"\mathrm{{WS}}_2:\ r \in {rings}",
         ),
     )
-
-
-def _tex_rings(rings: Sequence[Interval]) -> str:
-    return r" \cup ".join(f"[{tex(inner)},\\ {tex(outer)}]" for inner, outer in rings) or r"\varnothing"

@@ -3,17 +3,19 @@
 import math
 from dataclasses import dataclass
 
+from gelenk.robot.result import Result
+
 _SHOWN_DIGITS = 10
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
-    """A section of a worked solution.
+class Step(Result):
+    """A section of the worked solution.
 
     Attributes:
-        title: Name of the quantity or the stage of the solution.
-        text: Explanation in a sentence or two.
-        latex: Formulas, each for a line of its own.
+        title: What the step computes.
+        text: The step in a sentence or two.
+        latex: Formulas, one per line.
     """
 
     title: str
@@ -21,12 +23,21 @@ class Step:
     latex: tuple[str, ...]
 
 
-def tex(value: float) -> str:
-    """Format a number for a formula, to ten digits, with a power of ten if it is very large or small."""
+def step(title: str, text: str, *latex: str) -> Step:
+    """Return a step with any number of formulas."""
+    return Step(title, text, latex)
+
+
+def tex(value: float, unit: str = "") -> str:
+    """Format a number for a formula, to ten digits, with a power of ten if it is very large or small.
+
+    Args:
+        value: The number.
+        unit: Its unit, such as "kg m^2".
+    """
     mantissa, _, exponent = f"{value:.{_SHOWN_DIGITS}g}".partition("e")
-    if not exponent:
-        return mantissa
-    return f"{mantissa} \\cdot 10^{{{int(exponent)}}}"
+    number = rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
+    return number + r"\,\mathrm{" + unit.replace(" ", r"\,") + "}" if unit else number
 
 
 def tex_factor(value: float) -> str:

@@ -1,14 +1,14 @@
 """Functions that the calculators of time laws, splines and time scaling share."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import numpy as np
 
 from gelenk.contract.course_motion import MAX_SAMPLED_NUMBERS, SampledRequest
 from gelenk.course.motion.check import MotionClaims, certified
-from gelenk.course.steps import Step
+from gelenk.course.motion.formulas import SHOWN_JOINTS
 from gelenk.errors import InvalidField, counted
 from gelenk.operations.outcome import Outcome, PictureFormat
 from gelenk.robot.arrays import Array
@@ -31,26 +31,18 @@ class PlannedMotion:
 
     Attributes:
         motion: Positions over time.
+        claims: Knots, derivatives at both ends, and what else the certificate promises.
         limits: Limits of each joint.
-        times: Times of the knots, [s]; shape (K,).
-        knots: Positions at the knots, [rad or m]; shape (K, n).
-        start_rates: Derivatives given at the start; shape (m, n).
-        end_rates: Derivatives given at the end; shape (m, n).
-        continuity: Order of the highest derivative that is continuous at the joins.
         title: Title of a picture.
-        told: Returns further fields of the answer, from the motion's peaks.
+        further: Further fields of the answer.
         passed: Points that a picture marks instead of the knots, if the motion only passes near them; (K,) and (K, n).
     """
 
     motion: PiecewisePolynomial
+    claims: MotionClaims
     limits: ScalingLimits
-    times: Array
-    knots: Array
-    start_rates: Array
-    end_rates: Array
-    continuity: int
     title: str
-    told: Callable[[PeaksByOrder], dict[str, Any]]
+    further: dict[str, Any]
     passed: tuple[Array, Array] | None = None
 
 
@@ -61,7 +53,7 @@ def motion_outcome(call: _Request, plan: Callable[[_Request], PlannedMotion]) ->
         call: The request.
         plan: Computes the motion of a request.
     """
-    return Outcome(lambda: _answer(call, plan), picture=lambda kind: _picture(call, kind, plan))
+    return Outcome(lambda: _answer(call, plan(call)), picture=lambda kind: _picture(plan(call), kind))
 
 
 def is_heavy_motion(call: SampledRequest) -> bool:
@@ -74,53 +66,44 @@ def is_heavy_motion(call: SampledRequest) -> bool:
     return count * len(first) > _QUICK_NUMBERS or len(waypoints) * len(first) > _QUICK_KNOTS
 
 
-def _picture(call: _Request, kind: PictureFormat, plan: Callable[[_Request], PlannedMotion]) -> bytes:
+def _picture(planned: PlannedMotion, kind: PictureFormat) -> bytes:
     # Matplotlib takes a third of a second to load.
     from gelenk.plots.profiles import ProfileLines, profiles_picture  # noqa: PLC0415
 
-    planned = plan(call)
-    limits, joints = planned.limits, planned.knots.shape[1]
-    _certified(planned, _peaks(planned.motion))
-    lines = ProfileLines(
-        [f"joint {j + 1}" for j in range(joints)],
-        _UNITS,
-        (limits.velocity, limits.acceleration, limits.jerk),
-        planned.passed or (planned.times, planned.knots),
-    )
+    claims, limits = planned.claims, planned.limits
+    certified(planned.motion, claims)
+    names = [f"joint {j + 1}" for j in range(claims.points.shape[1])]
+    marked = planned.passed or (claims.times, claims.points)
+    lines = ProfileLines(names, _UNITS, (limits.velocity, limits.acceleration, limits.jerk), marked)
     return profiles_picture(planned.title, planned.motion, lines, kind)
 
 
-def _peaks(motion: PiecewisePolynomial) -> PeaksByOrder:
+def peaks_by_order(motion: PiecewisePolynomial) -> PeaksByOrder:
+    """Return the peaks of velocity, acceleration and jerk."""
     return {order: peaks(motion, order) for order in (1, 2, 3)}
 
 
-def _certified(planned: PlannedMotion, found: PeaksByOrder) -> dict[str, Any]:
-    promise = MotionClaims(
-        planned.times, planned.knots, planned.start_rates, planned.end_rates, planned.continuity, found
-    )
-    return {**asdict(certified(planned.motion, promise)), "continuity": planned.continuity}
-
-
-def _answer(call: _Request, plan: Callable[[_Request], PlannedMotion]) -> dict[str, Any]:
-    planned = plan(call)
-    motion = planned.motion
-    times, found = _sample_times(call, motion), _peaks(motion)
-    derivatives = [motion.derivative(order).at(times) for order in range(4)]
+def _answer(call: SampledRequest, planned: PlannedMotion) -> dict[str, Any]:
+    motion, times = planned.motion, _sample_times(call, planned.motion)
+    positions, velocities, accelerations, jerks = (motion.derivative(order).at(times) for order in range(4))
     return {
         "duration": motion.duration,
         "switching_times": motion.breaks,
-        "segments": segments(motion),
+        "segments": [
+            {"start_time": start, "end_time": end, "coefficients": c.T.tolist()}
+            for start, end, c in zip(motion.breaks[:-1], motion.breaks[1:], motion.coefficients, strict=True)
+        ],
         "peaks": {
-            quantity: _told_peaks(found[order], planned.limits.of(quantity))
+            quantity: _peaks_of(planned.claims.peaks[order], planned.limits.of(quantity))
             for order, quantity in enumerate(QUANTITIES, start=1)
         },
         "times": times,
-        "joint_positions": derivatives[0],
-        "joint_velocities": derivatives[1],
-        "joint_accelerations": derivatives[2],
-        "joint_jerks": derivatives[3],
-        **planned.told(found),
-        "certificate": _certified(planned, found),
+        "joint_positions": positions,
+        "joint_velocities": velocities,
+        "joint_accelerations": accelerations,
+        "joint_jerks": jerks,
+        **planned.further,
+        "certificate": certified(motion, planned.claims),
     }
 
 
@@ -129,10 +112,8 @@ def _sample_times(call: SampledRequest, motion: PiecewisePolynomial) -> Array:
     count, joints = call.samples if call.sample_times is None else len(call.sample_times), motion.coefficients.shape[2]
     if count * joints > MAX_SAMPLED_NUMBERS:
         field = "samples" if call.sample_times is None else "sample_times"
-        raise InvalidField(
-            field,
-            f"{count} samples of {counted(joints, 'joint')} are more than the {MAX_SAMPLED_NUMBERS} numbers allowed",
-        )
+        numbers = f"{count} samples of {counted(joints, 'joint')}"
+        raise InvalidField(field, f"{numbers} are more than the {MAX_SAMPLED_NUMBERS} numbers allowed")
     if call.sample_times is None:
         return np.linspace(start, end, call.samples) if end > start else np.array([start])
     times = np.array(call.sample_times)
@@ -142,30 +123,22 @@ def _sample_times(call: SampledRequest, motion: PiecewisePolynomial) -> Array:
     return times
 
 
-def segments(motion: PiecewisePolynomial) -> list[dict[str, Any]]:
-    """Return the pieces of a motion as JSON content."""
+def _peaks_of(found: Peaks, limit: Array | None) -> list[dict[str, float | None]]:
+    limits: list[float] | list[None] = [None] * len(found.values) if limit is None else limit.tolist()
     return [
-        {"start_time": start, "end_time": end, "coefficients": c.T.tolist()}
-        for start, end, c in zip(
-            motion.breaks[:-1].tolist(), motion.breaks[1:].tolist(), motion.coefficients, strict=True
-        )
+        {"value": value, "time": time, "limit": most, "ratio": None if most is None else abs(value) / most}
+        for value, time, most in zip(found.values.tolist(), found.times.tolist(), limits, strict=True)
     ]
 
 
-def _told_peaks(found: Peaks, limit: Array | None) -> list[dict[str, Any]]:
-    return [
-        {
-            "value": value,
-            "time": time,
-            "limit": None if limit is None else float(limit[j]),
-            "ratio": None if limit is None else abs(value) / float(limit[j]),
-        }
-        for j, (value, time) in enumerate(zip(found.values.tolist(), found.times.tolist(), strict=True))
-    ]
+def limit_warnings(found: PeaksByOrder, limits: ScalingLimits, on_others: str = "") -> list[str]:
+    """Return a warning for each joint and quantity whose limit is exceeded.
 
-
-def limit_warnings(found: PeaksByOrder, limits: ScalingLimits) -> list[str]:
-    """Return a warning for each joint and quantity whose limit is exceeded."""
+    Args:
+        found: Peaks of the motion.
+        limits: Limits of each joint.
+        on_others: What to know of the joints that a worked solution does not show, where it shows only some.
+    """
     texts = []
     for order, quantity in enumerate(QUANTITIES, start=1):
         limit = limits.of(quantity)
@@ -176,12 +149,10 @@ def limit_warnings(found: PeaksByOrder, limits: ScalingLimits) -> list[str]:
                 f"at {found[order].times[j]:.6g} s."
                 for j in np.flatnonzero(ratios > 1.0 + _ROUNDING)
             ]
+    joints = len(found[1].values)
+    if on_others and joints > SHOWN_JOINTS:
+        texts.append(f"The worked solution shows {SHOWN_JOINTS} of {joints} joints; {on_others}.")
     return texts
-
-
-def told_steps(steps: Sequence[Step]) -> list[dict[str, Any]]:
-    """Return steps as JSON content."""
-    return [asdict(step) for step in steps]
 
 
 def limits_of(call: SampledRequest, joints: int) -> ScalingLimits:
@@ -193,13 +164,8 @@ def limits_of(call: SampledRequest, joints: int) -> ScalingLimits:
     given = call.limits
     if given is None:
         return ScalingLimits()
-    names = ("joint_velocity", "joint_acceleration", "joint_jerk")
-    found = (getattr(given, name) for name in names)
     return ScalingLimits(
-        *(
-            None if values is None else spread(values, joints, f"limits.{name}")
-            for name, values in zip(names, found, strict=True)
-        )
+        *(None if values is None else spread(values, joints, f"limits.{name}") for name, values in given)
     )
 
 
@@ -227,13 +193,13 @@ def row(values: Sequence[float] | None, joints: int, field: str) -> Array:
     return np.array(values)
 
 
-def table(rows: Sequence[Sequence[float]], field: str, count: int | None = None, joints: int | None = None) -> Array:
+def table(rows: Sequence[Sequence[float]], field: str, count: int, joints: int | None = None) -> Array:
     """Return rows of the same length as an array, one number per joint.
 
     Raises:
         InvalidField: Rows differ in length, or the count of rows or joints is wrong.
     """
-    if count is not None and len(rows) != count:
+    if len(rows) != count:
         raise InvalidField(field, f"has {counted(len(rows), 'entry')} for {counted(count, 'time')}")
     width = len(rows[0]) if joints is None else joints
     for i, one in enumerate(rows):
@@ -260,6 +226,5 @@ def unused(call: SampledRequest, fields: Sequence[str], why: str) -> None:
         InvalidField: A field is given.
     """
     for field in fields:
-        given = getattr(call, field) if field in call.model_fields_set else None
-        if given is not None and given is not False:
+        if field in call.model_fields_set and getattr(call, field) not in (None, False):
             raise InvalidField(field, why)

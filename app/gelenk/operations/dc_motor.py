@@ -1,6 +1,5 @@
 """The calculator of DC motors."""
 
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -16,35 +15,27 @@ from gelenk.course.actuators.dc_motor import (
 )
 from gelenk.course.actuators.motor_response import step_response
 from gelenk.errors import InvalidField
-from gelenk.operations.outcome import Outcome
+from gelenk.operations.outcome import json_only
 from gelenk.robot.arrays import Array
 
 _SAMPLES = 101
 _QUICK_SAMPLES = 1000
 
 
-def run(call: DcMotorRequest) -> Outcome:
+@json_only
+def run(call: DcMotorRequest) -> dict[str, Any]:
     """Compute a DC motor's steady state, torque-speed line, poles and step response."""
-    return Outcome(lambda: _dc_motor(call))
-
-
-def is_heavy(call: DcMotorRequest) -> bool:
-    """Check whether a request takes the event loop more than about a millisecond."""
-    return (call.samples or 0) > _QUICK_SAMPLES
-
-
-def _dc_motor(call: DcMotorRequest) -> dict[str, Any]:
     motor, times = call.motor(), _times(call)
     if motor.inductance == 0.0 and call.initial_current != 0.0:
         raise InvalidField("initial_current", "without inductance the current follows at once and has no initial value")
-    point = operating_point(motor, call.voltage, call.load_torque)
-    left = balance(motor, call.voltage, call.load_torque, point)
-    found = modes(motor)
+    supply = (motor, call.voltage, call.load_torque)
+    point, found = operating_point(*supply), modes(motor)
+    voltage_residual, torque_residual = balance(*supply, point)
     start = (call.initial_current, call.initial_angular_velocity)
-    exact = None if times is None else step_response(motor, call.voltage, call.load_torque, times, *start)
+    exact = None if times is None else step_response(*supply, times, *start)
     return {
-        "steady_state": asdict(point),
-        "torque_speed_line": asdict(torque_speed_line(motor, call.voltage)),
+        "steady_state": point,
+        "torque_speed_line": torque_speed_line(motor, call.voltage),
         "dynamics": {
             "poles": [{"real": pole.real, "imaginary": pole.imag} for pole in found.poles],
             "damping": found.damping,
@@ -52,19 +43,23 @@ def _dc_motor(call: DcMotorRequest) -> dict[str, Any]:
             "mechanical_time_constant": motor.mechanical_time_constant,
             "electrical_time_constant": motor.electrical_time_constant,
         },
-        "response": None
-        if exact is None
-        else {"times": times, "currents": exact.currents, "angular_velocities": exact.angular_velocities},
-        "steps": [asdict(step) for step in motor_steps(motor, call.voltage, call.load_torque, point)],
-        "warnings": motor_warnings(motor, call.voltage, call.load_torque, point),
+        "response": exact
+        and {"times": times, "currents": exact.currents, "angular_velocities": exact.angular_velocities},
+        "steps": motor_steps(*supply, point),
+        "warnings": motor_warnings(*supply, point),
         "certificate": {
-            "voltage_residual": left.voltage,
-            "torque_residual": left.torque,
-            "samples": 0 if exact is None else exact.samples,
-            "max_current_difference": None if exact is None else exact.current_difference,
-            "max_angular_velocity_difference": None if exact is None else exact.angular_velocity_difference,
+            "voltage_residual": voltage_residual,
+            "torque_residual": torque_residual,
+            "samples": exact.samples if exact else 0,
+            "max_current_difference": exact and exact.current_difference,
+            "max_angular_velocity_difference": exact and exact.angular_velocity_difference,
         },
     }
+
+
+def is_heavy(call: DcMotorRequest) -> bool:
+    """Check whether a request takes the event loop more than about a millisecond."""
+    return (call.samples or 0) > _QUICK_SAMPLES
 
 
 def _times(call: DcMotorRequest) -> Array | None:

@@ -1,6 +1,5 @@
 """POST /v1/course/fly-over: a corner passed without a stop."""
 
-from dataclasses import asdict
 from typing import Any, get_args
 
 import numpy as np
@@ -52,11 +51,11 @@ def _fly_over(call: FlyOverRequest) -> dict[str, Any]:
         "given": given,
         "blend": _blend(blend),
         "rest_to_rest": None if whole is None else _rest_to_rest(whole),
-        "motion": None if motion is None else asdict(motion),
+        "motion": motion,
         "samples": None if motion is None or call.samples is None else _samples(motion, call.samples),
-        "steps": [asdict(step) for step in fly_over_steps(blend, given, value, whole)],
+        "steps": fly_over_steps(blend, given, value, whole),
         "warnings": fly_over_warnings(blend),
-        "certificate": asdict(checked(blend, None if whole is None else whole.motion)),
+        "certificate": checked(blend, None if whole is None else whole.motion),
     }
 
 
@@ -107,7 +106,7 @@ def _blend(blend: Blend) -> dict[str, Any]:
 
 def _rest_to_rest(whole: BlendedMotion) -> dict[str, Any]:
     return {
-        "phases": [asdict(phase) for phase in whole.phases],
+        "phases": whole.phases,
         "duration": whole.duration,
         "stopping_duration": whole.stopping_duration,
         "time_saved": whole.stopping_duration - whole.duration,

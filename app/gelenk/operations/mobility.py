@@ -1,21 +1,12 @@
 """The calculator of mobility: degrees of freedom of a mechanism or of a robot."""
 
-from dataclasses import asdict
 from typing import Any
 
 from gelenk.contract.mobility_request import MobilityRequest
-from gelenk.course.mobility.mechanism import Mechanism, Pair, mechanism, mechanism_of_tree
-from gelenk.course.mobility.mobility import (
-    KindCount,
-    Tally,
-    certify_mobility,
-    tally,
-    tally_of_counts,
-    verdict,
-    warnings,
-)
+from gelenk.course.mobility.mechanism import Mechanism, mechanism, mechanism_of_tree
+from gelenk.course.mobility.mobility import Tally, certify_mobility, tally, tally_of_counts, verdict, warnings
 from gelenk.course.mobility.pairs import FREEDOMS
-from gelenk.course.mobility.screws import Posture, posture
+from gelenk.course.mobility.screws import PostureMobility, posture
 from gelenk.course.mobility.spaces import tasks
 from gelenk.course.mobility.steps import steps
 from gelenk.operations.outcome import Limits, Outcome
@@ -50,7 +41,7 @@ def _counted(call: MobilityRequest) -> dict[str, Any]:
 
 
 def _content(
-    counted: Tally, found: Mechanism | None, stands: Posture | None = None, chain: Chain | None = None
+    counted: Tally, found: Mechanism | None, stands: PostureMobility | None = None, chain: Chain | None = None
 ) -> dict[str, Any]:
     idle = None if found is None else found.idle_spins()
     left = (counted.mobility if stands is None else stands.mobility) - len(idle or ())
@@ -63,17 +54,17 @@ def _content(
         "pair_count": counted.pairs,
         "constraint_count": counted.constraints,
         "coupling_count": counted.couplings,
-        "kinds": [_kind(kind) for kind in counted.kinds],
-        "splits": [asdict(split) for split in counted.splits],
+        "kinds": counted.kinds,
+        "splits": counted.splits,
         "mobility_without_split": counted.mobility_without_split,
-        "idle": None if idle is None else [asdict(spin) for spin in idle],
+        "idle": idle,
         "mobility_without_idle": None if idle is None else left,
         **_graph(found),
-        "posture": None if stands is None else asdict(stands),
+        "posture": stands,
         "rank_tolerance": None,
         "spaces": None if chain is None else _spaces(chain),
         "warnings": warnings(counted, found, stands),
-        "steps": [asdict(step) for step in steps(counted, found, stands)],
+        "steps": steps(counted, found, stands),
     }
 
 
@@ -83,12 +74,8 @@ def _spaces(chain: Chain) -> dict[str, Any]:
         "base_frame": chain.base_frame,
         "tip_frame": chain.tip_frame,
         "configuration_dimension": len(chain),
-        "tasks": [asdict(one) for one in tasks(len(chain))],
+        "tasks": tasks(len(chain)),
     }
-
-
-def _kind(kind: KindCount) -> dict[str, Any]:
-    return {"type": kind.kind, "order": kind.order, "count": kind.count, "constraints": kind.constraints}
 
 
 _GRAPH = ("ground", "chain", "loop_count", "components", "bridges", "pairs", "mobility_by_loops")
@@ -105,20 +92,6 @@ def _graph(found: Mechanism | None) -> dict[str, Any]:
         "loop_count": graph.loops,
         "components": [[names[link] for link in part] for part in graph.components],
         "bridges": [found.pairs[i].name for i in graph.bridges],
-        "pairs": [_pair(pair, names) for pair in found.pairs],
+        "pairs": found.pairs,
         "mobility_by_loops": certify_mobility(found),
-    }
-
-
-def _pair(pair: Pair, links: tuple[str, ...]) -> dict[str, Any]:
-    return {
-        "name": pair.name,
-        "link_a": links[pair.links[0]],
-        "link_b": links[pair.links[1]],
-        "type": pair.kind,
-        "order": pair.order,
-        "constraints": pair.constraints,
-        "freedoms": pair.freedoms,
-        "joint": pair.joint,
-        "added": pair.added,
     }

@@ -7,26 +7,17 @@ import numpy as np
 
 from gelenk.contract.orientation import OrientationRequest
 from gelenk.course.orientation.composition import composed
-from gelenk.course.orientation.orientation import NEARLY_DEGENERATE, AxisAngle, Notations, notations
+from gelenk.course.orientation.orientation import NEARLY_DEGENERATE, Notations, notations
 from gelenk.course.orientation.rotations import DEGENERATE, Validation
-from gelenk.operations.outcome import Outcome
+from gelenk.operations.outcome import json_only
 from gelenk.robot.arrays import Array
-from gelenk.robot.poses import ROTATION_TOLERANCE
 
 _INLINE_MOTIONS = 8
 
 
-def run(call: OrientationRequest) -> Outcome:
+@json_only
+def run(call: OrientationRequest) -> dict[str, Any]:
     """Compose the given motions, and return the resulting orientation in every notation."""
-    return Outcome(lambda: _compute(call))
-
-
-def is_heavy(call: OrientationRequest) -> bool:
-    """Check whether a request takes the event loop more than about a millisecond."""
-    return len(call.then) > _INLINE_MOTIONS
-
-
-def _compute(call: OrientationRequest) -> dict[str, Any]:
     first, further, validations = call.motions()
     path = composed(first, further, np.array(call.points, dtype=float).reshape(-1, 3))
     T = path.transforms[-1]
@@ -37,7 +28,7 @@ def _compute(call: OrientationRequest) -> dict[str, Any]:
         "inverse": _frame(path.inverse),
         "points": path.points.tolist(),
         "frames": [_frame(one) for one in path.transforms],
-        "validations": [None if one is None else _validation(one) for one in validations],
+        "validations": validations,
         "warnings": [*_projections(validations), *_nearly(found)],
         "certificate": {
             "max_rotation_error": found.error,
@@ -47,54 +38,31 @@ def _compute(call: OrientationRequest) -> dict[str, Any]:
     }
 
 
+def is_heavy(call: OrientationRequest) -> bool:
+    """Check whether a request takes the event loop more than about a millisecond."""
+    return len(call.then) > _INLINE_MOTIONS
+
+
 def _notations(found: Notations) -> dict[str, Any]:
     x, y, z, w = found.quaternion_xyzw
+    axis, other_axis = (*found.axis_angle.axes, None, None)[:2]
     return {
         "rotation": found.rotation.tolist(),
         "quaternion_xyzw": (x, y, z, w),
         "quaternion_wxyz": (w, x, y, z),
         "rotation_vector": found.rotation_vector,
-        "axis_angle": _axis_angle(found.axis_angle),
+        "axis_angle": {"axis": axis, "other_axis": other_axis, "angle": found.axis_angle.angle},
         "zyz": found.zyz.solutions[0],
         "zyz_solutions": found.zyz.solutions,
         "rpy": found.rpy.solutions[0],
         "rpy_solutions": found.rpy.solutions,
-        "degenerate": [
-            {
-                "notation": one.notation,
-                "case": one.case,
-                "determined": one.determined,
-                "value": one.value,
-                "chosen": one.chosen,
-            }
-            for one in found.degeneracies
-        ],
+        "degenerate": found.degeneracies,
         "degenerate_threshold": DEGENERATE,
-    }
-
-
-def _axis_angle(turn: AxisAngle) -> dict[str, Any]:
-    axes = turn.axes
-    return {
-        "axis": axes[0] if axes else None,
-        "other_axis": axes[1] if len(axes) == 2 else None,
-        "angle": turn.angle,
     }
 
 
 def _frame(T: Array) -> dict[str, Any]:
     return {"rotation": T[:3, :3].tolist(), "position": T[:3, 3].tolist()}
-
-
-def _validation(found: Validation) -> dict[str, Any]:
-    return {
-        "orthogonality_error": found.orthogonality_error,
-        "determinant": found.determinant,
-        "distance": found.distance,
-        "is_reflection": found.is_reflection,
-        "is_unique": found.is_unique,
-        "projected": found.distance > ROTATION_TOLERANCE,
-    }
 
 
 def _projections(validations: Sequence[Validation | None]) -> list[str]:

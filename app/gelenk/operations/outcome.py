@@ -2,13 +2,15 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from functools import partial, wraps
+from typing import Any, Literal, TypeAlias, TypeVar
 
 from gelenk.jobs.store import JobLimits
 from gelenk.operations.request_counts import RequestCounts
 from gelenk.robot.arrays import Array
 
 PictureFormat: TypeAlias = Literal["svg", "png"]
+R = TypeVar("R")
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,3 +45,13 @@ class Outcome:
     picture: Callable[[PictureFormat], bytes] | None = None
     columns: Sequence[str] | None = None
     solved: Callable[[int], RequestCounts] | None = None
+
+
+def json_only(content: Callable[[R], Any]) -> Callable[[R], Outcome]:
+    """Return an operation that answers with nothing but the JSON content that a function makes of the request."""
+
+    @wraps(content)
+    def run(request: R) -> Outcome:
+        return Outcome(partial(content, request))
+
+    return run

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict
 from typing import Any
 
 from gelenk.contract.planar_workspace import PlanarWorkspaceRequest
@@ -30,8 +29,8 @@ def _workspace(call: PlanarWorkspaceRequest) -> dict[str, Any]:
         "primary": _region(arm.primary),
         "secondary": _region(arm.secondary),
         "point": None if call.point is None else _point(arm, call.point, call.tolerance),
-        "steps": [asdict(step) for step in planar.workspace_steps(arm)],
-        "certificate": asdict(planar.tried(arm)),
+        "steps": planar.workspace_steps(arm),
+        "certificate": planar.tried(arm),
     }
 
 
@@ -43,8 +42,8 @@ def _point(arm: planar.PlanarWorkspace, point: Sequence[float], tolerance: float
     radius, found = math.hypot(*point), planar.orientations(arm, *point)
     return {
         "radius": radius,
-        "primary": asdict(planar.place(arm.primary, radius, tolerance)),
-        "secondary": asdict(planar.place(arm.secondary, radius, tolerance)),
+        "primary": planar.place(arm.primary, radius, tolerance),
+        "secondary": planar.place(arm.secondary, radius, tolerance),
         "orientations": found,
         "orientation_share": planar.share(found),
     }

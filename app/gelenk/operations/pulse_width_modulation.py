@@ -1,27 +1,21 @@
 """The calculator of pulse width modulation."""
 
-from dataclasses import asdict
 from typing import Any
 
 from gelenk.contract.pulse_width_modulation import PwmRequest
 from gelenk.course.actuators import pwm
-from gelenk.course.actuators.dc_motor import (
-    Motor,
-)
+from gelenk.course.actuators.dc_motor import Motor
 from gelenk.errors import InvalidField
-from gelenk.operations.outcome import Outcome
+from gelenk.operations.outcome import json_only
 
 _SAME_VOLTAGE = 1e-6
 """Relative difference of two back-EMFs that differ only by the digits they were written with."""
 _OF_A_SPEED = ("torque_constant", "back_emf_constant", "viscous_friction", "load_torque")
 
 
-def run(call: PwmRequest) -> Outcome:
+@json_only
+def run(call: PwmRequest) -> dict[str, Any]:
     """Compute duty, voltages, times and current ripple of pulse width modulation."""
-    return Outcome(lambda: _pwm(call))
-
-
-def _pwm(call: PwmRequest) -> dict[str, Any]:
     motor = _motor_for_speed(call)
     pulses = _pulses(call, motor)
     back_emf = _back_emf(call, motor)
@@ -38,8 +32,8 @@ def _pwm(call: PwmRequest) -> dict[str, Any]:
         "on_time": pulses.on_time,
         "off_time": pulses.off_time,
         "approximate_ripple": pwm.approximate_ripple(pulses, call.inductance) if call.inductance else None,
-        "current": None if ripple is None else asdict(ripple),
-        "steps": [asdict(step) for step in (*wanted, *pwm.pwm_steps(pulses, call.inductance, ripple))],
+        "current": ripple,
+        "steps": [*wanted, *pwm.pwm_steps(pulses, call.inductance, ripple)],
         "warnings": pwm.pwm_warnings(pulses, ripple),
     }
 

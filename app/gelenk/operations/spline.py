@@ -5,23 +5,21 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.spline import SplineRequest
-from gelenk.course.motion.formulas import SHOWN_JOINTS
+from gelenk.course.motion.check import MotionClaims
 from gelenk.course.motion.spline_steps import spline_steps
 from gelenk.course.motion.time_law_steps import peak_step
 from gelenk.operations.course_motion import (
-    PeaksByOrder,
     PlannedMotion,
     is_heavy_motion,
     limit_warnings,
     limits_of,
     motion_outcome,
+    peaks_by_order,
     row,
     table,
-    told_steps,
     unused,
 )
 from gelenk.operations.outcome import Outcome
-from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.splines import EndRates, Spline, cubic_spline
 
 _SHOWN_UNKNOWNS = 32
@@ -44,40 +42,21 @@ def _plan(call: SplineRequest) -> PlannedMotion:
         unused(call, (*_ACCELERATIONS, "fictitious_times"), "is only allowed with `boundary` assigned")
     times = np.array(call.times)
     knots = table(call.waypoints, "waypoints", len(times))
-    joints = knots.shape[1]
-    ends = EndRates(*(row(getattr(call, name), joints, name) for name in (*_VELOCITIES, *_ACCELERATIONS)))
+    rates = [row(getattr(call, name), knots.shape[1], name) for name in (*_VELOCITIES, *_ACCELERATIONS)]
     between = None if call.fictitious_times is None else (call.fictitious_times[0], call.fictitious_times[1])
-    found = cubic_spline(times, knots, call.boundary, ends, between)
-    limits = limits_of(call, joints)
-
-    def told(peaks: PeaksByOrder) -> dict[str, Any]:
-        warnings = limit_warnings(peaks, limits)
-        if joints > SHOWN_JOINTS:
-            warnings.append(f"The worked solution shows {SHOWN_JOINTS} of {joints} joints; A is the same for all.")
-        return {
-            "boundary": call.boundary,
-            "system": _system(found),
-            "knots": _knots(found),
-            "steps": told_steps((*spline_steps(found, call.boundary), peak_step(peaks[1], peaks[2]))),
-            "warnings": warnings,
-        }
-
-    starts, finals = _end_rates(call, ends, joints)
-    return PlannedMotion(
-        found.motion, limits, times, knots, starts, finals, 2, f"Cubic spline, {call.boundary.replace('_', ' ')}", told
-    )
-
-
-def _end_rates(call: SplineRequest, ends: EndRates, joints: int) -> tuple[Array, Array]:
-    """Return the derivatives that the boundary gives, at the start and at the end."""
-    if call.boundary == "clamped":
-        return ends.start_velocity[None], ends.end_velocity[None]
-    if call.boundary == "assigned":
-        return (
-            np.array([ends.start_velocity, ends.start_acceleration]),
-            np.array([ends.end_velocity, ends.end_acceleration]),
-        )
-    return np.empty((0, joints)), np.empty((0, joints))
+    found = cubic_spline(times, knots, call.boundary, EndRates(*rates), between)
+    limits, peaks = limits_of(call, knots.shape[1]), peaks_by_order(found.motion)
+    given = {"clamped": 1, "assigned": 2}.get(call.boundary, 0)
+    starts, ends = np.array(rates[::2])[:given], np.array(rates[1::2])[:given]
+    further = {
+        "boundary": call.boundary,
+        "system": _system(found),
+        "knots": _knots(found),
+        "steps": (*spline_steps(found, call.boundary), peak_step(peaks[1], peaks[2])),
+        "warnings": limit_warnings(peaks, limits, "A is the same for all"),
+    }
+    title = f"Cubic spline, {call.boundary.replace('_', ' ')}"
+    return PlannedMotion(found.motion, MotionClaims(times, knots, starts, ends, 2, peaks), limits, title, further)
 
 
 def _system(found: Spline) -> dict[str, Any] | None:

@@ -1,28 +1,28 @@
 """POST /v1/course/time-law: a motion between two points, or through several, by a time law."""
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from gelenk.contract.course_motion import MAX_SAMPLED_NUMBERS
 from gelenk.contract.time_law import TimeLawRequest
-from gelenk.course.motion.formulas import SHOWN_JOINTS
+from gelenk.course.motion.check import MotionClaims
 from gelenk.course.motion.time_law_steps import lift_steps, peak_step, two_point_steps
 from gelenk.course.motion.trapezoid_steps import blend_steps, trapezoid_steps
 from gelenk.course.steps import Step
 from gelenk.errors import InvalidField, counted
 from gelenk.operations.course_motion import (
-    PeaksByOrder,
     PlannedMotion,
     is_heavy_motion,
     limit_warnings,
     limits_of,
     motion_outcome,
     needed,
+    peaks_by_order,
     row,
     spread,
     table,
-    told_steps,
     unused,
 )
 from gelenk.operations.outcome import Outcome
@@ -30,7 +30,8 @@ from gelenk.robot.arrays import Array
 from gelenk.trajectory.joints.parabolic_blends import Blends, with_accelerations, with_blend_times
 from gelenk.trajectory.laws.laws import POLYNOMIALS
 from gelenk.trajectory.laws.time_scaling import ScalingLimits
-from gelenk.trajectory.laws.trapezoid import JointMove, PointToPoint, Profile, point_to_point
+from gelenk.trajectory.laws.trapezoid import JointMove, PointToPoint, point_to_point
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import checked_times
 from gelenk.trajectory.motion.time_laws import between, normalised, quartic_cubic_quartic
 
@@ -81,26 +82,14 @@ def _rates(call: TimeLawRequest, end: str, joints: int) -> Array:
 def _two_points(call: TimeLawRequest, start: Array, target: Array) -> PlannedMotion:
     if call.duration is None:
         raise InvalidField("duration", f"is needed with `law` {call.law}")
-    starts = np.concatenate([start[None], _rates(call, "start", len(start))])
-    ends = np.concatenate([target[None], _rates(call, "end", len(start))])
-    motion, limits = between(starts, ends, call.duration), limits_of(call, len(start))
+    starts = np.vstack((start, _rates(call, "start", len(start))))
+    ends = np.vstack((target, _rates(call, "end", len(start))))
+    motion = between(starts, ends, call.duration)
     forms = normalised(motion, target - start)
-
-    def told(found: PeaksByOrder) -> dict[str, Any]:
-        steps = (*two_point_steps(motion, starts, ends, forms), peak_step(found[1], found[2]))
-        return _told(call, limits, found, steps, normalised=forms)
-
-    return PlannedMotion(
-        motion,
-        limits,
-        motion.breaks,
-        np.array([start, target]),
-        starts[1:],
-        ends[1:],
-        len(starts) - 1,
-        f"{call.law.capitalize()} time law",
-        told,
-    )
+    peaks = peaks_by_order(motion)
+    claims = MotionClaims(motion.breaks, np.array([start, target]), starts[1:], ends[1:], len(starts) - 1, peaks)
+    steps = (*two_point_steps(motion, starts, ends, forms), peak_step(peaks[1], peaks[2]))
+    return _planned(call, motion, claims, f"{call.law.capitalize()} time law", steps, {"normalised": forms})
 
 
 def _lift(call: TimeLawRequest, times: Array, knots: Array) -> PlannedMotion:
@@ -109,12 +98,9 @@ def _lift(call: TimeLawRequest, times: Array, knots: Array) -> PlannedMotion:
         raise InvalidField("waypoints", f"4-3-4 goes through four: start, lift-off, set-down, end; {len(times)} given")
     starts, ends = (_rates(call, end, knots.shape[1]) for end in ("start", "end"))
     motion = quartic_cubic_quartic(times, knots, starts, ends)
-    limits = limits_of(call, knots.shape[1])
-
-    def told(found: PeaksByOrder) -> dict[str, Any]:
-        return _told(call, limits, found, (*lift_steps(motion, knots), peak_step(found[1], found[2])))
-
-    return PlannedMotion(motion, limits, times, knots, starts, ends, 2, "4-3-4 time law", told)
+    peaks = peaks_by_order(motion)
+    claims = MotionClaims(times, knots, starts, ends, 2, peaks)
+    return _planned(call, motion, claims, "4-3-4 time law", (*lift_steps(motion, knots), peak_step(peaks[1], peaks[2])))
 
 
 def _trapezoid(call: TimeLawRequest, start: Array, target: Array) -> PlannedMotion:
@@ -122,33 +108,19 @@ def _trapezoid(call: TimeLawRequest, start: Array, target: Array) -> PlannedMoti
     limits = limits_of(call, joints)
     if limits.acceleration is None:
         raise InvalidField("limits.joint_acceleration", "is needed with `law` trapezoidal")
-    rates = _rates(call, "start", joints), _rates(call, "end", joints)
+    starts, ends = _rates(call, "start", joints), _rates(call, "end", joints)
     most = np.full(joints, np.inf) if limits.velocity is None else limits.velocity
-    distances = target - start
-    tasks = [
-        JointMove(*(float(value) for value in numbers))
-        for numbers in zip(distances, rates[0][0], rates[1][0], most, limits.acceleration, strict=True)
-    ]
+    moves = np.column_stack((target - start, starts[0], ends[0], most, limits.acceleration))
+    tasks = [JointMove(*numbers) for numbers in moves.tolist()]
     plan = point_to_point(start, tasks, call.duration, may_reverse=call.may_reverse)
-
-    def told(found: PeaksByOrder) -> dict[str, Any]:
-        profiles = [_profile(plan, j) for j in range(joints)]
-        return _told(call, limits, found, trapezoid_steps(tasks, plan), profiles=profiles)
-
-    return PlannedMotion(
-        plan.motion,
-        limits,
-        plan.motion.breaks[[0, -1]],
-        np.array([start, target]),
-        *rates,
-        1,
-        "Trapezoid of velocity",
-        told,
-    )
+    profiles = [_profile(plan, j) for j in range(joints)]
+    motion, knots = plan.motion, np.array([start, target])
+    claims = MotionClaims(motion.breaks[[0, -1]], knots, starts, ends, 1, peaks_by_order(motion))
+    return _planned(call, motion, claims, "Trapezoid of velocity", trapezoid_steps(tasks, plan), {"profiles": profiles})
 
 
 def _profile(plan: PointToPoint, joint: int) -> dict[str, Any]:
-    profile: Profile = plan.profiles[joint]
+    profile = plan.profiles[joint]
     return {
         "peak_velocity": profile.peak_velocity,
         "acceleration": profile.acceleration,
@@ -162,65 +134,49 @@ def _profile(plan: PointToPoint, joint: int) -> dict[str, Any]:
 
 
 def _blends(call: TimeLawRequest, times: Array, knots: Array) -> PlannedMotion:
-    limits = limits_of(call, knots.shape[1])
-    if call.blend_time is not None:
-        if limits.acceleration is not None:
-            raise InvalidField("blend_time", "follows from `limits.joint_acceleration`: give one of the two")
-        found = with_blend_times(times, knots, spread(call.blend_time, len(times), "blend_time", "waypoints"))
-    elif limits.acceleration is not None:
-        pieces = 2 * len(times) * knots.shape[1]
-        if pieces * knots.shape[1] > MAX_SAMPLED_NUMBERS:
-            raise InvalidField(
-                "waypoints",
-                f"{len(times)} of them make up to {pieces} pieces of {counted(knots.shape[1], 'joint')}, each joint "
-                f"switching at times of its own: more than the {MAX_SAMPLED_NUMBERS} numbers allowed; "
-                "give `blend_time`",
-            )
-        found = with_accelerations(times, knots, limits.acceleration)
-    else:
-        raise InvalidField("blend_time", "is needed with `law` parabolic_blends, or `limits.joint_acceleration`")
-    rest = np.zeros((1, knots.shape[1]))
-
-    def told(peaks: PeaksByOrder) -> dict[str, Any]:
-        return _told(call, limits, peaks, blend_steps(found), blends=_told_blends(found))
-
-    ends = [0, -1]
-    return PlannedMotion(
-        found.motion,
-        limits,
-        times[ends],
-        knots[ends],
-        rest,
-        rest,
-        1,
-        "Straight segments, parabolic blends",
-        told,
-        (times, knots),
-    )
-
-
-def _told_blends(found: Blends) -> dict[str, Any]:
-    return {
+    found = _blended(call, times, knots, limits_of(call, knots.shape[1]))
+    rest, ends = np.zeros((1, knots.shape[1])), [0, -1]
+    claims = MotionClaims(times[ends], knots[ends], rest, rest, 1, peaks_by_order(found.motion))
+    blends = {
         "velocities": found.velocities.T.tolist(),
         "accelerations": found.accelerations.T.tolist(),
         "blend_times": found.durations.T.tolist(),
         "deviations": found.deviations.T.tolist(),
     }
+    title = "Straight segments, parabolic blends"
+    return _planned(call, found.motion, claims, title, blend_steps(found), {"blends": blends}, (times, knots))
 
 
-def _told(
-    call: TimeLawRequest, limits: ScalingLimits, found: PeaksByOrder, steps: tuple[Step, ...], **further: Any
-) -> dict[str, Any]:
-    warnings = limit_warnings(found, limits)
-    joints = len(found[1].values)
-    if joints > SHOWN_JOINTS:
-        warnings.append(f"The worked solution shows {SHOWN_JOINTS} of {joints} joints; the others go the same way.")
-    return {
-        "law": call.law,
-        "normalised": None,
-        "profiles": None,
-        "blends": None,
-        **further,
-        "steps": told_steps(steps),
-        "warnings": warnings,
-    }
+def _blended(call: TimeLawRequest, times: Array, knots: Array, limits: ScalingLimits) -> Blends:
+    if call.blend_time is not None:
+        if limits.acceleration is not None:
+            raise InvalidField("blend_time", "follows from `limits.joint_acceleration`: give one of the two")
+        return with_blend_times(times, knots, spread(call.blend_time, len(times), "blend_time", "waypoints"))
+    if limits.acceleration is None:
+        raise InvalidField("blend_time", "is needed with `law` parabolic_blends, or `limits.joint_acceleration`")
+    joints = knots.shape[1]
+    pieces = 2 * len(times) * joints
+    if pieces * joints > MAX_SAMPLED_NUMBERS:
+        reason = (
+            f"{len(times)} of them make up to {pieces} pieces of {counted(joints, 'joint')}, each joint switching at "
+            f"times of its own: more than the {MAX_SAMPLED_NUMBERS} numbers allowed; give `blend_time`"
+        )
+        raise InvalidField("waypoints", reason)
+    return with_accelerations(times, knots, limits.acceleration)
+
+
+def _planned(
+    call: TimeLawRequest,
+    motion: PiecewisePolynomial,
+    claims: MotionClaims,
+    title: str,
+    steps: Sequence[Step],
+    of_this_law: Mapping[str, Any] | None = None,
+    passed: tuple[Array, Array] | None = None,
+) -> PlannedMotion:
+    """Return the plan, with the fields that only answers for other laws have set to None."""
+    limits = limits_of(call, claims.points.shape[1])
+    warnings = limit_warnings(claims.peaks, limits, "the others go the same way")
+    others = dict.fromkeys(("normalised", "profiles", "blends"))
+    further = {"law": call.law, **others, **(of_this_law or {}), "steps": steps, "warnings": warnings}
+    return PlannedMotion(motion, claims, limits, title, further, passed)

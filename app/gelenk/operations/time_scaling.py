@@ -1,28 +1,26 @@
 """POST /v1/course/time-scaling: the factor of time with which a motion keeps its limits."""
 
-from typing import Any
-
 import numpy as np
 
 from gelenk.contract.time_scaling import TimeScalingRequest
+from gelenk.course.motion.check import MotionClaims
 from gelenk.course.motion.time_scaling_steps import scaling_steps
 from gelenk.errors import InvalidField
 from gelenk.operations.course_motion import (
-    PeaksByOrder,
     PlannedMotion,
     is_heavy_motion,
     limit_warnings,
     limits_of,
     motion_outcome,
     needed,
+    peaks_by_order,
     table,
-    told_steps,
     unused,
 )
 from gelenk.operations.outcome import Outcome
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.laws import POLYNOMIALS
-from gelenk.trajectory.laws.time_scaling import Bound, Scaling, ScalingLimits, uniform_scaling
+from gelenk.trajectory.laws.time_scaling import Scaling, uniform_scaling
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline, through_samples
 from gelenk.trajectory.motion.time_laws import between
@@ -48,25 +46,24 @@ def _plan(call: TimeScalingRequest) -> PlannedMotion:
     # Start at 0: at a late time no digits are left for a motion that has become short.
     scaled = PiecewisePolynomial(motion.breaks - motion.breaks[0], motion.coefficients).scaled(factor)
 
-    def told(peaks: PeaksByOrder) -> dict[str, Any]:
-        ratios = {bound.quantity: bound.ratio for bound in scaling.bounds}
-        return {
-            "course_factor": scaling.course_factor,
-            "unclipped_factor": scaling.factor,
-            "applied_factor": factor,
-            "k_vel": max(1.0, ratios["velocity"]) if "velocity" in ratios else None,
-            "k_acc": max(1.0, ratios["acceleration"]) if "acceleration" in ratios else None,
-            "bounds": [_bound(bound) for bound in scaling.bounds],
-            "binding": _bound(scaling.binding),
-            "original_duration": motion.duration,
-            "steps": told_steps(scaling_steps(scaling, motion.duration)),
-            "warnings": _warnings(motion, scaling, peaks, limits),
-        }
-
+    peaks, ratios = peaks_by_order(scaled), {bound.quantity: bound.ratio for bound in scaling.bounds}
+    further = {
+        "course_factor": scaling.course_factor,
+        "unclipped_factor": scaling.factor,
+        "applied_factor": factor,
+        "k_vel": max(1.0, ratios["velocity"]) if "velocity" in ratios else None,
+        "k_acc": max(1.0, ratios["acceleration"]) if "acceleration" in ratios else None,
+        "bounds": scaling.bounds,
+        "binding": scaling.binding,
+        "original_duration": motion.duration,
+        "steps": scaling_steps(scaling, motion.duration),
+        "warnings": [*limit_warnings(peaks, limits), *_warnings(motion, scaling)],
+    }
     rest = np.zeros((POLYNOMIALS[call.law] - 1 if call.waypoints is None else 0, knots.shape[1]))
     when = factor * (times - times[0])
     when[-1] = scaled.breaks[-1]
-    return PlannedMotion(scaled, limits, when, knots, rest, rest, continuity, f"Scaled by k = {factor:.6g}", told)
+    claims = MotionClaims(when, knots, rest, rest, continuity, peaks)
+    return PlannedMotion(scaled, claims, limits, f"Scaled by k = {factor:.6g}", further)
 
 
 def _motion(call: TimeScalingRequest) -> tuple[PiecewisePolynomial, Array, Array, int]:
@@ -104,25 +101,10 @@ def _factor(call: TimeScalingRequest, scaling: Scaling) -> float:
     return scaling.factor
 
 
-def _bound(bound: Bound) -> dict[str, Any]:
-    return {
-        "quantity": bound.quantity,
-        "ratio": bound.ratio,
-        "factor": bound.factor,
-        "joint": bound.joint + 1,
-        "time": bound.time,
-        "peak": bound.peak,
-        "limit": bound.limit,
-    }
-
-
-def _warnings(motion: PiecewisePolynomial, scaling: Scaling, peaks: PeaksByOrder, limits: ScalingLimits) -> list[str]:
-    found = limit_warnings(peaks, limits)
+def _warnings(motion: PiecewisePolynomial, scaling: Scaling) -> list[str]:
     if scaling.factor is None:
-        found.append("Nothing moves: any time will do.")
-        return found
-    velocities = np.abs(motion.derivative().at(motion.breaks[[0, -1]])).max(axis=0)
-    largest = np.abs(motion.derivative().at(motion.breaks)).max(axis=0)
-    if np.any(velocities > _AT_REST * np.maximum(largest, scaling.factor)):
-        found.append("The motion does not begin and end at rest: its end velocities are divided by k too.")
-    return found
+        return ["Nothing moves: any time will do."]
+    velocities = np.abs(motion.derivative().at(motion.breaks))
+    if np.any(velocities[[0, -1]].max(axis=0) > _AT_REST * np.maximum(velocities.max(axis=0), scaling.factor)):
+        return ["The motion does not begin and end at rest: its end velocities are divided by k too."]
+    return []

@@ -26,9 +26,9 @@ from gelenk.trajectory.joints.via_blends import via_blends
 from gelenk.trajectory.joints.waypoints import check_within
 from gelenk.trajectory.laws.laws import scaled_law
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
-from gelenk.trajectory.problem.parts import Halt, PlannedPart, in_field, standing
+from gelenk.trajectory.problem.parts import PlannedPart, in_field, standing
 from gelenk.trajectory.problem.problem import Segment, SegmentReport, TrajectoryProblem
-from gelenk.trajectory.problem.result import TimingComparison
+from gelenk.trajectory.problem.result import PlanningFailure, TimingComparison
 
 _REASONS: dict[Status, StopReason] = {
     "unreachable": "out_of_reach",
@@ -59,8 +59,8 @@ def joint_part(
     target = segment.configuration
     if segment.configurations is None and target is None:
         found = _solved(robot, chain, start, segment, index, problem)
-        if isinstance(found, Halt):
-            return PlannedPart(standing(start), (), Demands(), found)
+        if isinstance(found, PlanningFailure):
+            return PlannedPart(standing(start), (), Demands(), found, 0.0)
         target = found
     with in_field(f"segments.{index}"):
         return _planned(chain, start, target, segment, index, problem)
@@ -70,7 +70,8 @@ def _planned(
     chain: Chain, start: Array, target: Array | None, segment: Segment, index: int, problem: TrajectoryProblem
 ) -> PlannedPart:
     """Plan a segment to a configuration, or without one through its waypoints."""
-    halt: Halt | None = None
+    failure: PlanningFailure | None = None
+    share = 1.0
     notes: tuple[str, ...] = ()
     if target is not None:
         check_within(chain, target[None], "target")
@@ -79,17 +80,17 @@ def _planned(
         motion, note = _beside(chain, start, segment)
         notes = (note,)
     else:
-        motion, halt = _through(chain, start, segment, index)
+        motion, failure, share = _through(chain, start, segment, index)
     motion = _within_tip_limits(chain, motion, segment)
     timing = _comparison(chain, start, target, segment, index) if problem.compares_timing else None
     end = motion.at(motion.breaks[-1:])[0] if target is None else target
     report = SegmentReport(index, segment.type, segment.law, 0.0, motion.duration, notes=notes)
-    return PlannedPart(motion, (report,), _demands(segment, start, end, problem.following.task), halt, timing)
+    return PlannedPart(motion, (report,), _demands(segment, start, end, problem.following.task), failure, share, timing)
 
 
 def _solved(
     robot: RobotModel, chain: Chain, start: Array, segment: Segment, index: int, problem: TrajectoryProblem
-) -> Array | Halt:
+) -> Array | PlanningFailure:
     """Return the target's configuration nearest to the start (for a redundant arm, the one that iteration finds)."""
     following = problem.following
     T = cast(Array, segment.pose)
@@ -102,27 +103,31 @@ def _solved(
         return cast(Array, answer.qs[0])
     failure = answer.failures[0]
     blocking = failure.blocking_joints
-    position = chain_poses(chain.flat, start[None])[0][0]
-    return Halt(
-        _REASONS[answer.statuses[0]], index, 0.0, position, blocking[0].name if blocking else None, failure.reason
-    )
+    reason, joint = _REASONS[answer.statuses[0]], blocking[0].name if blocking else None
+    return PlanningFailure(reason, index, 0.0, _position(chain, start), joint, failure.reason)
 
 
-def _through(chain: Chain, start: Array, segment: Segment, index: int) -> tuple[PiecewisePolynomial, Halt | None]:
-    """Plan through all waypoints, or to the last one before which no joint leaves its limits."""
+def _position(chain: Chain, configuration: Array) -> tuple[float, ...]:
+    return tuple(chain_poses(chain.flat, configuration[None])[0][0].tolist())
+
+
+def _through(
+    chain: Chain, start: Array, segment: Segment, index: int
+) -> tuple[PiecewisePolynomial, PlanningFailure | None, float]:
+    """Plan through all waypoints, or the share of them before which no joint leaves its limits."""
     spline = JointSpline.of(start, segment, chain)
     motion, excess = spline.motion(), first_limit_excess(chain, spline.path)
     if excess is None:
-        return motion, None
+        return motion, None, 1.0
     count = len(cast(Array, segment.configurations))
-    part = spline.prefix(chain, excess)
+    motion, done = spline.prefix(chain, excess)
     joint = chain.joint_names[excess.joint]
     detail = (
         f"between its waypoints the spline takes {joint} to {excess.value:.6g}, beyond its limit {excess.bound:.6g}; "
-        f"the first {part.waypoints} of {count} waypoints can be done: put more of them where it swings out"
+        f"the first {done} of {count} waypoints can be done: put more of them where it swings out"
     )
-    position = chain_poses(chain.flat, spline.path.at(np.array([excess.time])))[0][0]
-    return part.motion, Halt("joint_limit", index, part.waypoints / count, position, joint, detail)
+    position = _position(chain, spline.path.at(np.array([excess.time]))[0])
+    return motion, PlanningFailure("joint_limit", index, 0.0, position, joint, detail), done / count
 
 
 def _beside(chain: Chain, start: Array, segment: Segment) -> tuple[PiecewisePolynomial, str]:
@@ -175,13 +180,13 @@ def _comparison(
 
 
 def _demands(segment: Segment, start: Array, end: Array, task: Task) -> Demands:
-    promise = promised(segment)
+    continuous, keeps_jerk = promised(segment)
     return Demands(
         JointLimits(*segment.limits.joints),
         segment.limits.tip,
         (start, end),
         task=task,
-        continuous=promise.continuous,
-        keeps_jerk=promise.has_bounded_jerk,
+        continuous=continuous,
+        keeps_jerk=keeps_jerk,
         stated_jerk=segment.stated_jerk,
     )

@@ -5,6 +5,7 @@ why it ends. A motion that fails its audit is never returned.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,9 +20,8 @@ from gelenk.trajectory.joint_part import joint_part
 from gelenk.trajectory.motion.extremes import peaks
 from gelenk.trajectory.motion.polynomial import joined
 from gelenk.trajectory.paths.segment_paths import is_blended
-from gelenk.trajectory.problem.parts import Halt, PlannedPart, standing
+from gelenk.trajectory.problem.parts import PlannedPart, standing
 from gelenk.trajectory.problem.problem import Segment, Trajectory, TrajectoryProblem
-from gelenk.trajectory.problem.result import PlanningFailure
 from gelenk.trajectory.tip_part import tip_part
 
 _SAME_DURATION = 1e-9
@@ -50,9 +50,8 @@ def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Traject
         AuditFailed: The motion fails its audit.
     """
     check_limits(chain, problem.start[None])
-    parts, halt = _parts(robot, chain, problem)
-    parts = [_with_stated_jerk(part, problem) for part in parts]
-    factor = _factor(parts, problem, halt)
+    parts = [_with_stated_jerk(part, problem) for part in _parts(robot, chain, problem)]
+    factor, share, failure = _factor(parts, problem), parts[-1].share, parts[-1].failure
     parts, audits = _judged(robot, chain, [part.slowed(factor) for part in parts])
     starts = np.concatenate(([0.0], np.cumsum([part.motion.duration for part in parts])))
     moving = [
@@ -64,22 +63,22 @@ def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Traject
     else:  # An audit needs pieces that take time.
         judgement = audit(robot, chain, standing(problem.start, _MOMENT), Demands())
     refuse_failed(judgement)
-    failure = None
-    if halt is not None:
-        position = tuple(halt.position.tolist())
-        failure = PlanningFailure(halt.reason, halt.segment, motion.duration, position, halt.joint, halt.detail)
     return Trajectory(
         motion,
-        tuple(report for part, start in zip(parts, starts[:-1], strict=True) for report in part.moved(float(start))),
-        1.0 if halt is None else (halt.segment + halt.share) / len(problem.segments),
-        failure,
+        tuple(
+            report.retimed(start=float(start))
+            for part, start in zip(parts, starts[:-1], strict=True)
+            for report in part.reports
+        ),
+        1.0 if failure is None else (failure.segment + share) / len(problem.segments),
+        None if failure is None else replace(failure, time=motion.duration),
         judgement,
         tuple(part.timing for part in parts if part.timing is not None),
     )
 
 
-def _parts(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> tuple[list[PlannedPart], Halt | None]:
-    """Plan the parts that can be completed, each from rest to rest; also return why the others cannot."""
+def _parts(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> list[PlannedPart]:
+    """Plan the parts, each from rest to rest, up to the first one that cannot be completed."""
     parts: list[PlannedPart] = []
     configuration = problem.start
     for first, segments in _grouped(problem.segments):
@@ -88,10 +87,10 @@ def _parts(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> tuple
         else:
             part = tip_part(robot, chain, configuration, segments, first, problem)
         parts.append(part)
-        if part.halt is not None:
-            return parts, part.halt
+        if part.failure is not None:
+            break
         configuration = part.motion.at(part.motion.breaks[-1:])[0]
-    return parts, None
+    return parts
 
 
 def _grouped(segments: tuple[Segment, ...]) -> Iterator[tuple[int, tuple[Segment, ...]]]:
@@ -123,7 +122,7 @@ def _refuse_unblendable(segments: tuple[Segment, ...], i: int) -> None:
             raise InvalidField(f"segments.{k}.duration", reason)
 
 
-def _factor(parts: list[PlannedPart], problem: TrajectoryProblem, halt: Halt | None) -> float:
+def _factor(parts: list[PlannedPart], problem: TrajectoryProblem) -> float:
     """Return the factor by which the whole motion is slowed down to last as long as requested.
 
     Raises:
@@ -136,7 +135,7 @@ def _factor(parts: list[PlannedPart], problem: TrajectoryProblem, halt: Halt | N
             field = "duration" if segment.duration is not None else "times"
             raise InvalidField(f"segments.{i}.{field}", "the trajectory has a `duration` already: give one of them")
     least = sum(part.motion.duration for part in parts)
-    if halt is not None or least == 0.0:
+    if parts[-1].failure is not None or least == 0.0:
         return 1.0
     if problem.duration < least * (1.0 - _SAME_DURATION):
         raise InvalidField("duration", f"the limits allow no less than {least:.6g} s")

@@ -23,11 +23,10 @@ from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.paths.path_geometry import LimitedPath, geometry_of, tip_through
 from gelenk.trajectory.paths.segment_paths import SegmentsPath, path_through
 from gelenk.trajectory.paths.spline_paths import PolynomialPath
-from gelenk.trajectory.problem.parts import Halt, PlannedPart, in_field, standing
+from gelenk.trajectory.problem.parts import PlannedPart, in_field, standing
 from gelenk.trajectory.problem.problem import Following, Segment, SegmentLimits, SegmentReport, TrajectoryProblem
-from gelenk.trajectory.problem.result import Damping, SegmentBlend, TimingComparison
-from gelenk.trajectory.timing.passing_times import passing_at
-from gelenk.trajectory.timing.timing import Timed, compared, timed
+from gelenk.trajectory.problem.result import Damping, PlanningFailure, SegmentBlend, TimingComparison
+from gelenk.trajectory.timing.timing import Timed, compared, passing_at, timed
 
 _EARLY = 1e-6
 """Fraction of a path by which a motion may end before its obstacle without a remark."""
@@ -57,10 +56,10 @@ def tip_part(
     joints = follow(robot, chain, path.path, start, problem.following)
     part = _TipPart(chain, problem.following, segments, first, path, joints)
     if joints.reached <= 0.0:
-        return PlannedPart(standing(start), (), Demands(), part.halt())
+        return PlannedPart(standing(start), (), Demands(), *part.failure())
     timing = part.timed()
     comparison = part.comparison() if problem.compares_timing else None
-    return PlannedPart(timing.motion, part.reports(timing), part.demands(timing), part.halt(), comparison)
+    return PlannedPart(timing.motion, part.reports(timing), part.demands(timing), *part.failure(), comparison)
 
 
 @dataclass(frozen=True)
@@ -147,11 +146,11 @@ class _TipPart:
             path_error(joints.positions, joints.bend_errors, timing, limits),
         )
 
-    def halt(self) -> Halt | None:
-        """Return where and why the path could not continue; None if it is complete."""
+    def failure(self) -> tuple[PlanningFailure | None, float]:
+        """Return why the path could not continue, if it is incomplete, and the completed share of the last segment."""
         stop, reached, extent = self.joints.stop, self.joints.reached, self.path.path.extent
         if stop is None:
-            return None
+            return None, 1.0
         ends = np.array([0.0, *self.path.ends])
         i = int(np.clip(np.searchsorted(ends, reached, side="right") - 1, 0, len(ends) - 2))
         width = ends[i + 1] - ends[i]
@@ -162,7 +161,9 @@ class _TipPart:
                 f"; the motion ends before, at {100.0 * reached / extent:.4f}% of the path, where the smallest "
                 f"singular value falls to {self.following.min_singular_value:g}"
             )
-        return Halt(stop.reason, self.first + i, share, stop.position, stop.joint, detail)
+        return PlanningFailure(
+            stop.reason, self.first + i, 0.0, tuple(stop.position.tolist()), stop.joint, detail
+        ), share
 
     def reports(self, timing: Timed) -> tuple[SegmentReport, ...]:
         """Return reports of the segments that were started."""

@@ -8,8 +8,9 @@ import math
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from gelenk.course.steps import Step, tex, tex_factor
+from gelenk.course.steps import Step, step, tex, tex_factor
 from gelenk.errors import CertificationFailed
+from gelenk.robot.result import Result
 
 Regime: TypeAlias = Literal["motoring", "standstill", "assisted", "generating", "driven_backwards", "braking"]
 Damping: TypeAlias = Literal["first_order", "overdamped", "critically_damped", "underdamped"]
@@ -61,20 +62,23 @@ class Motor:
 
 
 @dataclass(frozen=True, slots=True)
-class OperatingPoint:
-    """A steady state.
+class OperatingPoint(Result):
+    """The motor's steady state.
 
     Attributes:
         angular_velocity: ω, [rad/s].
         current: i, [A].
-        torque: k_t i, [N m].
-        electrical_power: V i, [W].
-        shaft_power: τ_L ω, delivered to the load, [W].
+        torque: k_t i, friction included, [N m].
+        electrical_power: V i, [W]: negative where it flows to the supply.
+        shaft_power: τ_L ω, power delivered to the load, [W]: negative where the load drives.
         copper_loss: R i², [W].
         friction_loss: b ω², [W].
-        efficiency: Output over input power when motoring or generating, else None; also None if k_t and k_e differ,
-            because the powers do not add up then.
-        regime: Direction of power flow.
+        efficiency: Shaft over electrical power where the motor drives, electrical over shaft power where it is a
+            generator, in [0, 1]; null where neither is useful, and where `back_emf_constant` is not `torque_constant`:
+            the powers do not add up then.
+        regime: `motoring`; `standstill`; `assisted`: the load helps; `generating`: the load is faster than the motor
+            without load, and power flows to the supply; `driven_backwards`: the load is beyond the stall torque;
+            `braking`: no voltage, the terminals shorted.
     """
 
     angular_velocity: float
@@ -115,24 +119,11 @@ def operating_point(motor: Motor, voltage: float, load_torque: float) -> Operati
     )
 
 
-@dataclass(frozen=True, slots=True)
-class SteadyStateResiduals:
-    """Residuals of the two motor equations at a steady state.
-
-    Attributes:
-        voltage: V - R i - k_e ω, [V].
-        torque: k_t i - b ω - τ_L, [N m].
-    """
-
-    voltage: float
-    torque: float
-
-
-def balance(motor: Motor, voltage: float, load_torque: float, point: OperatingPoint) -> SteadyStateResiduals:
-    """Insert a steady state into the motor equations and return the residuals.
+def balance(motor: Motor, voltage: float, load_torque: float, point: OperatingPoint) -> tuple[float, float]:
+    """Return V - R i - k_e ω, [V], and k_t i - b ω - τ_L, [N m], at a steady state.
 
     Raises:
-        CertificationFailed: A residual exceeds rounding.
+        CertificationFailed: One of them exceeds rounding.
     """
     volts = (voltage, -motor.resistance * point.current, -motor.back_emf_constant * point.angular_velocity)
     torques = (motor.torque_constant * point.current, -motor.viscous_friction * point.angular_velocity, -load_torque)
@@ -140,7 +131,7 @@ def balance(motor: Motor, voltage: float, load_torque: float, point: OperatingPo
         size = max(sum(map(abs, terms)), _NEXT_TO_NOTHING)
         if abs(sum(terms)) > _BALANCE * size:
             raise CertificationFailed(name, abs(sum(terms)) / size, _BALANCE)
-    return SteadyStateResiduals(sum(volts), sum(torques))
+    return sum(volts), sum(torques)
 
 
 def _regime(voltage: float, omega: float, electrical: float, shaft: float) -> Regime:
@@ -168,16 +159,16 @@ def _efficiency(regime: Regime, electrical: float, shaft: float) -> float | None
 
 
 @dataclass(frozen=True, slots=True)
-class TorqueSpeedLine:
-    """The ends and slope of the line τ_L(ω) at a voltage, and its largest shaft power.
+class TorqueSpeedLine(Result):
+    """The torque-speed line at this voltage.
 
     Attributes:
         no_load_angular_velocity: ω₀ = k_t V / (R b + k_t k_e), [rad/s].
-        no_load_current: b ω₀ / k_t, [A].
+        no_load_current: Current that friction alone needs, [A].
         stall_torque: k_t V / R, [N m].
         stall_current: V / R, [A].
-        slope: dω/dτ_L = -R / (R b + k_t k_e), [rad/s per N m].
-        most_power: Largest shaft power, at half the stall torque, [W].
+        slope: dω/dτ_L, [rad/s per N m].
+        most_power: Largest shaft power, reached at half the stall torque, [W].
     """
 
     no_load_angular_velocity: float
@@ -248,72 +239,60 @@ def rates(motor: Motor) -> tuple[float, float, float]:
 
 def motor_warnings(motor: Motor, voltage: float, load_torque: float, point: OperatingPoint) -> tuple[str, ...]:
     """Return warnings about the constants and the operating point, one sentence each."""
-    found = []
-    if not _constants_are_one(motor):
-        found.append(
-            "torque_constant and back_emf_constant differ: in SI, [N m/A] and [V s/rad], they are the same number; "
-            "with two of them the powers do not add up, so that there is no efficiency. Was one given per 1000 rpm, or "
-            "in another unit?"
-        )
-    if point.regime == "driven_backwards":
-        stall = motor.torque_constant * voltage / motor.resistance
-        found.append(
-            f"the load torque of {load_torque:g} N m is beyond the stall torque of {stall:g} N m: the load drives the "
-            "motor backwards, against its voltage, and both turn into heat"
-        )
+    stall = motor.torque_constant * voltage / motor.resistance
     texts = {
+        "driven_backwards": f"the load torque of {load_torque:g} N m is beyond the stall torque of {stall:g} N m: the "
+        "load drives the motor backwards, against its voltage, and both turn into heat",
         "generating": "the load drives the motor faster than it would turn without load: current flows to the supply",
         "assisted": "the load helps to turn the motor; load and supply share the losses",
         "braking": "without voltage the terminals are shorted: the motor brakes the load",
     }
-    if point.regime in texts:
-        found.append(texts[point.regime])
-    return tuple(found)
+    constants = (
+        "torque_constant and back_emf_constant differ: in SI, [N m/A] and [V s/rad], they are the same number; "
+        "with two of them the powers do not add up, so that there is no efficiency. Was one given per 1000 rpm, or "
+        "in another unit?"
+    )
+    of_regime = (texts[point.regime],) if point.regime in texts else ()
+    return of_regime if _constants_are_one(motor) else (constants, *of_regime)
 
 
 def motor_steps(motor: Motor, voltage: float, load_torque: float, point: OperatingPoint) -> tuple[Step, ...]:
     """Return the worked solution of the steady state, the ends of the line and the time constants."""
-    line, found = torque_speed_line(motor, voltage), modes(motor)
-    R, b, k_t, k_e = (
-        tex(value)
-        for value in (motor.resistance, motor.viscous_friction, motor.torque_constant, motor.back_emf_constant)
+    line = torque_speed_line(motor, voltage)
+    R, b, k_t, k_e = map(
+        tex, (motor.resistance, motor.viscous_friction, motor.torque_constant, motor.back_emf_constant)
     )
     V, load = tex_factor(voltage), tex_factor(load_torque)
     omega = rf"\omega = \frac{{k_t V - R\,\tau_L}}{{R\,b + k_t k_e}} = \frac{{{k_t} \cdot {V} - {R} \cdot {load}}}"
-    divided = rf"{{{R} \cdot {b} + {k_t} \cdot {k_e}}} = {tex(point.angular_velocity)}\,\mathrm{{rad/s}}"
-    free = tex(line.no_load_angular_velocity)
-    poles = ", ".join(_tex_pole(pole) for pole in found.poles)
+    divided = rf"{{{R} \cdot {b} + {k_t} \cdot {k_e}}} = {tex(point.angular_velocity, 'rad/s')}"
+    free, stall = tex(line.no_load_angular_velocity, "rad/s"), tex(line.stall_torque, "N m")
+    poles = ", ".join(map(_tex_pole, modes(motor).poles))
     return (
-        Step(
+        step(
             "Two equations",
             "The voltage drives a current against resistance and back-EMF, its torque turns the inertia.",
-            (r"v = R\,i + L\,\dot{i} + k_e\,\omega", r"J\,\dot{\omega} + b\,\omega = k_t\,i - \tau_L"),
+            r"v = R\,i + L\,\dot{i} + k_e\,\omega",
+            r"J\,\dot{\omega} + b\,\omega = k_t\,i - \tau_L",
         ),
-        Step(
+        step(
             "Steady state",
             "Nothing changes any more: both derivatives are zero.",
-            (
-                omega + divided,
-                rf"i = \frac{{V - k_e\,\omega}}{{R}} = {tex(point.current)}\,\mathrm{{A}}",
-            ),
+            omega + divided,
+            rf"i = \frac{{V - k_e\,\omega}}{{R}} = {tex(point.current, 'A')}",
         ),
-        Step(
+        step(
             "Without load, and held",
             "The two ends of the torque-speed line.",
-            (
-                rf"\omega_0 = \frac{{k_t V}}{{R\,b + k_t k_e}} = {free}\,\mathrm{{rad/s}}",
-                rf"\tau_s = \frac{{k_t V}}{{R}} = {tex(line.stall_torque)}\,\mathrm{{N\,m}}",
-                rf"i_s = \frac{{V}}{{R}} = {tex(line.stall_current)}\,\mathrm{{A}}",
-            ),
+            rf"\omega_0 = \frac{{k_t V}}{{R\,b + k_t k_e}} = {free}",
+            rf"\tau_s = \frac{{k_t V}}{{R}} = {stall}",
+            rf"i_s = \frac{{V}}{{R}} = {tex(line.stall_current, 'A')}",
         ),
-        Step(
+        step(
             "Time constants",
             "The poles are exact; the two time constants are what is left of them when the other one is far away.",
-            (
-                rf"\lambda = {poles}\;\mathrm{{s^{{-1}}}}",
-                rf"\tau_m \approx \frac{{J R}}{{R\,b + k_t k_e}} = {tex(motor.mechanical_time_constant)}\,\mathrm{{s}}",
-                rf"\tau_e = \frac{{L}}{{R}} = {tex(motor.electrical_time_constant)}\,\mathrm{{s}}",
-            ),
+            rf"\lambda = {poles}\;\mathrm{{s^{{-1}}}}",
+            rf"\tau_m \approx \frac{{J R}}{{R\,b + k_t k_e}} = {tex(motor.mechanical_time_constant, 's')}",
+            rf"\tau_e = \frac{{L}}{{R}} = {tex(motor.electrical_time_constant, 's')}",
         ),
     )
 

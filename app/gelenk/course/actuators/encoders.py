@@ -9,7 +9,8 @@ import math
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from gelenk.course.steps import Step, tex
+from gelenk.course.steps import Step, step, tex
+from gelenk.robot.result import Result
 
 Decoding: TypeAlias = Literal["x1", "x2", "x4"]
 
@@ -20,92 +21,113 @@ _ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
-class Scale:
-    """Resolution of an encoder with a given number of counts per motor turn.
+class EncoderResolution(Result):
+    """Size of one count.
 
     Attributes:
-        counts_per_revolution: Counts per turn of the motor.
-        gear_ratio: N = ω_motor / ω_load > 0.
+        counts_per_revolution: Of the motor, no unit.
+        motor: Angle of a count at the motor, [rad].
+        load: Angle of a count at the load, [rad].
+        motor_velocity_quantum: 2π / (counts · T_s): one count more in a sample period, at the motor, [rad/s]; null
+            without T_s.
+        load_velocity_quantum: The same at the load, [rad/s].
+        count_rate: Counts per second at the given speed, [1/s]; null without one.
     """
 
     counts_per_revolution: int
-    gear_ratio: float
+    motor: float
+    load: float
+    motor_velocity_quantum: float | None
+    load_velocity_quantum: float | None
+    count_rate: float | None
 
-    @property
-    def motor_resolution(self) -> float:
-        """Motor angle per count, 2π over the counts, [rad]."""
-        return TURN / self.counts_per_revolution
 
-    @property
-    def load_resolution(self) -> float:
-        """Load angle per count, [rad]."""
-        return self.motor_resolution / self.gear_ratio
+def resolution(
+    counts: int, gear_ratio: float, sample_period: float | None = None, motor_velocity: float | None = None
+) -> EncoderResolution:
+    """Compute the resolution of an encoder.
 
-    def velocity_quantum(self, sample_period: float) -> float:
-        """Return 2π / (counts · T_s), the motor speed [rad/s] of one count per sample period T_s [s]."""
-        return self.motor_resolution / sample_period
+    Args:
+        counts: Counts per turn of the motor.
+        gear_ratio: N = ω_motor / ω_load > 0.
+        sample_period: T_s, [s].
+        motor_velocity: Speed of the motor, [rad/s].
+    """
+    motor = TURN / counts
+    quantum = None if sample_period is None else motor / sample_period
+    return EncoderResolution(
+        counts,
+        motor,
+        motor / gear_ratio,
+        quantum,
+        None if quantum is None else quantum / gear_ratio,
+        _count_rate(counts, motor_velocity),
+    )
 
-    def count_rate(self, angular_velocity: float) -> float:
-        """Return the counts per second at a speed of the motor, [rad/s]."""
-        return self.counts_per_revolution * abs(angular_velocity) / TURN
+
+def _count_rate(counts: int, motor_velocity: float | None) -> float | None:
+    return None if motor_velocity is None else counts * abs(motor_velocity) / TURN
 
 
 @dataclass(frozen=True, slots=True)
-class Required:
-    """The coarsest encoder that resolves an angle at the load.
+class RequiredEncoder(Result):
+    """The coarsest encoder with the wanted resolution.
 
     Attributes:
-        motor_resolution: That angle at the motor, [rad].
-        counts_per_revolution: Counts per turn of the motor, rounded up.
-        bits: Bits of an absolute encoder.
-        pulses_per_revolution: Lines of an incremental encoder.
+        motor_resolution: The wanted resolution at the motor, [rad].
+        counts_per_revolution: Of the motor, no unit.
+        bits: Of an absolute encoder, no unit.
+        pulses_per_revolution: Lines of an incremental one with this decoding, no unit.
+        count_rate: With exactly these counts, at the given speed, [1/s]; null without one.
     """
 
     motor_resolution: float
     counts_per_revolution: int
     bits: int
     pulses_per_revolution: int
+    count_rate: float | None
 
 
-def required(resolution: float, gear_ratio: float, decoding: Decoding) -> Required:
+def required(
+    load_resolution: float, gear_ratio: float, decoding: Decoding, motor_velocity: float | None = None
+) -> RequiredEncoder:
     """Compute the encoder needed for a resolution at the load, [rad].
 
     A quotient within rounding of a whole number counts as that number: 0.01° needs 36000 counts, not 36001.
     """
-    exact = TURN / (resolution * gear_ratio)
-    counts = max(1, math.ceil(exact * (1.0 - _ROUNDING)))
-    return Required(
-        resolution * gear_ratio, counts, max(1, (counts - 1).bit_length()), -(-counts // COUNTS_A_LINE[decoding])
+    motor = load_resolution * gear_ratio
+    counts = max(1, math.ceil(TURN / motor * (1.0 - _ROUNDING)))
+    bits, lines = max(1, (counts - 1).bit_length()), -(-counts // COUNTS_A_LINE[decoding])
+    return RequiredEncoder(motor, counts, bits, lines, _count_rate(counts, motor_velocity))
+
+
+def resolution_steps(counts: int, gear_ratio: float, how: str, sample_period: float | None = None) -> tuple[Step, ...]:
+    """Return the worked resolution, with the velocity of a count if T_s is given; `how` is the formula for counts."""
+    degrees = 360.0 / counts
+    at_load = rf"{tex(degrees)}^\circ / {tex(gear_ratio)} = {tex(degrees / gear_ratio)}^\circ"
+    angle = step(
+        "Resolution",
+        "A turn divided by its counts; behind a gear the load turns less for each.",
+        rf"n = {how} = {counts}",
+        rf"\Delta\varphi_m = \frac{{360^\circ}}{{n}} = {tex(degrees)}^\circ",
+        rf"\Delta\varphi_L = \frac{{\Delta\varphi_m}}{{N}} = {at_load}",
     )
+    if sample_period is None:
+        return (angle,)
+    quotient = rf"\frac{{2\pi}}{{{counts} \cdot {tex(sample_period)}}} = {tex(TURN / counts / sample_period, 'rad/s')}"
+    text = "Speed as counts in a sample period is a multiple of one count in one period."
+    velocity = step("Velocity quantum", text, rf"\Delta\omega = \frac{{2\pi}}{{n\,T_s}} = {quotient}")
+    return angle, velocity
 
 
-def scale_steps(scale: Scale, how: str) -> tuple[Step, ...]:
-    """Return the worked resolution; `how` is the formula for the counts per turn."""
-    degrees = 360.0 / scale.counts_per_revolution
-    at_load = rf"{tex(degrees)}^\circ / {tex(scale.gear_ratio)} = {tex(degrees / scale.gear_ratio)}^\circ"
-    return (
-        Step(
-            "Resolution",
-            "A turn divided by its counts; behind a gear the load turns less for each.",
-            (
-                rf"n = {how} = {scale.counts_per_revolution}",
-                rf"\Delta\varphi_m = \frac{{360^\circ}}{{n}} = {tex(degrees)}^\circ",
-                rf"\Delta\varphi_L = \frac{{\Delta\varphi_m}}{{N}} = {at_load}",
-            ),
-        ),
-    )
-
-
-def required_step(found: Required, decoding: Decoding) -> Step:
+def required_step(found: RequiredEncoder, decoding: Decoding) -> Step:
     """Return the worked solution for the coarsest encoder."""
     n, lines = found.counts_per_revolution, COUNTS_A_LINE[decoding]
-    return Step(
+    return step(
         "Encoder needed",
         "The resolution wanted at the load is N times as coarse at the motor; counts, bits and lines are rounded up.",
-        (
-            rf"\Delta\varphi_m = N\,\Delta\varphi_L = {tex(math.degrees(found.motor_resolution))}^\circ",
-            rf"n = \left\lceil \frac{{360^\circ}}{{\Delta\varphi_m}} \right\rceil = {n}",
-            rf"\lceil \log_2 {n} \rceil = {found.bits}\ \mathrm{{bit}}",
-            rf"\lceil {n} / {lines} \rceil = {found.pulses_per_revolution}\ \mathrm{{lines}}",
-        ),
+        rf"\Delta\varphi_m = N\,\Delta\varphi_L = {tex(math.degrees(found.motor_resolution))}^\circ",
+        rf"n = \left\lceil \frac{{360^\circ}}{{\Delta\varphi_m}} \right\rceil = {n}",
+        rf"\lceil \log_2 {n} \rceil = {found.bits}\ \mathrm{{bit}}",
+        rf"\lceil {n} / {lines} \rceil = {found.pulses_per_revolution}\ \mathrm{{lines}}",
     )

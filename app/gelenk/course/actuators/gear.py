@@ -9,7 +9,8 @@ import math
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from gelenk.course.steps import Step, tex, tex_factor
+from gelenk.course.steps import Step, step, tex, tex_factor
+from gelenk.robot.result import Result
 
 PowerFlow: TypeAlias = Literal["motor_to_load", "load_to_motor", "none"]
 
@@ -38,19 +39,18 @@ class Gear:
 
 
 @dataclass(frozen=True, slots=True)
-class Sides:
-    """Speed, [rad/s], torque, [N m], and power, [W], at the motor and at the load; None if unknown.
+class GearSide(Result):
+    """One side of the gear; null where not given.
 
-    Torques are those of the motor on the gear and of the gear on the load.
+    Attributes:
+        angular_velocity: ω, [rad/s].
+        torque: τ, from the motor towards the load, [N m].
+        power: τ ω, [W]: negative where it flows from the load to the motor.
     """
 
-    motor_velocity: float | None
-    load_velocity: float | None
-    motor_torque: float | None
-    load_torque: float | None
-    motor_power: float | None
-    load_power: float | None
-    power_flow: PowerFlow
+    angular_velocity: float | None
+    torque: float | None
+    power: float | None
 
 
 def sides(
@@ -59,8 +59,8 @@ def sides(
     load_velocity: float | None,
     motor_torque: float | None,
     load_torque: float | None,
-) -> Sides:
-    """Compute both sides from one speed and one torque, each given at the motor or at the load, or omitted.
+) -> tuple[GearSide, GearSide, PowerFlow]:
+    """Compute motor, load and the driving side from one speed and one torque, each given at either side, or omitted.
 
     The load torque is None where the motor brakes a self-locking gear, which holds any load.
     """
@@ -68,8 +68,7 @@ def sides(
         motor_velocity = gear.ratio * load_velocity
     elif motor_velocity is not None:
         load_velocity = motor_velocity / gear.ratio
-    given = motor_torque if motor_torque is not None else load_torque
-    flow = _power_flow(motor_velocity, given)
+    flow = _power_flow(motor_velocity, motor_torque if motor_torque is not None else load_torque)
     factor = gear.ratio * gear.efficiency
     if flow == "load_to_motor":
         back = gear.back_driving_efficiency
@@ -81,15 +80,7 @@ def sides(
         load_torque = factor * motor_torque
     elif load_torque is not None:
         motor_torque = load_torque / factor
-    return Sides(
-        motor_velocity,
-        load_velocity,
-        motor_torque,
-        load_torque,
-        _product(motor_velocity, motor_torque),
-        _product(load_velocity, load_torque),
-        flow,
-    )
+    return _side(motor_velocity, motor_torque), _side(load_velocity, load_torque), flow
 
 
 def _power_flow(velocity: float | None, torque: float | None) -> PowerFlow:
@@ -99,21 +90,21 @@ def _power_flow(velocity: float | None, torque: float | None) -> PowerFlow:
     return "load_to_motor" if velocity and (velocity < 0.0) != (torque < 0.0) else "motor_to_load"
 
 
-def _product(velocity: float | None, torque: float | None) -> float | None:
-    return None if velocity is None or torque is None else velocity * torque
+def _side(velocity: float | None, torque: float | None) -> GearSide:
+    return GearSide(velocity, torque, None if velocity is None or torque is None else velocity * torque)
 
 
 @dataclass(frozen=True, slots=True)
-class Inertias:
-    """Rotor and load as one inertia on either side, [kg m²].
+class ReflectedInertias(Result):
+    """Rotor and load as one inertia.
 
     Attributes:
-        at_motor: J_m + J_L / N².
-        at_load: N² J_m + J_L.
-        reflected_load: J_L / N², the load alone seen from the motor.
-        reflected_motor: N² J_m, the rotor alone seen from the load.
-        optimal_ratio: √(J_L / J_m), with which a given motor torque accelerates the load most.
-        acceleration_share: Acceleration relative to that with the optimal ratio, at equal torque without losses.
+        at_motor: J_m + J_L / N², [kg m²].
+        at_load: N² J_m + J_L, [kg m²].
+        reflected_load: J_L / N², [kg m²].
+        reflected_motor: N² J_m, [kg m²].
+        optimal_ratio: N* = √(J_L / J_m), with which a given motor torque accelerates the load most; no unit.
+        acceleration_share: Acceleration with this ratio over that with N*, same torque, no losses; in [0, 1].
     """
 
     at_motor: float
@@ -124,7 +115,7 @@ class Inertias:
     acceleration_share: float
 
 
-def inertias(ratio: float, motor_inertia: float, load_inertia: float) -> Inertias:
+def inertias(ratio: float, motor_inertia: float, load_inertia: float) -> ReflectedInertias:
     """Compute the inertias of rotor and load, [kg m²], across a ratio.
 
     The load's acceleration N τ / (N² J_m + J_L) is largest at N* = √(J_L / J_m), where both contribute equally.
@@ -132,7 +123,7 @@ def inertias(ratio: float, motor_inertia: float, load_inertia: float) -> Inertia
     load, motor = load_inertia / ratio**2, motor_inertia * ratio**2
     optimal = math.sqrt(load_inertia / motor_inertia)
     share = 2.0 / (ratio / optimal + optimal / ratio)
-    return Inertias(motor_inertia + load, motor + load_inertia, load, motor, optimal, share)
+    return ReflectedInertias(motor_inertia + load, motor + load_inertia, load, motor, optimal, share)
 
 
 def back_driving_note(gear: Gear) -> str:
@@ -150,41 +141,36 @@ def back_driving_note(gear: Gear) -> str:
     )
 
 
-def gear_steps(gear: Gear, found: Sides, inertia: Inertias | None) -> tuple[Step, ...]:
+def gear_steps(
+    gear: Gear, motor: GearSide, load: GearSide, flow: PowerFlow, inertia: ReflectedInertias | None
+) -> tuple[Step, ...]:
     """Return the worked solution of speeds, torques and inertias."""
     N, eta = tex(gear.ratio), tex(gear.efficiency)
     steps = []
-    if found.motor_velocity is not None and found.load_velocity is not None:
-        formula = (
-            rf"\omega_L = \frac{{\omega_m}}{{N}} = \frac{{{tex(found.motor_velocity)}}}{{{N}}} = "
-            rf"{tex(found.load_velocity)}\,\mathrm{{rad/s}}"
-        )
-        steps.append(Step("Speeds", "The gear divides the speed by its ratio.", (formula,)))
-    if found.motor_torque is not None and found.load_torque is not None:
+    if motor.angular_velocity is not None and load.angular_velocity is not None:
+        divided = rf"\frac{{{tex(motor.angular_velocity)}}}{{{N}}} = {tex(load.angular_velocity, 'rad/s')}"
+        text = "The gear divides the speed by its ratio."
+        steps.append(step("Speeds", text, rf"\omega_L = \frac{{\omega_m}}{{N}} = {divided}"))
+    if motor.torque is not None and load.torque is not None:
         symbol, value = r"\eta", eta
         text = "The gear multiplies the torque by its ratio, less what friction takes."
-        if found.power_flow == "load_to_motor":
+        if flow == "load_to_motor":
             symbol, value = r"\left(2 - \tfrac{1}{\eta}\right)^{-1}", f"({tex(gear.back_driving_efficiency)})^{{-1}}"
             text = "The load drives: now friction helps the motor to hold it."
-        formula = (
-            rf"\tau_L = {symbol}\,N\,\tau_m = {value} \cdot {N} \cdot {tex_factor(found.motor_torque)} = "
-            rf"{tex(found.load_torque)}\,\mathrm{{N\,m}}"
-        )
-        steps.append(Step("Torques", text, (formula,)))
+        product = rf"{value} \cdot {N} \cdot {tex_factor(motor.torque)}"
+        steps.append(step("Torques", text, rf"\tau_L = {symbol}\,N\,\tau_m = {product} = {tex(load.torque, 'N m')}"))
     if inertia is not None:
         steps.append(_inertia_step(inertia))
     return tuple(steps)
 
 
-def _inertia_step(inertia: Inertias) -> Step:
-    unit = r"\,\mathrm{kg\,m^2}"
-    return Step(
+def _inertia_step(inertia: ReflectedInertias) -> Step:
+    unit = "kg m^2"
+    return step(
         "Inertias",
         "Kinetic energy is the same from both sides, so an inertia crosses the gear with the ratio squared. A given "
         "motor torque accelerates the load most where rotor and reflected load are equal.",
-        (
-            rf"J_{{\mathrm{{motor}}}} = J_m + \frac{{J_L}}{{N^2}} = {tex(inertia.at_motor)}{unit}",
-            rf"J_{{\mathrm{{load}}}} = N^2 J_m + J_L = {tex(inertia.at_load)}{unit}",
-            rf"N^* = \sqrt{{\frac{{J_L}}{{J_m}}}} = {tex(inertia.optimal_ratio)}",
-        ),
+        rf"J_{{\mathrm{{motor}}}} = J_m + \frac{{J_L}}{{N^2}} = {tex(inertia.at_motor, unit)}",
+        rf"J_{{\mathrm{{load}}}} = N^2 J_m + J_L = {tex(inertia.at_load, unit)}",
+        rf"N^* = \sqrt{{\frac{{J_L}}{{J_m}}}} = {tex(inertia.optimal_ratio)}",
     )

@@ -9,8 +9,9 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from gelenk.course.actuators.encoders import TURN
-from gelenk.course.steps import Step
+from gelenk.course.steps import Step, step
 from gelenk.errors import InvalidField, counted
+from gelenk.robot.result import Result
 
 Code: TypeAlias = Literal["gray", "binary"]
 
@@ -32,14 +33,14 @@ def binary(code: int) -> int:
 
 
 @dataclass(frozen=True, slots=True)
-class Position:
-    """A position of the encoder's disc.
+class DiscPosition(Result):
+    """A position of an absolute encoder.
 
     Attributes:
-        value: Number of the position, from 0.
-        binary: The number in binary digits.
-        gray: The number in Gray code.
-        angle: Angle of the motor, [rad] in [0, 2π).
+        value: Number of the position, no unit.
+        binary: In binary digits.
+        gray: In Gray code.
+        angle: Of the motor, in [0, 2π), [rad].
     """
 
     value: int
@@ -48,17 +49,17 @@ class Position:
     angle: float
 
 
-def position(value: int, bits: int) -> Position:
+def position(value: int, bits: int) -> DiscPosition:
     """Return the position of a number below 2^bits."""
-    return Position(value, f"{value:0{bits}b}", f"{gray(value):0{bits}b}", TURN * value / (1 << bits))
+    return DiscPosition(value, f"{value:0{bits}b}", f"{gray(value):0{bits}b}", TURN * value / (1 << bits))
 
 
-def table(bits: int) -> tuple[Position, ...]:
+def table(bits: int) -> tuple[DiscPosition, ...]:
     """Return all positions of a disc with at most `MOST_TABLE_BITS` tracks."""
     return tuple(position(value, bits) for value in range(1 << bits))
 
 
-def read_codes(codes: Sequence[str], code: Code, bits: int, field: str) -> tuple[Position, ...]:
+def read_codes(codes: Sequence[str], code: Code, bits: int, field: str) -> tuple[DiscPosition, ...]:
     """Decode readings, most significant digit first, into positions.
 
     Raises:
@@ -88,13 +89,11 @@ def unwrapped(values: Sequence[int], bits: int) -> list[int]:
     return result
 
 
-def code_step(example: Position) -> Step:
+def code_step(example: DiscPosition) -> Step:
     """Return the worked code of one position."""
-    return Step(
+    return step(
         "Gray code",
         "Each digit is compared with its left neighbour: equal gives 0, different gives 1.",
-        (
-            r"g = b \oplus (b \gg 1)",
-            rf"b = {example.binary}_2 = {example.value},\quad g = {example.gray}",
-        ),
+        r"g = b \oplus (b \gg 1)",
+        rf"b = {example.binary}_2 = {example.value},\quad g = {example.gray}",
     )

@@ -8,8 +8,9 @@ import math
 from dataclasses import dataclass
 
 from gelenk.course.actuators.dc_motor import Motor
-from gelenk.course.steps import Step, tex, tex_factor
+from gelenk.course.steps import Step, step, tex, tex_factor
 from gelenk.errors import CertificationFailed
+from gelenk.robot.result import Result
 
 _CLOSING_TOLERANCE = 1e-9
 
@@ -70,20 +71,16 @@ def voltage_for_speed(motor: Motor, angular_velocity: float, load_torque: float)
 
 def speed_step(motor: Motor, angular_velocity: float, load_torque: float) -> Step:
     """Return the worked voltage for a speed."""
-    voltage = voltage_for_speed(motor, angular_velocity, load_torque)
-    k_t, k_e, R, b = (
-        tex(value)
-        for value in (motor.torque_constant, motor.back_emf_constant, motor.resistance, motor.viscous_friction)
+    k_t, k_e, R, b = map(
+        tex, (motor.torque_constant, motor.back_emf_constant, motor.resistance, motor.viscous_friction)
     )
     omega, load = tex_factor(angular_velocity), tex_factor(load_torque)
     numbers = rf"{k_e} \cdot {omega} + {R} \cdot \frac{{{b} \cdot {omega} + {load}}}{{{k_t}}}"
-    return Step(
+    return step(
         "Voltage for the speed",
         "The average voltage stands against the back-EMF, and drives the current whose torque the load takes.",
-        (
-            r"V = k_e\,\omega + R\,\frac{b\,\omega + \tau_L}{k_t}",
-            rf"V = {numbers} = {tex(voltage)}\,\mathrm{{V}}",
-        ),
+        r"V = k_e\,\omega + R\,\frac{b\,\omega + \tau_L}{k_t}",
+        rf"V = {numbers} = {tex(voltage_for_speed(motor, angular_velocity, load_torque), 'V')}",
     )
 
 
@@ -93,15 +90,15 @@ def approximate_ripple(pulses: Pulses, inductance: float) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class Ripple:
-    """The periodic current through R and L against a constant back-EMF.
+class Ripple(Result):
+    """The current in the steady state, through R and L against a constant back-EMF.
 
     Attributes:
-        average: (D V_s - E) / R, [A].
-        lowest: Smallest value in a period, [A].
-        highest: Largest value in a period, [A].
+        average: (V_avg - E) / R, [A].
+        lowest: Smallest in a period, [A].
+        highest: Largest in a period, [A].
         ripple: highest - lowest, [A].
-        closing_error: Deviation of the current from its initial value after one period, [A].
+        closing_error: Certificate: how far the current is from where it began after one period of both equations, [A].
     """
 
     average: float
@@ -169,38 +166,29 @@ def pwm_warnings(pulses: Pulses, ripple: Ripple | None) -> tuple[str, ...]:
 def pwm_steps(pulses: Pulses, inductance: float | None, ripple: Ripple | None) -> tuple[Step, ...]:
     """Return the worked solution of averages, times and ripple."""
     D, V, f = tex(pulses.duty), tex(pulses.supply_voltage), tex(pulses.frequency)
-    high = tex_factor(pulses.high_voltage)
-    steps = [
-        Step(
+    mean = rf"D\,V_s = {D} \cdot {tex_factor(pulses.high_voltage)} = {tex(pulses.average_voltage, 'V')}"
+    steps = (
+        step(
             "Averages",
             "Over a period the motor sees the mean; the heater in it sees the root mean square.",
-            (
-                rf"V_{{\mathrm{{avg}}}} = D\,V_s = {D} \cdot {high} = {tex(pulses.average_voltage)}\,\mathrm{{V}}",
-                rf"V_{{\mathrm{{rms}}}} = \sqrt{{D}}\,V_s = {tex(pulses.rms_voltage)}\,\mathrm{{V}}",
-            ),
+            rf"V_{{\mathrm{{avg}}}} = {mean}",
+            rf"V_{{\mathrm{{rms}}}} = \sqrt{{D}}\,V_s = {tex(pulses.rms_voltage, 'V')}",
         ),
-        Step(
+        step(
             "Times",
             "The period is divided by the duty.",
-            (
-                rf"t_{{\mathrm{{on}}}} = \frac{{D}}{{f}} = \frac{{{D}}}{{{f}}} = {tex(pulses.on_time)}\,\mathrm{{s}}",
-                rf"t_{{\mathrm{{off}}}} = \frac{{1 - D}}{{f}} = {tex(pulses.off_time)}\,\mathrm{{s}}",
-            ),
+            rf"t_{{\mathrm{{on}}}} = \frac{{D}}{{f}} = \frac{{{D}}}{{{f}}} = {tex(pulses.on_time, 's')}",
+            rf"t_{{\mathrm{{off}}}} = \frac{{1 - D}}{{f}} = {tex(pulses.off_time, 's')}",
         ),
-    ]
+    )
     formulas = []
     if inductance:
-        formulas.append(
-            rf"\Delta i \approx \frac{{V_s D (1 - D)}}{{L f}} = \frac{{{V} \cdot {D} \cdot (1 - {D})}}"
-            rf"{{{tex(inductance)} \cdot {f}}} = {tex(approximate_ripple(pulses, inductance))}\,\mathrm{{A}}"
-        )
+        numbers = rf"\frac{{{V} \cdot {D} \cdot (1 - {D})}}{{{tex(inductance)} \cdot {f}}}"
+        value = tex(approximate_ripple(pulses, inductance), "A")
+        formulas.append(rf"\Delta i \approx \frac{{V_s D (1 - D)}}{{L f}} = {numbers} = {value}")
     if ripple is not None:
-        formulas.append(
-            r"\Delta i = \frac{V_s}{R} \cdot \frac{(1 - e^{-t_{\mathrm{on}} R/L})(1 - e^{-t_{\mathrm{off}} R/L})}"
-            rf"{{1 - e^{{-R/(L f)}}}} = {tex(ripple.ripple)}\,\mathrm{{A}}"
-        )
+        parts = r"\frac{(1 - e^{-t_{\mathrm{on}} R/L})(1 - e^{-t_{\mathrm{off}} R/L})}{1 - e^{-R/(L f)}}"
+        formulas.append(rf"\Delta i = \frac{{V_s}}{{R}} \cdot {parts} = {tex(ripple.ripple, 'A')}")
         formulas.append(rf"i \in [{tex(ripple.lowest)},\ {tex(ripple.highest)}]\,\mathrm{{A}}")
-    if formulas:
-        text = "The current rises in a pulse and falls after it, along exponentials of the time constant L/R."
-        steps.append(Step("Ripple", text, tuple(formulas)))
-    return tuple(steps)
+    text = "The current rises in a pulse and falls after it, along exponentials of the time constant L/R."
+    return (*steps, step("Ripple", text, *formulas)) if formulas else steps

@@ -11,9 +11,10 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from gelenk.course.actuators.encoders import Decoding
+from gelenk.course.actuators.encoders import TURN, Decoding
 from gelenk.errors import InvalidField, counted
 from gelenk.robot.arrays import Flags, Indices
+from gelenk.robot.result import Result
 
 Direction: TypeAlias = Literal["forward", "backward", "none"]
 
@@ -69,13 +70,14 @@ def _fault(groups: Sequence[str], width: int) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class IndexPulse:
-    """A rise of channel Z, once a turn.
+class IndexPulse(Result):
+    """A rise of channel Z: the shaft is at the same angle each time.
 
     Attributes:
-        sample: Index of the sample where Z rises.
-        count: Count at that sample.
-        count_error: Deviation of the count since the first pulse from whole turns; None if a turn is unknown.
+        sample: Sample at which it rises, from 0.
+        count: The count there, no unit.
+        count_error: How far the count since the first pulse is from whole turns: counts that were lost, or the width of
+            the pulse where the direction has changed. No unit; null without `pulses_per_revolution`.
     """
 
     sample: int
@@ -84,25 +86,45 @@ class IndexPulse:
 
 
 @dataclass(frozen=True, slots=True)
-class Decoded:
-    """The result of decoding samples.
+class Quadrature(Result):
+    """Motion decoded from the samples of A and B.
 
     Attributes:
-        counts: Count at each sample, since the first one; shape (S,).
-        direction: Overall direction, by the last count.
-        reversals: Number of changes of direction.
-        illegal: Samples at which both channels have changed; shape (K,).
-        pulses: Rises of channel Z, in order.
+        count: Of the last sample, from 0 at the first one; no unit.
+        counts: At each sample, no unit.
+        direction: Of the count.
+        reversals: How often the motion changes its direction.
+        illegal_transitions: Samples, from 0, at which both channels have changed: a sample between was missed, and two
+            quarters of a line in an unknown direction are lost. They count nothing.
+        motor_angle: Since the first sample, [rad]; null without lines.
+        load_angle: The same at the load, [rad].
+        motor_angle_in_turn: motor_angle in [0, 2π), [rad].
+        register_value: Of a counter of `counter_bits`, no unit; null without them.
+        index_pulses: Of channel Z; none where it was not read.
+        count_from_index: Count since the last index pulse: from here on the angle is absolute. No unit; null without
+            one.
     """
 
-    counts: Indices
+    count: int
+    counts: list[int]
     direction: Direction
     reversals: int
-    illegal: Indices
-    pulses: tuple[IndexPulse, ...]
+    illegal_transitions: list[int]
+    motor_angle: float | None
+    load_angle: float | None
+    motor_angle_in_turn: float | None
+    register_value: int | None
+    index_pulses: list[IndexPulse]
+    count_from_index: int | None
 
 
-def decoded(samples: Samples, decoding: Decoding, counts_per_revolution: int | None) -> Decoded:
+def decoded(
+    samples: Samples,
+    decoding: Decoding,
+    counts_per_revolution: int | None = None,
+    gear_ratio: float = 1.0,
+    counter_bits: int | None = None,
+) -> Quadrature:
     """Decode the counts, direction and faults of a sequence of samples.
 
     x4 counts each change of a channel, x2 those of A, x1 only the edge of A between 00 and 10, up when it rises and
@@ -112,37 +134,42 @@ def decoded(samples: Samples, decoding: Decoding, counts_per_revolution: int | N
     Args:
         samples: Samples of the channels.
         decoding: Which changes count.
-        counts_per_revolution: Counts per turn of the encoder, to check the index pulses.
+        counts_per_revolution: Counts per turn of the encoder, for angles and to check the index pulses.
+        gear_ratio: N = ω_motor / ω_load > 0.
+        counter_bits: Width of a counter, which wraps from 2^bits - 1 to 0, and from 0 to 2^bits - 1.
     """
     quarters = _QUARTER[samples.states]
     moved = (np.diff(quarters) + 1) % 4 - 1
     illegal = np.flatnonzero(moved == 2) + 1
     moved[moved == 2] = 0
-    before, after = quarters[:-1], quarters[1:]
-    lower = np.where(moved > 0, before, after)
-    counted = {"x4": moved, "x2": np.where(lower % 2 == 0, moved, 0), "x1": np.where(lower == 0, moved, 0)}[decoding]
-    counts = np.concatenate(([0], np.cumsum(counted)))
-    moving = moved[moved != 0]
-    reversals = int(np.count_nonzero(np.diff(moving)))
-    pulses = _pulses(samples.index, counts, counts_per_revolution)
-    direction: Direction = "none" if counts[-1] == 0 else "forward" if counts[-1] > 0 else "backward"
-    return Decoded(counts, direction, reversals, illegal, pulses)
+    lower = np.where(moved > 0, quarters[:-1], quarters[1:])
+    counting = {"x4": moved, "x2": np.where(lower % 2 == 0, moved, 0), "x1": np.where(lower == 0, moved, 0)}[decoding]
+    counts = np.concatenate(([0], np.cumsum(counting))).tolist()
+    count, cpr = counts[-1], counts_per_revolution
+    angle = None if cpr is None else TURN * count / cpr
+    pulses = [] if samples.index is None else _pulses(samples.index, counts, cpr)
+    return Quadrature(
+        count,
+        counts,
+        "none" if count == 0 else "forward" if count > 0 else "backward",
+        int(np.count_nonzero(np.diff(moved[moved != 0]))),
+        illegal.tolist(),
+        angle,
+        None if angle is None else angle / gear_ratio,
+        None if cpr is None else TURN * (count % cpr) / cpr,
+        None if counter_bits is None else count % (1 << counter_bits),
+        pulses,
+        count - pulses[-1].count if pulses else None,
+    )
 
 
-def _pulses(index: Flags | None, counts: Indices, counts_per_revolution: int | None) -> tuple[IndexPulse, ...]:
-    if index is None:
-        return ()
-    rises = np.flatnonzero(np.diff(index.astype(np.int64), prepend=0) > 0)
+def _pulses(index: Flags, counts: Sequence[int], counts_per_revolution: int | None) -> list[IndexPulse]:
+    rises = np.flatnonzero(np.diff(index.astype(np.int64), prepend=0) > 0).tolist()
     pulses = []
-    for sample in rises.tolist():
-        count, error = int(counts[sample]), None
+    for sample in rises:
+        count, error = counts[sample], None
         if counts_per_revolution is not None:
-            since, half = count - int(counts[rises[0]]), counts_per_revolution // 2
+            since, half = count - counts[rises[0]], counts_per_revolution // 2
             error = (since + half) % counts_per_revolution - half
         pulses.append(IndexPulse(sample, count, error))
-    return tuple(pulses)
-
-
-def register(count: int, bits: int) -> int:
-    """Return what a counter with a number of bits shows: it wraps from 2^bits - 1 to 0, and from 0 to 2^bits - 1."""
-    return count % (1 << bits)
+    return pulses

@@ -6,14 +6,15 @@ node still needs are added and marked, because forgetting them is the most commo
 """
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from gelenk.course.mobility.pairs import FREEDOMS, KINDS, Order, PairGeometry, Space, allowed_kinds
-from gelenk.course.mobility.topology import Topology, topology
+from gelenk.course.mobility.topology import Edge, Topology, topology
 from gelenk.errors import InvalidField, listed, quoted
 from gelenk.robot.description import Description
+from gelenk.robot.result import Result
 
 FLOATING = "floating"
 """URDF's name for a joint that removes no freedom: not a pair, and c = 0."""
@@ -21,30 +22,47 @@ _KIND_OF_JOINT = {"continuous": "revolute"}
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
-    """A kinematic pair of a mechanism.
+class GivenPair:
+    """A pair as described: the names of its two links, its kind, the joint it is part of, and its geometry."""
+
+    name: str
+    link_a: str
+    link_b: str
+    kind: str
+    joint: str | None = None
+    geometry: PairGeometry | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Pair(Result):
+    """A kinematic pair as it is counted.
 
     Attributes:
-        name: Name for people.
-        kind: Key of `KINDS`, or `FLOATING`.
-        links: Indices of the two links.
-        order: Low or high; None for `floating`.
-        constraints: c.
-        freedoms: f = λ - c.
-        joint: Joint it is part of, if known.
-        added: Whether it was missing at a joint of more than two links, and has been added.
-        geometry: Position and axes, if known.
+        name: Of the pair.
+        link_a: One of the two links.
+        link_b: The other one.
+        type: Kind; of a robot also `floating`, which is not a pair and removes nothing.
+        order: Low where the links touch in a surface, high in a line or point.
+        constraints: c: degrees of freedom that it removes.
+        freedoms: f = λ - c: degrees of freedom that it leaves.
+        joint: The joint it is part of, if given.
+        added: Whether it was missing at a joint of more than two links.
     """
 
     name: str
-    kind: str
-    links: tuple[int, int]
+    link_a: str
+    link_b: str
+    type: str
     order: Order | None
     constraints: int
     freedoms: int
-    joint: str | None = None
-    added: bool = False
-    geometry: PairGeometry | None = None
+    joint: str | None
+    added: bool
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """Names of the two links."""
+        return self.link_a, self.link_b
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,8 +81,16 @@ class Node:
 
 
 @dataclass(frozen=True, slots=True)
-class Split:
-    """A joint of k > 2 links as k - 1 pairs, of which `added` were missing, each with c = `constraints`."""
+class JointSplit(Result):
+    """A joint of more than two links.
+
+    Attributes:
+        joint: Its name.
+        links: k: links that meet there.
+        pairs: k - 1: pairs that it is.
+        added: How many of these had not been given.
+        constraints: c of each of those.
+    """
 
     joint: str
     links: int
@@ -73,24 +99,22 @@ class Split:
     constraints: int
 
 
-@dataclass(frozen=True, slots=True)
-class GivenPair:
-    """A pair as described: the names of its two links, its kind, the joint it is part of, and its geometry."""
-
-    name: str
-    link_a: str
-    link_b: str
-    kind: str
-    joint: str | None = None
-    geometry: PairGeometry | None = None
+def joint_split(space: Space, joint: str, links: int, added: int, kind: str) -> JointSplit:
+    """Return a joint of k links as k - 1 pairs, of which a number of a kind had not been given."""
+    return JointSplit(joint, links, links - 1, added, KINDS[kind].constraints(space) or 0)
 
 
 @dataclass(frozen=True, slots=True)
-class IdleSpin:
-    """Links that can spin about the line through two spherical joints' centres without moving anything else."""
+class IdleSpin(Result):
+    """A freedom that moves only its own links: they spin about the line through two spherical joints.
 
-    links: tuple[str, ...]
-    joints: tuple[str, str]
+    Attributes:
+        links: The links that can move alone.
+        joints: The two spherical joints.
+    """
+
+    links: list[str]
+    joints: list[str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +126,8 @@ class Mechanism:
         links: Names of the links.
         ground: Index of the link at rest.
         pairs: Pairs after splitting.
+        ends: Indices of the two links of each pair.
+        geometries: Position and axes of each pair, if known.
         splits: Joints of more than two links.
         couplings: Number of joints that follow another one, each a further constraint.
         topology: Graph of links and pairs.
@@ -111,28 +137,28 @@ class Mechanism:
     links: tuple[str, ...]
     ground: int
     pairs: tuple[Pair, ...]
-    splits: tuple[Split, ...]
+    ends: tuple[Edge, ...]
+    geometries: tuple[PairGeometry | None, ...]
+    splits: tuple[JointSplit, ...]
     couplings: int
     topology: Topology
 
-    def idle_spins(self) -> tuple[IdleSpin, ...]:
+    def idle_spins(self) -> list[IdleSpin]:
         """Find the parts that spherical joints at exactly two points hold, so that each may spin idly.
 
         Removing the spherical pairs leaves the parts; the part with the ground counts as at rest.
         """
-        balls = [pair for pair in self.pairs if pair.kind == "spherical"]
-        rest = [pair.links for pair in self.pairs if pair.kind != "spherical"]
-        parts = topology(len(self.links), rest).components if balls else ()
+        balls = [pair for pair in self.pairs if pair.type == "spherical"]
+        rest = [ends for pair, ends in zip(self.pairs, self.ends, strict=True) if pair.type != "spherical"]
         spins = []
-        for part in parts:
-            inside = set(part)
+        for part in topology(len(self.links), rest).components if balls else ():
+            inside = {self.links[link]: None for link in part}
             # A spherical joint between two links of the same part does not hold the part.
-            holding = [ball for ball in balls if (ball.links[0] in inside) != (ball.links[1] in inside)]
+            holding = [ball for ball in balls if (ball.link_a in inside) != (ball.link_b in inside)]
             centres = {(ball.joint is None, ball.joint or ball.name): None for ball in holding}
-            if self.ground not in inside and len(centres) == 2:
-                (_, first), (_, second) = centres
-                spins.append(IdleSpin(tuple(self.links[link] for link in part), (first, second)))
-        return tuple(spins)
+            if self.ground not in part and len(centres) == 2:
+                spins.append(IdleSpin([*inside], [name for _, name in centres]))
+        return spins
 
 
 def mechanism(
@@ -144,30 +170,45 @@ def mechanism(
         InvalidField: An unknown or duplicate name, a pair of a link with itself, a kind that the space does not have,
             or a joint with more pairs than its links need.
     """
-    index = {name: i for i, name in enumerate(links)}
-    if len(index) < len(links):
-        raise InvalidField("links", f"{listed(_repeated(links))} is used for more than one link")
-    pairs = [_pair(space, index, one, f"pairs/{i}") for i, one in enumerate(given)]
-    if repeated := _repeated([pair.name for pair in pairs]):
-        raise InvalidField("pairs", f"{listed(repeated)} is used for more than one pair")
-    pairs, splits = _split(space, index, pairs, nodes)
-    edges = [pair.links for pair in pairs]
-    return Mechanism(space, tuple(links), ground, tuple(pairs), tuple(splits), 0, topology(len(links), edges))
+    known = dict.fromkeys(links)
+    _refuse_repeated(links, "links", "is used for more than one link")
+    pairs = [_pair(space, known, one, f"pairs/{i}") for i, one in enumerate(given)]
+    _refuse_repeated([pair.name for pair in pairs], "pairs", "is used for more than one pair")
+    pairs, splits = _split(space, known, pairs, nodes)
+    geometries = [*(one.geometry for one in given), *(None for _ in pairs[len(given) :])]
+    return _mechanism(space, links, ground, pairs, geometries, splits)
 
 
 def mechanism_of_tree(description: Description) -> Mechanism:
     """Convert a robot to links and pairs in space: an open tree, each mimic joint with one more constraint."""
-    index = {link.name: i for i, link in enumerate(description.links)}
+    links = [link.name for link in description.links]
     pairs = []
     for joint in description.joints:
-        links = (index[joint.parent], index[joint.child])
         if joint.type == FLOATING:
-            pairs.append(Pair(joint.name, FLOATING, links, None, 0, FREEDOMS["spatial"]))
+            free = FREEDOMS["spatial"]
+            pairs.append(Pair(joint.name, joint.parent, joint.child, FLOATING, None, 0, free, None, False))
         else:
-            pairs.append(_of_kind("spatial", joint.name, _KIND_OF_JOINT.get(joint.type, joint.type), links))
+            kind = _KIND_OF_JOINT.get(joint.type, joint.type)
+            pairs.append(_of_kind("spatial", joint.name, kind, (joint.parent, joint.child)))
     couplings = sum(joint.mimic is not None for joint in description.joints)
-    found = topology(len(index), [pair.links for pair in pairs])
-    return Mechanism("spatial", tuple(index), index[description.root], tuple(pairs), (), couplings, found)
+    return _mechanism("spatial", links, links.index(description.root), pairs, [None] * len(pairs), (), couplings)
+
+
+def _mechanism(
+    space: Space,
+    links: Sequence[str],
+    ground: int,
+    pairs: Sequence[Pair],
+    geometries: Sequence[PairGeometry | None],
+    splits: Sequence[JointSplit],
+    couplings: int = 0,
+) -> Mechanism:
+    index = {name: i for i, name in enumerate(links)}
+    ends = tuple((index[pair.link_a], index[pair.link_b]) for pair in pairs)
+    graph = topology(len(links), ends)
+    return Mechanism(
+        space, tuple(links), ground, tuple(pairs), ends, tuple(geometries), tuple(splits), couplings, graph
+    )
 
 
 def check_kind(space: Space, kind: str, field: str) -> None:
@@ -180,39 +221,40 @@ def check_kind(space: Space, kind: str, field: str) -> None:
 
 
 def _of_kind(
-    space: Space, name: str, kind: str, links: tuple[int, int], joint: str | None = None, added: bool = False
+    space: Space, name: str, kind: str, links: tuple[str, str], joint: str | None = None, added: bool = False
 ) -> Pair:
-    c = KINDS[kind].constraints(space)
-    assert c is not None  # noqa: S101 - checked before by `check_kind`
-    return Pair(name, kind, links, KINDS[kind].order, c, FREEDOMS[space] - c, joint, added)
+    c = KINDS[kind].constraints(space) or 0
+    return Pair(name, *links, kind, KINDS[kind].order, c, FREEDOMS[space] - c, joint, added)
 
 
-def _pair(space: Space, index: dict[str, int], given: GivenPair, field: str) -> Pair:
+def _pair(space: Space, links: Collection[str], given: GivenPair, field: str) -> Pair:
     for end in ("link_a", "link_b"):
-        name = getattr(given, end)
-        if name not in index:
-            raise InvalidField(f"{field}/{end}", f"there is no link {quoted(name)}; the links are {listed((*index,))}")
+        _refuse_unknown(links, getattr(given, end), f"{field}/{end}")
     if given.link_a == given.link_b:
-        raise InvalidField(
-            f"{field}/link_b", f"a pair joins two links; this one joins {quoted(given.link_a)} to itself"
-        )
+        reason = f"a pair joins two links; this one joins {quoted(given.link_a)} to itself"
+        raise InvalidField(f"{field}/link_b", reason)
     check_kind(space, given.kind, f"{field}/type")
-    pair = _of_kind(space, given.name, given.kind, (index[given.link_a], index[given.link_b]), given.joint)
-    return replace(pair, geometry=given.geometry)
+    return _of_kind(space, given.name, given.kind, (given.link_a, given.link_b), given.joint)
 
 
-def _repeated(names: Sequence[str]) -> tuple[str, ...]:
-    return tuple(name for name, count in Counter(names).items() if count > 1)
+def _refuse_unknown(links: Collection[str], name: str, field: str) -> None:
+    if name not in links:
+        raise InvalidField(field, f"there is no link {quoted(name)}; the links are {listed(tuple(links))}")
+
+
+def _refuse_repeated(names: Sequence[str], field: str, reason: str) -> None:
+    if repeated := tuple(name for name, count in Counter(names).items() if count > 1):
+        raise InvalidField(field, f"{listed(repeated)} {reason}")
 
 
 def _split(
-    space: Space, index: dict[str, int], pairs: list[Pair], nodes: Sequence[Node]
-) -> tuple[list[Pair], list[Split]]:
+    space: Space, links: Collection[str], pairs: list[Pair], nodes: Sequence[Node]
+) -> tuple[list[Pair], list[JointSplit]]:
     """Return the pairs, with those added that joints of more than two links still need, and the splits."""
-    meeting = {node.joint: _node_links(space, index, node, i) for i, node in enumerate(nodes)}
-    kinds = {node.joint: node.kind for node in nodes}
-    if repeated := _repeated([node.joint for node in nodes]):
-        raise InvalidField("coincident", f"{listed(repeated)} is used for more than one joint")
+    for i, node in enumerate(nodes):
+        _check_node(space, links, node, f"coincident/{i}")
+    _refuse_repeated([node.joint for node in nodes], "coincident", "is used for more than one joint")
+    meeting, kinds = {node.joint: node.links for node in nodes}, {node.joint: node.kind for node in nodes}
     pairs = [_placed(pair, meeting, i) for i, pair in enumerate(pairs)]
     at: dict[str, list[int]] = {joint: [] for joint in meeting}
     for i, pair in enumerate(pairs):
@@ -220,64 +262,53 @@ def _split(
             at.setdefault(pair.joint, []).append(i)
             if pair.joint not in kinds:
                 meeting[pair.joint] = tuple(dict.fromkeys((*meeting.get(pair.joint, ()), *pair.links)))
-    splits: list[Split] = []
+    splits: list[JointSplit] = []
     added: list[Pair] = []
-    for joint, links in meeting.items():
-        here = [pairs[i] for i in at[joint]]
-        missing = _missing(joint, links, here, at[joint])
-        kind = kinds.get(joint) or _common_kind(here)
+    for joint, here in meeting.items():
+        missing = _missing(joint, here, pairs, at[joint])
+        common = {pairs[i].type for i in at[joint]}
+        kind = kinds.get(joint) or (common.pop() if len(common) == 1 else "revolute")
         added += [_of_kind(space, f"{joint} +{i}", kind, two, joint, True) for i, two in enumerate(missing, start=1)]
-        if len(links) > 2:
-            c = KINDS[kind].constraints(space) or 0
-            splits.append(Split(joint, len(links), len(links) - 1, len(missing), c))
+        if len(here) > 2:
+            splits.append(joint_split(space, joint, len(here), len(missing), kind))
     return [*pairs, *added], splits
 
 
-def _node_links(space: Space, index: dict[str, int], node: Node, number: int) -> tuple[int, ...]:
-    field = f"coincident/{number}/links"
+def _check_node(space: Space, links: Collection[str], node: Node, field: str) -> None:
     for name in node.links:
-        if name not in index:
-            raise InvalidField(field, f"there is no link {quoted(name)}; the links are {listed((*index,))}")
-    if repeated := _repeated(node.links):
-        raise InvalidField(field, f"{listed(repeated)} is named twice")
+        _refuse_unknown(links, name, f"{field}/links")
+    _refuse_repeated(node.links, f"{field}/links", "is named twice")
     if node.kind is not None:
-        check_kind(space, node.kind, f"coincident/{number}/type")
-    return tuple(index[name] for name in node.links)
+        check_kind(space, node.kind, f"{field}/type")
 
 
-def _placed(pair: Pair, meeting: dict[str, tuple[int, ...]], number: int) -> Pair:
+def _placed(pair: Pair, meeting: dict[str, tuple[str, ...]], number: int) -> Pair:
     """Return the pair with its joint: the one it names, else the only node where both of its links meet."""
+    field = f"pairs/{number}/joint"
     if pair.joint is not None:
-        links = meeting.get(pair.joint)
-        if links is not None and not set(pair.links) <= set(links):
-            reason = f"`coincident` does not name both links of this pair at joint {quoted(pair.joint)}"
-            raise InvalidField(f"pairs/{number}/joint", reason)
+        here = meeting.get(pair.joint, pair.links)
+        if pair.link_a not in here or pair.link_b not in here:
+            raise InvalidField(
+                field, f"`coincident` does not name both links of this pair at joint {quoted(pair.joint)}"
+            )
         return pair
-    fitting = tuple(joint for joint, links in meeting.items() if pair.links[0] in links and pair.links[1] in links)
+    fitting = tuple(joint for joint, links in meeting.items() if pair.link_a in links and pair.link_b in links)
     if len(fitting) > 1:
         reason = f"the pair {quoted(pair.name)} could belong to any of {listed(fitting)}: set `joint`"
-        raise InvalidField(f"pairs/{number}/joint", reason)
-    if not fitting:
-        return pair
-    return replace(pair, joint=fitting[0])
+        raise InvalidField(field, reason)
+    return replace(pair, joint=fitting[0]) if fitting else pair
 
 
-def _missing(joint: str, links: tuple[int, ...], here: list[Pair], numbers: list[int]) -> list[tuple[int, int]]:
-    """Return the pairs needed to connect the separate parts that the pairs at a joint leave of its links."""
+def _missing(joint: str, links: tuple[str, ...], pairs: list[Pair], numbers: list[int]) -> list[tuple[str, str]]:
+    """Return the pairs needed to connect the separate parts that some pairs, at a joint, leave of its links."""
     part = {link: link for link in links}
-    for pair, number in zip(here, numbers, strict=True):
-        first, second = part[pair.links[0]], part[pair.links[1]]
+    for number in numbers:
+        first, second = (part[link] for link in pairs[number].links)
         if first == second:
             reason = (
                 f"{len(links)} links meet at joint {quoted(joint)}, which makes {len(links) - 1} pairs; the pair "
-                f"{quoted(pair.name)} is redundant"
+                f"{quoted(pairs[number].name)} is redundant"
             )
             raise InvalidField(f"pairs/{number}", reason)
         part = {link: first if which == second else which for link, which in part.items()}
-    firsts = list(dict.fromkeys(part.values()))
-    return list(pairwise(firsts))
-
-
-def _common_kind(here: list[Pair]) -> str:
-    kinds = {pair.kind for pair in here}
-    return kinds.pop() if len(kinds) == 1 else "revolute"
+    return list(pairwise(dict.fromkeys(part.values())))

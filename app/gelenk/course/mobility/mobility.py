@@ -15,19 +15,27 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from gelenk.course.mobility.mechanism import FLOATING, Mechanism, Pair, Split, check_kind
+from gelenk.course.mobility.mechanism import FLOATING, JointSplit, Mechanism, Pair, check_kind, joint_split
 from gelenk.course.mobility.pairs import FREEDOMS, KINDS, Order, Space
-from gelenk.course.mobility.screws import Posture
+from gelenk.course.mobility.screws import PostureMobility
 from gelenk.errors import CertificationFailed, InvalidField, counted, listed, quoted
+from gelenk.robot.result import Result
 
 Verdict: TypeAlias = Literal["mechanism", "structure", "overconstrained"]
 
 
 @dataclass(frozen=True, slots=True)
-class KindCount:
-    """Number of pairs of one kind, and the c of each."""
+class PairCount(Result):
+    """The pairs of one kind.
 
-    kind: str
+    Attributes:
+        type: Of the pairs.
+        order: Low where links touch in a surface, high where in a line or a point; null if it does not say.
+        count: How many.
+        constraints: c of each.
+    """
+
+    type: str
     order: Order | None
     count: int
     constraints: int
@@ -56,8 +64,8 @@ class Tally:
 
     space: Space
     links: int
-    kinds: tuple[KindCount, ...]
-    splits: tuple[Split, ...] = ()
+    kinds: tuple[PairCount, ...]
+    splits: tuple[JointSplit, ...] = ()
     couplings: int = 0
 
     @property
@@ -85,7 +93,9 @@ class Tally:
 
 def tally(found: Mechanism) -> Tally:
     """Return the numbers of a mechanism."""
-    return Tally(found.space, len(found.links), _by_kind(found.pairs), found.splits, found.couplings)
+    counts = Counter((pair.type, pair.order, pair.constraints) for pair in found.pairs)
+    kinds = tuple(PairCount(kind, order, count, c) for (kind, order, c), count in counts.items())
+    return Tally(found.space, len(found.links), kinds, found.splits, found.couplings)
 
 
 def tally_of_counts(space: Space, links: int, counts: Mapping[str, int], nodes: Sequence[NodeCount]) -> Tally:
@@ -114,12 +124,17 @@ def tally_of_counts(space: Space, links: int, counts: Mapping[str, int], nodes: 
         if node.links > links:
             raise InvalidField(f"coincident/{i}/links", f"{node.links} links meet where there are {links}")
         totals[kind] += node.links - 2
-    splits = tuple(_counted_split(space, node, node.kind or common) for node in nodes if node.links > 2)
-    return Tally(space, links, tuple(_count(space, kind, count) for kind, count in totals.items() if count), splits)
-
-
-def _counted_split(space: Space, node: NodeCount, kind: str) -> Split:
-    return Split(node.joint, node.links, node.links - 1, node.links - 2, KINDS[kind].constraints(space) or 0)
+    splits = tuple(
+        joint_split(space, node.joint, node.links, node.links - 2, node.kind or common)
+        for node in nodes
+        if node.links > 2
+    )
+    kinds = (
+        PairCount(kind, KINDS[kind].order, count, KINDS[kind].constraints(space) or 0)
+        for kind, count in totals.items()
+        if count
+    )
+    return Tally(space, links, tuple(kinds), splits)
 
 
 def verdict(mobility: int) -> Verdict:
@@ -144,7 +159,7 @@ def certify_mobility(found: Mechanism) -> int:
     return by_loops
 
 
-def warnings(counted: Tally, found: Mechanism | None, stands: Posture | None = None) -> list[str]:
+def warnings(counted: Tally, found: Mechanism | None, stands: PostureMobility | None = None) -> list[str]:
     """Return what the number alone does not show, one sentence each.
 
     Args:
@@ -156,7 +171,7 @@ def warnings(counted: Tally, found: Mechanism | None, stands: Posture | None = N
     idle = 0 if found is None else len(found.idle_spins())
     if found is not None:
         sentences += _graph_sentences(found)
-    elif any(kind.kind == "spherical" and kind.count > 1 for kind in counted.kinds):
+    elif any(kind.type == "spherical" and kind.count > 1 for kind in counted.kinds):
         sentences.append(
             "Counts alone do not show whether a bar between two spherical joints spins idly about itself: give the "
             "links of each pair to have such freedoms found."
@@ -191,7 +206,7 @@ _GEOMETRY: dict[Space, str] = {
 }
 
 
-def _split_sentence(split: Split) -> str:
+def _split_sentence(split: JointSplit) -> str:
     return (
         f"{split.links} links meet at joint {quoted(split.joint)}: that is {split.pairs} pairs, of which {split.added} "
         f"{'was' if split.added == 1 else 'were'} missing and {'has' if split.added == 1 else 'have'} been added."
@@ -218,30 +233,20 @@ def _graph_sentences(found: Mechanism) -> list[str]:
             )
         if rollers := _rollers(found):
             sentences.append(f"If {listed(rollers)} is a round roller, its spin about its own pin is idle.")
-    if any(pair.kind == FLOATING for pair in found.pairs):
+    if any(pair.type == FLOATING for pair in found.pairs):
         sentences.append("A floating joint removes no freedom: the links below it are unconstrained.")
     return sentences
 
 
 def _rollers(found: Mechanism) -> tuple[str, ...]:
     """Return links pinned to a moving link and touching another one, as a roller on a cam does."""
-    at: dict[int, list[Pair]] = {}
+    at: dict[str, list[Pair]] = {}
     for pair in found.pairs:
         for link in pair.links:
             at.setdefault(link, []).append(pair)
-    rollers = []
+    rollers, ground = [], found.links[found.ground]
     for link, pairs in at.items():
-        pins = [pair for pair in pairs if pair.kind == "revolute"]
-        kinds = sorted(pair.kind for pair in pairs)
-        if kinds == ["cam", "revolute"] and link != found.ground and found.ground not in pins[0].links:
-            rollers.append(found.links[link])
+        kinds = {pair.type: pair for pair in pairs}
+        if len(pairs) == 2 and kinds.keys() == {"cam", "revolute"} and ground not in {link, *kinds["revolute"].links}:
+            rollers.append(link)
     return tuple(rollers)
-
-
-def _by_kind(pairs: Sequence[Pair]) -> tuple[KindCount, ...]:
-    counts = Counter((pair.kind, pair.order, pair.constraints) for pair in pairs)
-    return tuple(KindCount(kind, order, count, c) for (kind, order, c), count in counts.items())
-
-
-def _count(space: Space, kind: str, count: int) -> KindCount:
-    return KindCount(kind, KINDS[kind].order, count, KINDS[kind].constraints(space) or 0)

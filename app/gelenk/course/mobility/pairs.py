@@ -5,6 +5,7 @@ Its order is low if the links touch in a surface, and high if they touch in a li
 the pair: the i-th pair has c_i.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -45,9 +46,9 @@ class PairGeometry:
         pitch: Pitch of a screw, [m/rad].
     """
 
-    point: tuple[float, float, float] | None = None
-    axis: tuple[float, float, float] | None = None
-    second_axis: tuple[float, float, float] | None = None
+    point: Sequence[float] | None = None
+    axis: Sequence[float] | None = None
+    second_axis: Sequence[float] | None = None
     pitch: float | None = None
 
 

@@ -17,6 +17,7 @@ from gelenk.course.mobility.mechanism import Mechanism, Pair
 from gelenk.course.mobility.pairs import FREEDOMS, PairGeometry
 from gelenk.errors import CertificationFailed, InvalidField, TooLarge, quoted
 from gelenk.robot.arrays import Array
+from gelenk.robot.result import Result
 
 MAX_LINKS = 64
 """Largest number of links: the time of the decomposition grows with its cube."""
@@ -52,16 +53,17 @@ _WHERE: dict[str, str] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Posture:
-    """The mobility of a linkage at one posture.
+class PostureMobility(Result):
+    """The mobility in the given posture, from the location of the axes; at a singular posture larger than elsewhere.
 
     Attributes:
-        mobility: λ(n - 1) - r.
-        redundant: Σc - r, constraints that others imply.
-        output: Freedoms of the requested link.
-        smallest_counted: Smallest singular value of the equations that counts for r; None if r = 0.
-        largest_neglected: Largest one that does not; None if all count.
-        residual: Largest part of a relative velocity that a pair does not allow, among the possible motions.
+        mobility: λ(n - 1) - r with the number r of constraints that are independent there.
+        redundant: Σc - r: constraints that others imply, which the formula counts nonetheless.
+        output: Freedoms of the link `output`; null where none was named.
+        smallest_counted: Smallest singular value that counts for r, no unit; null if none does.
+        largest_neglected: Largest singular value that does not count, no unit; null if all do.
+        residual: The certificate: largest velocity, of the motions that are left, that a pair does not allow; no unit,
+            lengths relative to the size of the linkage.
     """
 
     mobility: int
@@ -72,7 +74,7 @@ class Posture:
     residual: float
 
 
-def posture(found: Mechanism, output: int | None, tolerance: float) -> Posture | None:
+def posture(found: Mechanism, output: int | None, tolerance: float) -> PostureMobility | None:
     """Compute the mobility at the given posture; None if no pair has a position.
 
     Args:
@@ -86,7 +88,7 @@ def posture(found: Mechanism, output: int | None, tolerance: float) -> Posture |
         TooLarge: More than `MAX_LINKS` links.
         CertificationFailed: The pairs do not allow one of the possible motions.
     """
-    if not any(pair.geometry for pair in found.pairs):
+    if not any(found.geometries):
         return None
     if len(found.links) > MAX_LINKS:
         raise TooLarge("links with geometry", len(found.links), MAX_LINKS)
@@ -97,7 +99,7 @@ def posture(found: Mechanism, output: int | None, tolerance: float) -> Posture |
     _, sigma, Vt = np.linalg.svd(np.linalg.qr(equations, mode="r") if len(equations) > size else equations)
     tolerance = max(tolerance, _NOISE)
     rank = int(np.sum(sigma > tolerance * max(float(sigma.max(initial=0.0)), 1.0)))
-    return Posture(
+    return PostureMobility(
         size - rank,
         len(equations) - rank,
         None if output is None else _output(found, Vt[rank:], output, tolerance),
@@ -117,7 +119,7 @@ def _freedoms(found: Mechanism) -> list[Array]:
         _refuse_out_of_plane(complete, size)
     twists = []
     for number, (pair, geometry) in enumerate(zip(found.pairs, complete, strict=True)):
-        S = _twists(pair.kind, geometry, centre, size)
+        S = _twists(pair.type, geometry, centre, size)
         S = S[_PLANE] if found.space == "planar" else S
         sigma = np.linalg.svd(S, compute_uv=False)
         if S.shape[1] and sigma[-1] <= _DIRECTIONS * sigma[0]:
@@ -129,21 +131,22 @@ def _freedoms(found: Mechanism) -> list[Array]:
 
 def _complete(found: Mechanism, pair: Pair, number: int) -> PairGeometry:
     """Return the complete position of a pair; an added pair takes that of another pair at its joint."""
-    geometry = pair.geometry
+    geometry = found.geometries[number]
     if geometry is None and pair.added:
-        others = [one.geometry for one in found.pairs if one.joint == pair.joint and one.kind == pair.kind]
-        geometry = next((one for one in others if one is not None), None)
+        others = zip(found.pairs, found.geometries, strict=True)
+        like_it = (other for one, other in others if (one.joint, one.type) == (pair.joint, pair.type))
+        geometry = next(filter(None, like_it), None)
     says = geometry is not None
     geometry = geometry or PairGeometry()
-    needs, takes = _NEEDS[pair.kind], _NEEDS[pair.kind]
-    if found.space == "planar" and pair.kind in {"revolute", "rolling"}:
+    needs, takes = _NEEDS[pair.type], _NEEDS[pair.type]
+    if found.space == "planar" and pair.type in {"revolute", "rolling"}:
         needs, takes = ("point",), ("point", "axis")
         if geometry.axis is not None and abs(geometry.axis[2]) < 1.0 - _DIRECTIONS:
             reason = f"{quoted(pair.name)}: in the plane the axis to turn about is z; leave it out, or count in space"
             raise InvalidField(f"pairs/{number}/axis", reason)
     for name, reason in _WHERE.items():
         if name not in takes and getattr(geometry, name) is not None:
-            raise InvalidField(f"pairs/{number}/{name}", f"{quoted(pair.name)}: {reason.format(kind=pair.kind)}")
+            raise InvalidField(f"pairs/{number}/{name}", f"{quoted(pair.name)}: {reason.format(kind=pair.type)}")
     for name in needs:
         if getattr(geometry, name) is None:
             why = "to say where it is" if says else "because other pairs say where they are"
@@ -174,10 +177,12 @@ def _twists(kind: str, geometry: PairGeometry, centre: Array, size: float) -> Ar
     p = (np.array(geometry.point or centre) - centre) / size
     a, b = np.array(geometry.axis or (0.0, 0.0, 0.0)), np.array(geometry.second_axis or (0.0, 0.0, 0.0))
     turn = _turn(p, a)
-    slide = np.concatenate((a, np.zeros(3)))
+    slide = _slide(a)
     ball = [_turn(p, axis) for axis in np.eye(3)]
-    across = [np.concatenate((axis, np.zeros(3))) for axis in _across(a)] if geometry.axis else []
-    about_normal = _turn(p, np.array([0.0, 0.0, 1.0]))
+    # Two directions orthogonal to the axis and to each other.
+    across = [_slide(axis) for axis in np.linalg.svd(a[None])[2][1:]] if geometry.axis else []
+    # In the plane the contact turns about its point, and slides along the slot or the common tangent.
+    about_normal, tangent = ball[2], _slide(np.array([-a[1], a[0], 0.0]))
     columns: dict[str, list[Array]] = {
         "revolute": [turn],
         "rolling": [turn],
@@ -190,10 +195,9 @@ def _twists(kind: str, geometry: PairGeometry, centre: Array, size: float) -> Ar
         "sphere_in_groove": [*ball, slide],
         "point_contact": [*ball, *across],
         "fixed": [],
-        # In the plane the contact turns about its point, and slides along the slot or the common tangent.
         "pin_in_slot": [about_normal, slide],
-        "cam": [about_normal, _along_tangent(a)],
-        "gear": [about_normal, _along_tangent(a)],
+        "cam": [about_normal, tangent],
+        "gear": [about_normal, tangent],
     }
     return np.array(columns[kind]).reshape(-1, 6).T
 
@@ -203,14 +207,8 @@ def _turn(point: Array, axis: Array) -> Array:
     return np.concatenate((np.cross(point, axis), axis))
 
 
-def _along_tangent(normal: Array) -> Array:
-    return np.array([-normal[1], normal[0], 0.0, 0.0, 0.0, 0.0])
-
-
-def _across(axis: Array) -> Array:
-    """Return two directions orthogonal to an axis and to each other; shape (2, 3)."""
-    directions: Array = np.linalg.svd(axis[None])[2][1:]
-    return directions
+def _slide(direction: Array) -> Array:
+    return np.concatenate((direction, np.zeros(3)))
 
 
 def _equations(found: Mechanism, twists: Sequence[Array]) -> Array:
@@ -218,10 +216,10 @@ def _equations(found: Mechanism, twists: Sequence[Array]) -> Array:
     freedoms = FREEDOMS[found.space]
     columns = freedoms * len(found.links)
     rows: list[Array] = [np.zeros((0, columns))]
-    for pair, S in zip(found.pairs, twists, strict=True):
+    for links, S in zip(found.ends, twists, strict=True):
         forbidden = np.linalg.svd(S)[0][:, S.shape[1] :].T
         block = np.zeros((len(forbidden), columns))
-        a, b = (slice(freedoms * link, freedoms * (link + 1)) for link in pair.links)
+        a, b = (slice(freedoms * link, freedoms * (link + 1)) for link in links)
         block[:, b], block[:, a] = forbidden, -forbidden
         rows.append(block)
     ground = range(freedoms * found.ground, freedoms * (found.ground + 1))
@@ -246,8 +244,8 @@ def _residual(found: Mechanism, twists: Sequence[Array], motions: Array, toleran
     still = freedoms * found.ground
     whole = np.concatenate((motions[:, :still], np.zeros((len(motions), freedoms)), motions[:, still:]), axis=1)
     velocities = whole.reshape(len(motions), len(found.links), freedoms)
-    for pair, S in zip(found.pairs, twists, strict=True):
-        relative = (velocities[:, pair.links[1]] - velocities[:, pair.links[0]]).T
+    for (a, b), S in zip(found.ends, twists, strict=True):
+        relative = (velocities[:, b] - velocities[:, a]).T
         rest = relative - S @ np.linalg.lstsq(S, relative, rcond=None)[0]
         worst = max(worst, float(np.abs(rest).max()))
     allowed = max(_ROUNDING, 10.0 * tolerance)

@@ -8,6 +8,8 @@ of n - m dimensions (more at a singular posture).
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from gelenk.robot.result import Result
+
 TaskName: TypeAlias = Literal["xy", "xy_phi", "xyz", "pose"]
 Solutions: TypeAlias = Literal["none", "finite", "infinite"]
 
@@ -16,14 +18,15 @@ DIMENSIONS: dict[TaskName, int] = {"xy": 2, "xy_phi": 3, "xyz": 3, "pose": 6}
 
 
 @dataclass(frozen=True, slots=True)
-class TaskKind:
-    """A kind of task for a chain of n joints.
+class TaskKind(Result):
+    """A task, and whether a chain has enough joints for it.
 
     Attributes:
-        task: Name of the task.
-        dimension: m.
-        redundancy: n - m.
-        solutions: Number of solutions of a generic task, from n and m alone.
+        task: The kind of task: a position in the plane or in space, without or with an orientation.
+        dimension: m: numbers that a task of this kind sets.
+        redundancy: n - m: its degree, where ≥ 0; negative if joints are missing.
+        solutions: Of the inverse problem, by the counts alone: none for a task at random (n < m), finitely many
+            branches (n = m), or infinitely many (n > m), which is redundancy; branches are not.
     """
 
     task: TaskName

@@ -1,10 +1,10 @@
 """The worked solution of a mobility, as a lecturer writes it on the board."""
 
 from gelenk.course.mobility.mechanism import Mechanism
-from gelenk.course.mobility.mobility import KindCount, Tally, verdict
+from gelenk.course.mobility.mobility import PairCount, Tally, verdict
 from gelenk.course.mobility.pairs import FREEDOMS
-from gelenk.course.mobility.screws import Posture
-from gelenk.course.steps import Step
+from gelenk.course.mobility.screws import PostureMobility
+from gelenk.course.steps import Step, step
 from gelenk.errors import quoted
 
 _VERDICTS = {
@@ -19,7 +19,7 @@ _CHAINS = {
 }
 
 
-def steps(counted: Tally, found: Mechanism | None, stands: Posture | None = None) -> list[Step]:
+def steps(counted: Tally, found: Mechanism | None, stands: PostureMobility | None = None) -> list[Step]:
     """Return the worked solution from the links to the verdict.
 
     Args:
@@ -29,44 +29,37 @@ def steps(counted: Tally, found: Mechanism | None, stands: Posture | None = None
     """
     total = counted.mobility if stands is None else stands.mobility
     idle = 0 if found is None else len(found.idle_spins())
-    result = [_space(counted), _links(counted, found)]
-    result += [_split(split.joint, split.links) for split in counted.splits]
-    result += [_pairs(counted), _constraints(counted), _formula(counted)]
+    left = total - idle
+    freedoms, n, j = FREEDOMS[counted.space], counted.links, counted.pairs
+    parts = "1 of orientation and 2 of position" if counted.space == "planar" else "3 of orientation and 3 of position"
+    ground = "" if found is None else f" {quoted(found.links[found.ground])}"
+    listed = ", ".join(f"{kind.count} {_words(kind)}" for kind in counted.kinds) or "none"
+    result = [
+        step("Space", f"A free body has λ = {freedoms} freedoms: {parts}.", rf"\lambda = {freedoms}"),
+        step("Links", f"n = {n}, the ground{ground} included.", f"n = {n}"),
+        *(_split(split.joint, split.links) for split in counted.splits),
+        step("Pairs", f"j = {j}: {listed}.", f"j = {j}"),
+        _constraints(counted),
+        _formula(counted),
+    ]
     if stands is not None:
         result.append(_geometry(counted, stands))
     if idle:
-        result.append(_idle(total, idle))
+        text = f"Idle freedoms, parts that spin between two spherical joints: {idle}. {total} − {idle} = {left}."
+        result.append(step("Idle freedoms", text, f"{total} - {idle} = {left}"))
     if found is not None:
         result.append(_loops(found))
-    left = total - idle
-    result.append(Step("Verdict", f"M = {left}: {_VERDICTS[verdict(left)]}.", (f"M = {left}",)))
-    return result
-
-
-def _space(counted: Tally) -> Step:
-    freedoms = FREEDOMS[counted.space]
-    parts = "1 of orientation and 2 of position" if counted.space == "planar" else "3 of orientation and 3 of position"
-    return Step("Space", f"A free body has λ = {freedoms} freedoms: {parts}.", (rf"\lambda = {freedoms}",))
-
-
-def _links(counted: Tally, found: Mechanism | None) -> Step:
-    ground = "" if found is None else f" {quoted(found.links[found.ground])}"
-    return Step("Links", f"n = {counted.links}, the ground{ground} included.", (f"n = {counted.links}",))
+    return [*result, step("Verdict", f"M = {left}: {_VERDICTS[verdict(left)]}.", f"M = {left}")]
 
 
 def _split(joint: str, links: int) -> Step:
     text = f"{links} links meet at joint {quoted(joint)}: it is split into {links} − 1 = {links - 1} pairs."
-    return Step("Coincident joint", text, (f"{links} - 1 = {links - 1}",))
+    return step("Coincident joint", text, f"{links} - 1 = {links - 1}")
 
 
-def _pairs(counted: Tally) -> Step:
-    listed = ", ".join(f"{kind.count} {_words(kind)}" for kind in counted.kinds) or "none"
-    return Step("Pairs", f"j = {counted.pairs}: {listed}.", (f"j = {counted.pairs}",))
-
-
-def _words(kind: KindCount) -> str:
+def _words(kind: PairCount) -> str:
     order = f", {kind.order} order" if kind.order else ""
-    return f"{kind.kind.replace('_', ' ')} (c = {kind.constraints}{order})"
+    return f"{kind.type.replace('_', ' ')} (c = {kind.constraints}{order})"
 
 
 def _constraints(counted: Tally) -> Step:
@@ -77,7 +70,7 @@ def _constraints(counted: Tally) -> Step:
     if counted.couplings:
         who = "One joint follows" if counted.couplings == 1 else f"{counted.couplings} joints follow"
         text += f" {who} another one, a constraint each."
-    return Step("Constraints", text, (rf"\sum c_i = {latex} = {total}" if terms else r"\sum c_i = 0",))
+    return step("Constraints", text, rf"\sum c_i = {latex} = {total}" if terms else r"\sum c_i = 0")
 
 
 def _formula(counted: Tally) -> Step:
@@ -88,26 +81,21 @@ def _formula(counted: Tally) -> Step:
         f"M = λ(n − 1) − Σc = {freedoms}({n} − 1) − {total}{coupled} = {counted.mobility}."
     )
     latex = rf"M = \lambda (n - 1) - \sum c_i = {freedoms} \, ({n} - 1) - {total}{coupled} = {counted.mobility}"
-    return Step("Grübler", text, (latex.replace("−", "-"),))
+    return step("Grübler", text, latex.replace("−", "-"))
 
 
-def _geometry(counted: Tally, stands: Posture) -> Step:
+def _geometry(counted: Tally, stands: PostureMobility) -> Step:
     freedoms, n, total, extra = FREEDOMS[counted.space], counted.links, counted.constraints, stands.redundant
     text = (
         f"Of the {total} constraints {total - extra} are independent as the linkage stands, {extra} redundant: "
         f"M = {freedoms}({n} − 1) − {total - extra} = {stands.mobility}."
     )
     latex = rf"M = \lambda (n - 1) - r = {freedoms} \, ({n} - 1) - {total - extra} = {stands.mobility}"
-    return Step("Geometry", text, (latex,))
-
-
-def _idle(total: int, idle: int) -> Step:
-    text = f"Idle freedoms, parts that spin between two spherical joints: {idle}. {total} − {idle} = {total - idle}."
-    return Step("Idle freedoms", text, (f"{total} - {idle} = {total - idle}",))
+    return step("Geometry", text, latex)
 
 
 def _loops(found: Mechanism) -> Step:
     graph, j, n = found.topology, len(found.pairs), len(found.links)
     parts = len(graph.components)
     text = f"Independent loops: L = j − n + {parts} = {j} − {n} + {parts} = {graph.loops}; {_CHAINS[graph.chain]}."
-    return Step("Loops", text, (f"L = j - n + {parts} = {j} - {n} + {parts} = {graph.loops}",))
+    return step("Loops", text, f"L = j - n + {parts} = {j} - {n} + {parts} = {graph.loops}")

@@ -4,6 +4,7 @@ A link is a node, a pair is an edge; two pairs between the same links are a loop
 L, each of which closes one loop: L = j - n + (number of components).
 """
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
@@ -38,62 +39,39 @@ class Topology:
 
 def topology(count: int, edges: Sequence[Edge]) -> Topology:
     """Compute the topology of `count` links, joined by pairs."""
-    depths, parents, through, roots = _spanning_forest(count, edges)
-    members: dict[int, list[int]] = {}
-    for node, root in enumerate(roots):
-        members.setdefault(root, []).append(node)
-    tree = {edge for edge in through if edge is not None}
-    closing = [edge for number, edge in enumerate(edges) if number not in tree]
-    covered = _covered(depths, parents, closing)
-    bridges = sorted(edge for node, edge in enumerate(through) if edge is not None and node not in covered)
-    degrees = [0] * count
-    for a, b in edges:
-        degrees[a] += 1
-        degrees[b] += 1
-    pendants = tuple(node for node, degree in enumerate(degrees) if degree == 1)
-    return Topology(tuple(map(tuple, members.values())), len(closing), tuple(bridges), pendants)
-
-
-def _spanning_forest(count: int, edges: Sequence[Edge]) -> tuple[list[int], list[int], list[int | None], list[int]]:
-    """Return for each node its depth, its parent (itself for a root), the edge from the parent, and its root."""
     beside: list[list[tuple[int, int]]] = [[] for _ in range(count)]
     for number, (a, b) in enumerate(edges):
         beside[a].append((b, number))
         beside[b].append((a, number))
-    depths, parents, roots = [-1] * count, list(range(count)), list(range(count))
-    through: list[int | None] = [None] * count
+    components, parents, seen = [], dict[int, tuple[int, int]](), set[int]()
     for root in range(count):
-        if depths[root] >= 0:
+        if root in seen:
             continue
-        depths[root] = 0
-        waiting = [root]
-        while waiting:
-            node = waiting.pop()
+        part = [root]
+        seen.add(root)
+        for node in part:  # which grows meanwhile
             for other, number in beside[node]:
-                if depths[other] < 0:
-                    depths[other], parents[other] = depths[node] + 1, node
-                    through[other], roots[other] = number, root
-                    waiting.append(other)
-    return depths, parents, through, roots
+                if other not in seen:
+                    seen.add(other)
+                    parents[other] = node, number
+                    part.append(other)
+        components.append(tuple(sorted(part)))
+    tree = {number for _, number in parents.values()}
+    closing = [edge for number, edge in enumerate(edges) if number not in tree]
+    bridges = tuple(sorted(_bridges(parents, closing)))
+    pendants = tuple(node for node, around in enumerate(beside) if len(around) == 1)
+    return Topology(tuple(components), len(closing), bridges, pendants)
 
 
-def _covered(depths: list[int], parents: list[int], closing: Sequence[Edge]) -> set[int]:
-    """Return the nodes whose edge to the parent lies on a loop, each found once: known stretches are skipped."""
-    covered: set[int] = set()
-    leap = list(range(len(depths)))
+def _bridges(parents: dict[int, tuple[int, int]], closing: Sequence[Edge]) -> list[int]:
+    """Return the edges of a forest below which no closing edge leaves; `parents` in the order of the walk.
 
-    def top(node: int) -> int:
-        while leap[node] != node:
-            leap[node] = leap[leap[node]]
-            node = leap[node]
-        return node
-
-    for a, b in closing:
-        low, high = top(a), top(b)
-        while low != high:
-            if depths[low] < depths[high]:
-                low, high = high, low
-            covered.add(low)
-            leap[low] = parents[low]
-            low = top(low)
-    return covered
+    Bit k of a node is set if one end of the k-th closing edge, and not both, is the node or below it.
+    """
+    leaving: Counter[int] = Counter()
+    for k, edge in enumerate(closing):
+        for node in edge:
+            leaving[node] ^= 1 << k
+    for node, (parent, _) in reversed(parents.items()):
+        leaving[parent] ^= leaving[node]
+    return [number for node, (_, number) in parents.items() if not leaving[node]]

@@ -9,6 +9,7 @@ import numpy as np
 from gelenk.course.motion.fly_over import Blend
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
+from gelenk.robot.result import Result
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 PhaseName: TypeAlias = Literal["accelerate", "coast_before", "blend", "coast_after", "decelerate"]
@@ -19,8 +20,13 @@ _RESOLVED = 1e-10
 
 
 @dataclass(frozen=True, slots=True)
-class Phase:
-    """A part of the motion at constant acceleration: its name and its duration [s]."""
+class Phase(Result):
+    """A part of the motion with constant acceleration.
+
+    Attributes:
+        name: What happens in the phase.
+        duration: How long it takes, [s]; 0 where it is left out.
+    """
 
     name: PhaseName
     duration: float

@@ -5,7 +5,6 @@ whose repeated means (de Casteljau) are the values within. Nothing is shared wit
 searches motions elsewhere.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from math import comb, factorial
 
@@ -13,6 +12,7 @@ import numpy as np
 
 from gelenk.errors import CertificationFailed
 from gelenk.robot.arrays import Array
+from gelenk.robot.result import Result
 from gelenk.trajectory.motion.extremes import Peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
@@ -40,29 +40,34 @@ class MotionClaims:
     start_rates: Array
     end_rates: Array
     continuity: int
-    peaks: Mapping[int, Peaks]
+    peaks: dict[int, Peaks]
 
 
 @dataclass(frozen=True, slots=True)
-class ClaimErrors:
-    """Largest errors of a motion's claims, relative to the largest value of the same kind.
+class MotionCertificate(Result):
+    """The motion's numbers checked a second way: Bézier control points, their differences and repeated means.
+
+    Each number is a difference as a fraction of the largest value of its kind; an answer with more than 1e-9 is not
+    sent.
 
     Attributes:
-        boundary_error: Of the derivatives at both ends.
-        knot_error: Of the positions at the knots, both ends included.
-        continuity_error: Largest jump at the joins.
-        peak_error: Largest difference of a peak from the value at its time, or excess of another value over it.
-        samples: Number of times at which the peaks were compared.
+        boundary_error: Of the derivatives at both ends, as far as they were given; no unit.
+        knot_error: Of the positions at the knots, both ends included; no unit.
+        continuity: Order of the highest derivative that is promised to be continuous; no unit.
+        continuity_error: Largest jump at the joins, up to that order; no unit.
+        peak_error: Of a peak from the value at its time, or of any value on a grid beyond a peak; no unit.
+        samples: Times of that grid.
     """
 
     boundary_error: float
     knot_error: float
+    continuity: int
     continuity_error: float
     peak_error: float
     samples: int
 
 
-def certified(motion: PiecewisePolynomial, promise: MotionClaims) -> ClaimErrors:
+def certified(motion: PiecewisePolynomial, promise: MotionClaims) -> MotionCertificate:
     """Compare a motion with the claims about it, and return the errors.
 
     Raises:
@@ -70,7 +75,9 @@ def certified(motion: PiecewisePolynomial, promise: MotionClaims) -> ClaimErrors
     """
     if motion.duration == 0.0:
         error = float(np.abs(motion.coefficients[0, 0] - promise.points).max(initial=0.0))
-        found = ClaimErrors(0.0, error / max(1.0, float(np.abs(promise.points).max())), 0.0, 0.0, 0)
+        found = MotionCertificate(
+            0.0, error / max(1.0, float(np.abs(promise.points).max())), promise.continuity, 0.0, 0.0, 0
+        )
     else:
         found = _compared(motion, promise)
     for quantity, error in (
@@ -84,7 +91,7 @@ def certified(motion: PiecewisePolynomial, promise: MotionClaims) -> ClaimErrors
     return found
 
 
-def _compared(motion: PiecewisePolynomial, promise: MotionClaims) -> ClaimErrors:
+def _compared(motion: PiecewisePolynomial, promise: MotionClaims) -> MotionCertificate:
     starts, control, lengths = motion.coefficients[:, 0], _control_points(motion), np.diff(motion.breaks)
     orders = max(promise.continuity, len(promise.start_rates), len(promise.end_rates), *promise.peaks, 1)
     derived = [_derivative(control, lengths, order) for order in range(orders + 1)]
@@ -104,7 +111,8 @@ def _compared(motion: PiecewisePolynomial, promise: MotionClaims) -> ClaimErrors
     peak_error = 0.0
     for order, peak in promise.peaks.items():
         peak_error = max(peak_error, _peak_error(derived[order], motion.breaks, peak, scales[order].max(axis=0)))
-    return ClaimErrors(boundary, _relative(errors, size), joins, peak_error, len(lengths) * (_PARTS + 1))
+    knots, samples = _relative(errors, size), len(lengths) * (_PARTS + 1)
+    return MotionCertificate(boundary, knots, promise.continuity, joins, peak_error, samples)
 
 
 def _relative(errors: Array, scale: Array) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 from gelenk.course.motion.fly_over import Blend
 from gelenk.errors import CertificationFailed
 from gelenk.robot.arrays import Array
+from gelenk.robot.result import Result
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 STEPS = 400
@@ -15,14 +16,14 @@ _TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class BlendCheck:
-    """Errors found when checking a blend and its motion.
+class BlendCheck(Result):
+    """The blend recomputed by small steps along its acceleration, and B's distance from each of them.
 
     Attributes:
-        steps: Number of steps from A' to C'; 0 if the blend has no duration.
-        max_position_error: Largest error at C' and where phases meet, [m].
+        steps: Number of time steps; 0 where the blend takes no time.
+        max_position_error: At C', and of the motion where phases meet, [m].
         max_velocity_error: Likewise, [m/s].
-        closest_distance_error: Error of the smallest distance from B, [m].
+        closest_distance_error: Smallest distance of a step to B against the one sent, [m].
     """
 
     steps: int

@@ -3,12 +3,14 @@
 from collections.abc import Sequence
 
 from gelenk.course.steps import Step, tex
+from gelenk.robot.arrays import Array
 
 SHOWN_JOINTS = 4
 """Largest number of joints that a worked solution shows; others are computed in the same manner."""
+_SHOWN_NUMBERS = 12
 
 
-def tex_polynomial(coefficients: Sequence[float], variable: str) -> str:
+def tex_polynomial(coefficients: Sequence[float], variable: str = "t") -> str:
     """Format a polynomial, highest power first in formula and list; 0 if all coefficients are."""
     text = ""
     for power, value in zip(range(len(coefficients) - 1, -1, -1), coefficients, strict=True):
@@ -20,14 +22,15 @@ def tex_polynomial(coefficients: Sequence[float], variable: str) -> str:
     return text or "0"
 
 
-def tex_column(values: Sequence[float]) -> str:
-    """Format a column vector."""
-    return r"\begin{bmatrix}" + r" \\ ".join(tex(value) for value in values) + r"\end{bmatrix}"
+def tex_row(values: Array) -> str:
+    """Format numbers in a row, at most twelve of them."""
+    shown = ", ".join(map(tex, values[:_SHOWN_NUMBERS].tolist()))
+    return shown if len(values) <= _SHOWN_NUMBERS else shown + r", \dots"
 
 
-def tex_matrix(rows: Sequence[Sequence[float]]) -> str:
-    """Format rows of numbers as a LaTeX `bmatrix`."""
-    lines = (" & ".join(tex(value) for value in row) for row in rows)
+def tex_matrix(rows: Array) -> str:
+    """Format rows of numbers, or a column, as a LaTeX `bmatrix`."""
+    lines = (" & ".join(map(tex, row)) for row in rows.reshape(len(rows), -1).tolist())
     return r"\begin{bmatrix}" + r" \\ ".join(lines) + r"\end{bmatrix}"
 
 

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from gelenk.course.motion.formulas import SHOWN_JOINTS, of_joint, tex_polynomial
-from gelenk.course.steps import Step, tex, tex_factor
+from gelenk.course.motion.formulas import SHOWN_JOINTS, of_joint, tex_polynomial, tex_row
+from gelenk.course.steps import Step, step, tex, tex_factor
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.extremes import Peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
@@ -33,82 +33,66 @@ def two_point_steps(
     names = _LETTERS[: degree + 1]
     general = " + ".join(f"{name} \\lambda^{{{degree - i}}}" for i, name in enumerate(names[:-2]))
     steps = [
-        Step(
+        step(
             "Time law",
             f"{2 * len(starts)} conditions, {degree + 1} coefficients: a polynomial of degree {degree} in λ = t/T.",
-            (
-                (
-                    rf"q(\lambda) = q_0 + \Delta q\,({general} + {names[-2]} \lambda + {names[-1]}),"
-                    r"\quad \lambda = \frac{t}{T}"
-                ),
-                *_CONDITIONS[degree],
-            ),
+            rf"q(\lambda) = q_0 + \Delta q\,({general} + {names[-2]} \lambda + {names[-1]}),"
+            r"\quad \lambda = \frac{t}{T}",
+            *_CONDITIONS[degree],
         )
     ]
-    for j in range(min(joints, SHOWN_JOINTS)):
-        own = normalised[j]
+    for j, own in enumerate(normalised[:SHOWN_JOINTS]):
         if own is None:
-            step = Step(
-                "No normalised form",
-                "q₁ = q₀: dividing by Δq = 0 is not possible, and the general form in t is used.",
-                (r"\Delta q = 0",),
-            )
+            text = "q₁ = q₀: dividing by Δq = 0 is not possible, and the general form in t is used."
+            form = step("No normalised form", text, r"\Delta q = 0")
         elif degree == 3:
-            step = _cubic(starts[:, j], ends[:, j], motion.duration, own)
+            form = _cubic(starts[:, j].tolist(), ends[:, j].tolist(), motion.duration, own)
         else:
             found = ",\\ ".join(f"{name} = {tex(value)}" for name, value in zip(names, own, strict=True))
-            step = Step("Coefficients", "Lowest powers from the start, the others from the end.", (found,))
-        steps.append(of_joint(step, j, joints))
-        in_time = tex_polynomial(motion.coefficients[0, ::-1, j].tolist(), "t")
-        steps.append(of_joint(Step("In time", "λ = t/T put in.", (f"q(t) = {in_time}",)), j, joints))
+            form = step("Coefficients", "Lowest powers from the start, the others from the end.", found)
+        polynomial = tex_polynomial(motion.coefficients[0, ::-1, j].tolist())
+        in_time = step("In time", "λ = t/T put in.", f"q(t) = {polynomial}")
+        steps += [of_joint(form, j, joints), of_joint(in_time, j, joints)]
     return tuple(steps)
 
 
-def _cubic(start: Array, end: Array, duration: float, coefficients: Sequence[float]) -> Step:
+def _cubic(start: Sequence[float], end: Sequence[float], duration: float, coefficients: Sequence[float]) -> Step:
     """Write out the four conditions one after the other."""
-    a, b, c, _ = coefficients
-    delta = float(end[0] - start[0])
-    v0, v1 = (rf"{tex_factor(float(v))} \cdot {tex(duration)}" for v in (start[1], end[1]))
-    divisor = tex(delta)
-    return Step(
+    (q0, v0), (q1, v1), (a, b, c, _) = start, end, coefficients
+    delta = tex(q1 - q0)
+    c_value, sum_value = (rf"\frac{{{tex_factor(v)} \cdot {tex(duration)}}}{{{delta}}}" for v in (v0, v1))
+    return step(
         "Coefficients",
         "Velocities in λ are those in t times T.",
-        (
-            rf"\Delta q = q_1 - q_0 = {tex(float(end[0]))} - {tex_factor(float(start[0]))} = {tex(delta)}",
-            r"q(0) = q_0 \Rightarrow d = 0",
-            rf"q'(0) = \Delta q\,c = v_0 T \Rightarrow c = \frac{{{v0}}}{{{divisor}}} = {tex(c)}",
-            r"q(1) = q_1 \Rightarrow a + b + c = 1",
-            rf"q'(1) = \Delta q\,(3a + 2b + c) = v_1 T \Rightarrow 3a + 2b + c = \frac{{{v1}}}{{{divisor}}}",
-            rf"a = \frac{{(v_0 + v_1) T}}{{\Delta q}} - 2 = {tex(a)}",
-            rf"b = 3 - \frac{{(2 v_0 + v_1) T}}{{\Delta q}} = {tex(b)}",
-        ),
+        rf"\Delta q = q_1 - q_0 = {tex(q1)} - {tex_factor(q0)} = {delta}",
+        r"q(0) = q_0 \Rightarrow d = 0",
+        rf"q'(0) = \Delta q\,c = v_0 T \Rightarrow c = {c_value} = {tex(c)}",
+        r"q(1) = q_1 \Rightarrow a + b + c = 1",
+        rf"q'(1) = \Delta q\,(3a + 2b + c) = v_1 T \Rightarrow 3a + 2b + c = {sum_value}",
+        rf"a = \frac{{(v_0 + v_1) T}}{{\Delta q}} - 2 = {tex(a)}",
+        rf"b = 3 - \frac{{(2 v_0 + v_1) T}}{{\Delta q}} = {tex(b)}",
     )
 
 
 def lift_steps(motion: PiecewisePolynomial, knots: Array) -> tuple[Step, ...]:
     """Return the steps of the 4-3-4 law, joint by joint; `knots` has shape (4, n), [rad or m]."""
-    joints, h = knots.shape[1], np.diff(motion.breaks)
+    joints = knots.shape[1]
     steps = [
-        Step(
+        step(
             "Three pieces",
             "A quartic to lift off, a cubic to travel, a quartic to set down; each in the time since it begins. 5 + 4 "
             "+ 5 coefficients, 14 conditions: positions at four knots (six of them, twice at the inner ones), velocity "
             "and acceleration at both ends, and both continuous at the two inner knots.",
-            (
-                r"L(t) = \sum_{k=0}^4 a_k t^k,\quad T(t) = \sum_{k=0}^3 b_k t^k,\quad S(t) = \sum_{k=0}^4 c_k t^k",
-                rf"h = ({', '.join(tex(float(value)) for value in h)})",
-            ),
+            r"L(t) = \sum_{k=0}^4 a_k t^k,\quad T(t) = \sum_{k=0}^3 b_k t^k,\quad S(t) = \sum_{k=0}^4 c_k t^k",
+            rf"h = ({tex_row(np.diff(motion.breaks))})",
         )
     ]
+    text = "Equal accelerations at the inner knots are two equations for the two velocities there."
     for j in range(min(joints, SHOWN_JOINTS)):
-        v1, v2 = (float(value) for value in motion.coefficients[1:, 1, j])
-        pieces = tuple(
-            f"{name}(t) = {tex_polynomial(motion.coefficients[i, ::-1, j].tolist(), 't')}"
-            for i, name in enumerate("LTS")
-        )
-        text = "Equal accelerations at the inner knots are two equations for the two velocities there."
-        step = Step("Coefficients", text, (rf"v_1 = {tex(v1)},\quad v_2 = {tex(v2)}", *pieces))
-        steps.append(of_joint(step, j, joints))
+        v1, v2 = map(tex, motion.coefficients[1:, 1, j].tolist())
+        rows = motion.coefficients[:, ::-1, j].tolist()
+        pieces = (f"{name}(t) = {tex_polynomial(row)}" for name, row in zip("LTS", rows, strict=True))
+        steps.append(of_joint(step("Coefficients", text, rf"v_1 = {v1},\quad v_2 = {v2}", *pieces), j, joints))
     return tuple(steps)
 
 
@@ -120,5 +104,4 @@ def peak_step(velocity: Peaks, acceleration: Peaks) -> Step:
         for symbol, found in ((r"\dot q", velocity), (r"\ddot q", acceleration)):
             value, time = float(found.values[j]), float(found.times[j])
             lines.append(rf"\max|{symbol}{index}| = {tex(abs(value))} \text{{ at }} t = {tex(time)}")
-    text = "Where the next derivative is zero, or at an end of a piece."
-    return Step("Peaks", text, tuple(lines))
+    return step("Peaks", "Where the next derivative is zero, or at an end of a piece.", *lines)

@@ -1,6 +1,6 @@
 """Worked solution of a uniform time scaling."""
 
-from gelenk.course.steps import Step, tex
+from gelenk.course.steps import Step, step, tex
 from gelenk.trajectory.laws.time_scaling import Bound, Quantity, Scaling
 
 _SYMBOLS: dict[Quantity, tuple[str, str, str]] = {
@@ -14,47 +14,34 @@ _ROOTS: dict[Quantity, str] = {"velocity": "{}", "acceleration": r"\sqrt{{{}}}",
 def scaling_steps(scaling: Scaling, duration: float) -> tuple[Step, ...]:
     """Return the worked steps: ratios, the course's k, and k without the 1; `duration` in [s]."""
     roots = ", ".join(_ROOTS[bound.quantity].format(_SYMBOLS[bound.quantity][2]) for bound in scaling.bounds)
-    k = scaling.course_factor
-    steps = [
-        Step(
-            "Scaling the time",
-            "The same path in k times the time: each derivative is divided by k once more.",
-            (r"T \to k T:\quad \dot q \to \frac{\dot q}{k},\quad \ddot q \to \frac{\ddot q}{k^2}",),
-        ),
-        *(_ratio_step(bound) for bound in scaling.bounds),
-        Step(
-            "k of the course",
-            "The 1 in the maximum lets it slow down alone.",
-            (rf"k = \max\{{1, {roots}\}} = {tex(k)}", rf"k T = {tex(k)} \cdot {tex(duration)} = {tex(k * duration)}"),
-        ),
-    ]
-    if scaling.factor is not None:
-        k = scaling.factor
-        steps.append(
-            Step(
-                "k without the 1",
-                'It slows down or speeds up, until a limit is just reached. (The notes say "slow down or speed up" '
-                "of the maximum with the 1, which only slows down.)",
-                (
-                    rf"k = \max\{{{roots}\}} = {tex(k)}",
-                    rf"k T = {tex(k)} \cdot {tex(duration)} = {tex(k * duration)}",
-                ),
-            )
-        )
-    return tuple(steps)
+
+    def largest(terms: str, k: float) -> tuple[str, str]:
+        return rf"k = \max\{{{terms}\}} = {tex(k)}", rf"k T = {tex(k)} \cdot {tex(duration)} = {tex(k * duration)}"
+
+    scaled = step(
+        "Scaling the time",
+        "The same path in k times the time: each derivative is divided by k once more.",
+        r"T \to k T:\quad \dot q \to \frac{\dot q}{k},\quad \ddot q \to \frac{\ddot q}{k^2}",
+    )
+    text = "The 1 in the maximum lets it slow down alone."
+    course = step("k of the course", text, *largest(f"1, {roots}", scaling.course_factor))
+    steps = (scaled, *map(_ratio_step, scaling.bounds), course)
+    if scaling.factor is None:
+        return steps
+    text = (
+        'It slows down or speeds up, until a limit is just reached. (The notes say "slow down or speed up" of the '
+        "maximum with the 1, which only slows down.)"
+    )
+    return (*steps, step("k without the 1", text, *largest(roots, scaling.factor)))
 
 
 def _ratio_step(bound: Bound) -> Step:
     symbol, limit, name = _SYMBOLS[bound.quantity]
-    j = bound.joint + 1
-    return Step(
+    j = bound.joint
+    return step(
         bound.quantity.capitalize(),
         f"The largest ratio of a peak to its limit: joint {j}, at {bound.time:.10g} s.",
-        (
-            (
-                rf"{name} = \max_j \frac{{\max_t |{symbol}_j|}}{{{limit}_{{\max,j}}}} = "
-                rf"\frac{{|{symbol}_{{{j}}}|}}{{{limit}_{{\max,{j}}}}} = "
-                rf"\frac{{{tex(abs(bound.peak))}}}{{{tex(bound.limit)}}} = {tex(bound.ratio)}"
-            ),
-        ),
+        rf"{name} = \max_j \frac{{\max_t |{symbol}_j|}}{{{limit}_{{\max,j}}}} = "
+        rf"\frac{{|{symbol}_{{{j}}}|}}{{{limit}_{{\max,{j}}}}} = "
+        rf"\frac{{{tex(abs(bound.peak))}}}{{{tex(bound.limit)}}} = {tex(bound.ratio)}",
     )

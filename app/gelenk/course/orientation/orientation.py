@@ -28,6 +28,7 @@ from gelenk.robot.notations import (
     vectors_from_rotations,
     zyz_from_rotations,
 )
+from gelenk.robot.result import Result
 
 NEARLY_DEGENERATE = 1e-6
 """Sine or cosine below which fewer than ten digits of the two outer angles are determined."""
@@ -35,15 +36,15 @@ _RECOMPUTED = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
-class Degeneracy:
-    """A degenerate case of a notation, where something is not determined.
+class Degeneracy(Result):
+    """A notation that degenerates at this orientation.
 
     Attributes:
-        notation: `zyz`, `rpy` or `axis_angle`.
-        case: Condition under which the notation degenerates.
-        determined: Formula of what is still determined; None if nothing more is.
-        value: Value of that formula, [rad], in (-π, π].
-        chosen: Rule by which the given representative was chosen.
+        notation: Which one it is.
+        case: What makes it so.
+        determined: What is still determined; null if nothing is.
+        value: Of the combination that is determined, in (-π, π], [rad].
+        chosen: How the given triple was chosen among all.
     """
 
     notation: Literal["zyz", "rpy", "axis_angle"]

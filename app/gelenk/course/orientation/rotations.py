@@ -9,6 +9,8 @@ import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
+from gelenk.robot.poses import ROTATION_TOLERANCE
+from gelenk.robot.result import Result
 
 AxisName: TypeAlias = Literal["x", "y", "z"]
 DEGENERATE = 1e-14
@@ -16,16 +18,16 @@ DEGENERATE = 1e-14
 
 
 @dataclass(frozen=True, slots=True)
-class Validation:
-    """Deviation of a matrix from a rotation.
+class Validation(Result):
+    """Distance of a given matrix from a rotation.
 
     Attributes:
-        orthogonality_error: ‖RᵀR - I‖, Frobenius.
-        determinant: +1 for a rotation, -1 for a reflection.
-        distance: ‖R - nearest rotation‖, Frobenius.
+        orthogonality_error: ‖RᵀR - I‖ (Frobenius), no unit.
+        determinant: Of the matrix; +1 of a rotation, no unit.
+        distance: ‖R - nearest rotation‖ (Frobenius), no unit.
         is_reflection: Whether the determinant is negative.
-        is_unique: Whether one rotation is nearer than all others.
-        nearest: The nearest rotation; shape (3, 3).
+        is_unique: Whether one rotation is nearer than all others; not so of a pure reflection.
+        projected: Whether the nearest rotation was taken for a matrix further than 1e-6 from it.
     """
 
     orthogonality_error: float
@@ -33,7 +35,7 @@ class Validation:
     distance: float
     is_reflection: bool
     is_unique: bool
-    nearest: Array
+    projected: bool
 
 
 def unit_axis(direction: Sequence[float], field: str) -> Array:
@@ -70,18 +72,20 @@ def about_axis(axis: Array, angle: float) -> Array:
     return R
 
 
-def validated(matrix: Array) -> Validation:
-    """Measure how far a matrix (3, 3) is from the nearest rotation, U diag(1, 1, det UVᵀ) Vᵀ [Umeyama1991]."""
+def validated(matrix: Array) -> tuple[Validation, Array]:
+    """Return how far a matrix (3, 3) is from the nearest rotation, U diag(1, 1, det UVᵀ) Vᵀ [Umeyama1991], and that."""
     U, sigma, Vt = np.linalg.svd(matrix)
     sign = round(float(np.linalg.det(U @ Vt)))
     R = U @ np.diag([1.0, 1.0, float(sign)]) @ Vt
     # Turning about the axis of the largest σ costs least, in proportion to σ₂ ± σ₃.
     gap = sigma[1] + sign * sigma[2]
-    return Validation(
+    distance = math.hypot(*(matrix - R).ravel().tolist())
+    found = Validation(
         float(np.linalg.norm(matrix.T @ matrix - np.eye(3))),
         float(np.prod(sigma)) * sign,
-        math.hypot(*(matrix - R).ravel().tolist()),
+        distance,
         bool(sign < 0 and sigma[2] > 0.0),
         bool(gap > DEGENERATE * max(1.0, sigma[0])),
-        np.ascontiguousarray(R),
+        distance > ROTATION_TOLERANCE,
     )
+    return found, np.ascontiguousarray(R)

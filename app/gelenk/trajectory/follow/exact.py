@@ -16,8 +16,7 @@ from gelenk.trajectory.follow.bounds import SLACK
 from gelenk.trajectory.follow.rate_field import RateField
 from gelenk.trajectory.follow.rows import row_derivatives, task_rows
 from gelenk.trajectory.motion.composition import RATES_KNOWN, derivatives
-from gelenk.trajectory.motion.intervals import bernstein, cut
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.timing import Timed

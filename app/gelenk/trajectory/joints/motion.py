@@ -112,7 +112,7 @@ def lasting(motion: PiecewisePolynomial, duration: float, limits: ScalingLimits)
         bound = uniform_scaling(motion, limits).binding
         raise InvalidField(
             "duration",
-            f"must be at least {least:.10g} s, when joint {bound.joint + 1} reaches its limit of {bound.quantity}",
+            f"must be at least {least:.10g} s, when joint {bound.joint} reaches its limit of {bound.quantity}",
         )
     return motion.lasting(duration)
 

@@ -15,7 +15,6 @@ ends.
 """
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -39,18 +38,6 @@ _AT_REST = ("clamped", "assigned")
 """Boundaries of splines that are at rest at both ends."""
 _STILL = 1e-12
 """Largest q' at an end that counts as rest, in fractions of the steepest step."""
-
-
-class Prefix(NamedTuple):
-    """The part of a spline that stays within the joint limits.
-
-    Attributes:
-        motion: Motion to the last waypoint that is reached, at rest there.
-        waypoints: Number of waypoints reached.
-    """
-
-    motion: PiecewisePolynomial
-    waypoints: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +99,7 @@ class JointSpline:
             bound = scaling.binding
             raise InvalidField(
                 "times",
-                f"joint {bound.joint + 1} reaches {bound.ratio:.6g} times its limit of {bound.quantity} at "
+                f"joint {bound.joint} reaches {bound.ratio:.6g} times its limit of {bound.quantity} at "
                 f"{bound.time:.6g} s: to keep the limits, multiply all times by {scaling.course_factor:.10g}",
             )
         return self.path
@@ -125,7 +112,7 @@ class JointSpline:
         optimal = time_optimal(self.path, limits.velocity, limits.acceleration).motion.duration
         return timings(self._fastest(), limits, optimal)
 
-    def prefix(self, chain: Chain, excess: LimitExcess) -> Prefix:
+    def prefix(self, chain: Chain, excess: LimitExcess) -> tuple[PiecewisePolynomial, int]:
         """Plan through as many waypoints as a spline can pass within the joint limits.
 
         The spline ends at rest at the last of them. Part of a periodic spline gets a natural boundary; part of a spline
@@ -134,6 +121,9 @@ class JointSpline:
         Args:
             chain: The moving chain.
             excess: Where the spline first exceeds the joint limits.
+
+        Returns:
+            The motion, and the number of waypoints reached.
         """
         before = int(np.searchsorted(self.points.times, excess.time, side="right")) - 1
         most = min(before, len(self.points.times) - 2)
@@ -144,9 +134,9 @@ class JointSpline:
             part = JointSpline._through(shorter, points)
             if first_limit_excess(chain, part.path) is None:
                 if shorter.times is None:
-                    return Prefix(part._fastest(), count)
-                return Prefix(part.path.scaled(part._scaling_at_times().course_factor), count)
-        return Prefix(standing(self.points.positions[0]), 0)
+                    return part._fastest(), count
+                return part.path.scaled(part._scaling_at_times().course_factor), count
+        return standing(self.points.positions[0]), 0
 
     def _is_scaled(self) -> bool:
         """Return whether the spline is the motion itself: at rest at both ends, with a law that scales it."""
@@ -171,27 +161,20 @@ class JointSpline:
         return timed(geometry_of(None, self.path, limits), law).motion
 
 
-class SmoothnessClass(NamedTuple):
-    """Smoothness of a motion.
+def promised(segment: Segment) -> tuple[int, bool]:
+    """Return how smooth the motion of a joint segment is, for a spline or from point to point.
 
-    Attributes:
-        continuous: Order up to which derivatives of the joints do not jump within it.
-        has_bounded_jerk: Whether acceleration jumps neither within it nor at its ends, and jerk is limited.
+    Returns:
+        The order up to which its derivatives do not jump within it; whether acceleration jumps neither within it nor at
+        its ends, and jerk is limited.
     """
-
-    continuous: int
-    has_bounded_jerk: bool
-
-
-def promised(segment: Segment) -> SmoothnessClass:
-    """Return how smooth the motion of a joint segment is, for a spline or from point to point."""
     law = LAWS[segment.law]
     if segment.blends:
-        return SmoothnessClass(1, False)
+        return 1, False
     if segment.times is not None:
-        return SmoothnessClass(2, law.keeps_jerk and segment.boundary == "assigned")
+        return 2, law.keeps_jerk and segment.boundary == "assigned"
     is_scaled = segment.configurations is not None and law.scales_splines and segment.boundary in _AT_REST
-    return SmoothnessClass(2 if law.keeps_jerk or is_scaled else 1, law.keeps_jerk)
+    return 2 if law.keeps_jerk or is_scaled else 1, law.keeps_jerk
 
 
 def _check_law_of_times(segment: Segment) -> None:

@@ -12,6 +12,7 @@ from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.time_scaling import LARGEST, check_limits
 from gelenk.trajectory.motion.extremes import peaks
+from gelenk.trajectory.motion.phases import merged
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 LONGEST = 7600.0
@@ -96,7 +97,7 @@ def _profiles(start: Array, end: Array, limits: Array) -> tuple[Array, Array]:
 def _of_profiles(start: Array, end: Array, durations: Array, jerks: Array) -> tuple[PiecewisePolynomial, bool]:
     """Merge the phases of each joint into one motion; return also whether their jerks ended it exactly."""
     switches = np.cumsum(durations, axis=1)
-    breaks = _merged(switches)
+    breaks = merged(switches, _SAME)
     if breaks[-1] == 0.0:
         return PiecewisePolynomial(np.zeros(2), end[None] / _FACTORIALS), True
     middle = 0.5 * (breaks[:-1] + breaks[1:])
@@ -104,16 +105,6 @@ def _of_profiles(start: Array, end: Array, durations: Array, jerks: Array) -> tu
     rows = np.take_along_axis(jerks, phases, axis=1).T
     coefficients, is_as_found = _closed(start, end, np.diff(breaks), rows)
     return PiecewisePolynomial(breaks, coefficients), is_as_found
-
-
-def _merged(switches: Array) -> Array:
-    """Return all switching times in order, merging those that differ by rounding; the last one is kept."""
-    times = np.sort(switches, axis=None)
-    last = times[-1]
-    inner = times[(times > _SAME * last) & (times < last * (1.0 - _SAME))]
-    is_new = np.diff(inner, prepend=-np.inf) > _SAME * last
-    merged: Array = np.concatenate(([0.0], inner[is_new], [last]))
-    return merged
 
 
 def _closed(start: Array, end: Array, dts: Array, jerks: Array) -> tuple[Array, bool]:

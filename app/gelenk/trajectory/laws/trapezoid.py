@@ -46,12 +46,6 @@ class JointMove:
         """Whether the joint starts and ends at rest, as in the course."""
         return self.start_velocity == 0.0 == self.end_velocity
 
-    @property
-    def stopping_distance(self) -> float:
-        """Signed distance covered from v_i directly to v_f, (v_i + v_f) |v_f - v_i| / 2a, [rad or m]."""
-        v_i, v_f = self.start_velocity, self.end_velocity
-        return (v_i + v_f) * abs(v_f - v_i) / (2.0 * self.acceleration)
-
 
 @dataclass(frozen=True, slots=True)
 class Profile:
@@ -103,8 +97,9 @@ class Profile:
 
 def fastest(task: JointMove) -> Profile:
     """Return the profile of the shortest time; it turns back if it cannot go straight."""
-    L, a, direct = task.distance, task.acceleration, task.stopping_distance
-    v_i, v_f = task.start_velocity, task.end_velocity
+    L, a, v_i, v_f = task.distance, task.acceleration, task.start_velocity, task.end_velocity
+    # Signed distance from v_i straight to v_f.
+    direct = (v_i + v_f) * abs(v_f - v_i) / (2.0 * a)
     if abs(L - direct) <= _ROUNDING * max(abs(L), abs(direct)):
         sign = math.copysign(1.0, v_i + v_f)
     else:
@@ -225,11 +220,12 @@ def _in_step(task: JointMove, own: Profile, joint: int, end: float, may_slow: bo
         return own.slowed(factor), factor
     profile = lasting(task, end)
     if profile is None:
-        raise InvalidField("duration", f"joint {joint + 1} cannot keep its end velocities over {end:.10g} s: {_OTHERS}")
+        raise InvalidField(
+            "duration",
+            f"joint {joint + 1} cannot keep its end velocities over {end:.10g} s: give another duration, smaller end "
+            "velocities, or another acceleration",
+        )
     return profile, None
-
-
-_OTHERS = "give another duration, smaller end velocities, or another acceleration"
 
 
 def _check(task: JointMove, joint: int, may_reverse: bool) -> None:

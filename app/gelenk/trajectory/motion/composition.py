@@ -12,11 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.robot.arrays import Array, Indices
-from gelenk.trajectory.motion.intervals import cut
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, composed, cut
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 
-EXACT_DEGREE = 10
+_EXACT_DEGREE = 10
 """Degree up to which q(s(t)) is composed exactly."""
 
 _SHORTEST = 1e-5
@@ -88,25 +87,23 @@ def in_time(joints: PiecewisePolynomial, law: PiecewisePolynomial) -> PiecewiseP
         law: s(t), non-decreasing, from the first break of the joints to the last.
     """
     degree = (joints.coefficients.shape[1] - 1) * (law.coefficients.shape[1] - 1)
-    if degree <= EXACT_DEGREE:
+    if degree <= _EXACT_DEGREE:
         exact = _expanded(joints, law, _breaks(joints, law, _SAME))
-        coefficients = _composed(exact.joints, exact.law[:, 1:])
+        coefficients = composed(exact.joints, exact.law[:, 1:])
         coefficients[:, 0] = exact.starts
         return PiecewisePolynomial(exact.breaks, coefficients)
     breaks = _breaks(joints, law, _SHORTEST)
-    for _ in range(_ROUNDS):
+    for rounds_left in range(_ROUNDS, -1, -1):
         exact = _expanded(joints, law, breaks)
-        coefficients = _septics(exact, joints)
+        # Without their start values, which would cost digits.
+        coefficients = hermite_pieces(*exact.at_edges(joints), np.diff(breaks))
         parts = _parts(exact, coefficients)
-        if (parts == 1).all():
+        if rounds_left == 0 or (parts == 1).all():
             break
         shares = np.concatenate([np.arange(count) / count for count in parts])
         breaks = np.append(np.repeat(breaks[:-1], parts) + shares * np.repeat(np.diff(breaks), parts), breaks[-1])
-    else:
-        exact = _expanded(joints, law, breaks)
-        coefficients = _septics(exact, joints)
     coefficients[:, 0] += exact.starts
-    return PiecewisePolynomial(exact.breaks, coefficients)
+    return PiecewisePolynomial(breaks, coefficients)
 
 
 def derivatives(c: Array, local: Array) -> tuple[Array, Array, Array, Array]:
@@ -162,24 +159,6 @@ def _chained(along: Sequence[Array], rates: Sequence[Array]) -> Array:
     q, first, second, third = along
     v, a, j = rates
     return np.stack((q, first * v, first * a + second * v**2, first * j + second * (3.0 * v * a) + third * v**3))
-
-
-def _composed(joints: Array, law: Array) -> Array:
-    """Return the coefficients of Σ c_k σᵏ, σ = a_1 t + a_2 t² + …, by Horner's scheme; (M, D + 1, n), (M, d, 1)."""
-    result = joints[:, -1:]
-    for k in range(joints.shape[1] - 2, -1, -1):
-        size = result.shape[1]
-        longer = np.zeros((len(joints), size + law.shape[1], joints.shape[2]))
-        for power in range(law.shape[1]):
-            longer[:, power + 1 : power + 1 + size] += result * law[:, power : power + 1]
-        longer[:, 0] += joints[:, k]
-        result = longer
-    return result
-
-
-def _septics(exact: _Expansion, joints: PiecewisePolynomial) -> Array:
-    """Return the pieces minus their start values, which would cost digits; shape (M, 8, n)."""
-    return hermite_pieces(*exact.at_edges(joints), np.diff(exact.breaks))
 
 
 def _parts(exact: _Expansion, coefficients: Array) -> Indices:

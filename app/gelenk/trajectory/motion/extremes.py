@@ -35,12 +35,7 @@ def peaks(motion: PiecewisePolynomial, order: int) -> Peaks:
         motion: The motion.
         order: Order of the derivative: 1 for velocity, 2 for acceleration, 3 for jerk.
     """
-    times, values = candidates(motion.derivative(order))
-    return _largest(times, values)
-
-
-def _largest(times: Array, values: Array) -> Peaks:
-    flat_times, flat = times.reshape(-1, times.shape[-1]), values.reshape(-1, values.shape[-1])
+    flat_times, flat = (found.reshape(-1, found.shape[-1]) for found in candidates(motion.derivative(order)))
     sizes = np.abs(flat)
     late = np.where(sizes >= sizes.max(axis=0) * (1.0 - _SAME), flat_times, np.inf)
     first = late.argmin(axis=0)

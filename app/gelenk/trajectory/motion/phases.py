@@ -40,7 +40,7 @@ def of_phases(
         InvalidField: A speed is reached so fast that the switching times cannot be told apart.
     """
     own = [_alone(*one) for one in zip(starts, start_velocities, phases, strict=True)]
-    breaks = _merged([breaks for breaks, _ in own])
+    breaks = merged(np.concatenate([breaks for breaks, _ in own]), _SAME)
     _check_resolution(own, max(abs(start_time), abs(start_time + breaks[-1])), field)
     rows = np.empty((len(breaks) - 1, 3, len(own)))
     for j, (switches, c) in enumerate(own):
@@ -77,11 +77,10 @@ def _check_resolution(own: Sequence[tuple[Array, Array]], latest: float, field: 
             )
 
 
-def _merged(switches: Sequence[Array]) -> Array:
-    """Merge all switching times in order, dropping those that differ only by rounding; the last is the latest."""
-    times = np.unique(np.concatenate(switches))
-    kept = [0.0]
-    for time in times[times < times[-1] * (1.0 - _SAME)]:
-        if time - kept[-1] > _SAME * times[-1]:
-            kept.append(float(time))
-    return np.array([*kept, times[-1]])
+def merged(switches: Array, same: float) -> Array:
+    """Return 0 and all switching times in order, without those that differ by less than a share `same` of the last."""
+    times = np.sort(switches, axis=None)
+    last = times[-1]
+    inner = times[(times > same * last) & (times < last * (1.0 - same))]
+    is_new = np.diff(inner, prepend=-np.inf) > same * last
+    return np.concatenate(([0.0], inner[is_new], [last]))

@@ -6,6 +6,7 @@ code that plays, samples, scales or audits a motion needs to handle no other.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import comb
 
 import numpy as np
 
@@ -88,3 +89,50 @@ def joined(parts: Sequence[PiecewisePolynomial]) -> PiecewisePolynomial:
         breaks.append(breaks[-1][-1] + part.breaks[1:] - part.breaks[0])
         rows.append(np.pad(part.coefficients, ((0, 0), (0, degree - part.coefficients.shape[1]), (0, 0))))
     return PiecewisePolynomial(np.concatenate(breaks), np.concatenate(rows))
+
+
+def cut(path: PiecewisePolynomial, nodes: Array) -> Array:
+    """Return the coefficients of a path from each node to the next; shape (N, d + 1, n).
+
+    Args:
+        path: q(s), in M pieces.
+        nodes: Nodes, including all breaks of the path; shape (N + 1,).
+    """
+    i = np.clip(np.searchsorted(path.breaks, 0.5 * (nodes[:-1] + nodes[1:]), side="right") - 1, 0, None)
+    offsets = (nodes[:-1] - path.breaks[i])[:, None]
+    c = path.coefficients[i]
+    # Repeated Horner steps give the Taylor expansion about another point.
+    size = c.shape[1]
+    for k in range(size - 1):
+        for m in range(size - 2, k - 1, -1):
+            c[:, m] += offsets * c[:, m + 1]
+    return c
+
+
+def bernstein(c: Array) -> Array:
+    """Convert power coefficients of polynomials to Bernstein coefficients on [0, 1]; shape (N, d + 1, n)."""
+    degree = c.shape[1] - 1
+    matrix = [[comb(j, k) / comb(degree, k) for k in range(degree + 1)] for j in range(degree + 1)]
+    result: Array = np.array(matrix) @ c
+    return result
+
+
+def composed(pieces: Array, advance: Array) -> Array:
+    """Return the coefficients of Σ c_k σᵏ with σ = a_1 t + a_2 t² + …, by Horner's scheme.
+
+    Args:
+        pieces: c; shape (N, D + 1, n).
+        advance: a_1, a_2, …; shape (N, d, 1).
+
+    Returns:
+        Coefficients; shape (N, D d + 1, n).
+    """
+    result = pieces[:, -1:]
+    for k in range(pieces.shape[1] - 2, -1, -1):
+        size = result.shape[1]
+        longer = np.zeros((len(pieces), size + advance.shape[1], pieces.shape[2]))
+        for power in range(advance.shape[1]):
+            longer[:, power + 1 : power + 1 + size] += result * advance[:, power : power + 1]
+        longer[:, 0] += pieces[:, k]
+        result = longer
+    return result

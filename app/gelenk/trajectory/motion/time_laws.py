@@ -5,7 +5,7 @@ the cubic as q = q0 + Δq (a λ³ + b λ² + c λ + d), which requires Δq ≠ 0
 converts it where possible.
 """
 
-from math import factorial
+from math import comb, factorial
 from typing import Final
 
 import numpy as np
@@ -125,15 +125,9 @@ def _quartic(start: Array, end: Array, h: float) -> Array:
 
 def _reversed_quartic(c: Array, h: float) -> Array:
     """Return the coefficients of p(h - t) from those of p(t)."""
-    return np.array(
-        [
-            c[0] + h * (c[1] + h * (c[2] + h * (c[3] + h * c[4]))),
-            -(c[1] + h * (2.0 * c[2] + h * (3.0 * c[3] + h * 4.0 * c[4]))),
-            c[2] + h * (3.0 * c[3] + h * 6.0 * c[4]),
-            -(c[3] + 4.0 * h * c[4]),
-            c[4],
-        ]
-    )
+    shifted = [sum(comb(m, k) * h ** (m - k) * c[m] for m in range(k, 5)) for k in range(5)]
+    result: Array = np.array(shifted) * (-1.0) ** np.arange(5)[:, None]
+    return result
 
 
 def normalised(motion: PiecewisePolynomial, displacements: Array) -> list[list[float] | None]:

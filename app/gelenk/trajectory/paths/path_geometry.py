@@ -16,8 +16,7 @@ from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
 from gelenk.trajectory.audit.demands import TipLimits, Zone
 from gelenk.trajectory.motion.composition import derivatives
-from gelenk.trajectory.motion.intervals import cut
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut
 from gelenk.trajectory.paths.paths import Path
 from gelenk.trajectory.problem.problem import SegmentLimits
 
@@ -169,10 +168,8 @@ class LimitedPath:
             Indices of the pieces, and s; shape (N,) each.
         """
         lengths = np.diff(self.joints.breaks)
-        counts = np.maximum(np.ceil(lengths / lengths.sum() * count).astype(np.int64), least) + 1
-        piece = np.repeat(np.arange(len(counts)), counts)
-        within = np.arange(len(piece)) - np.repeat(np.cumsum(counts) - counts, counts)
-        tau = within / (counts - 1)[piece]
+        piece, within, steps = subdivided(lengths, count, least)
+        tau = within / steps
         return piece, np.where(
             tau == 1.0, self.joints.breaks[piece + 1], self.joints.breaks[piece] + tau * lengths[piece]
         )
@@ -213,6 +210,18 @@ def geometry_of(
         nodes = np.union1d(breaks, extra)
         joints = PiecewisePolynomial(nodes, cut(joints, nodes))
     return LimitedPath(joints, limits, path, tip_motion, zones, corners)
+
+
+def subdivided(lengths: Array, count: int, least: int) -> tuple[Indices, Indices, Indices]:
+    """Divide pieces into about `count` steps in all, at least `least` each.
+
+    Returns:
+        For each node, both ends included: its piece, its number within the piece, and the piece's steps; shape (N,).
+    """
+    counts = np.maximum(np.ceil(lengths / lengths.sum() * count).astype(np.int64), least) + 1
+    piece = np.repeat(np.arange(len(counts)), counts)
+    within = np.arange(len(piece)) - np.repeat(np.cumsum(counts) - counts, counts)
+    return piece, within, (counts - 1)[piece]
 
 
 def ratios(slopes: Slopes, limits: SegmentLimits, speeds: Array, accelerations: Array, jerks: Array) -> Array:

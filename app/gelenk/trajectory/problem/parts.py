@@ -1,6 +1,6 @@
 """A part of a trajectory, from rest to rest: one segment, or lines blended into one path."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
@@ -8,33 +8,10 @@ import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
-from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.demands import Demands
-from gelenk.trajectory.audit.words import StopReason
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.problem.problem import SegmentReport
-from gelenk.trajectory.problem.result import TimingComparison
-
-
-@dataclass(frozen=True, slots=True)
-class Halt:
-    """Why a part could not be completed.
-
-    Attributes:
-        reason: Kind of reason.
-        segment: Index of the segment that could not be completed, from 0.
-        share: Completed fraction of that segment, from 0 to 1.
-        position: Position of the tip at which the path could not continue; shape (3,), [m].
-        joint: Joint that is at its limit, if any.
-        detail: Explanation in a sentence.
-    """
-
-    reason: StopReason
-    segment: int
-    share: float
-    position: Array
-    joint: str | None
-    detail: str
+from gelenk.trajectory.problem.result import PlanningFailure, TimingComparison
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,25 +22,30 @@ class PlannedPart:
         motion: Joint motion, starting at 0 s; one piece of zero duration if nothing moves.
         reports: Reports of the segments that were started; their times count from the start of the part.
         demands: Requirements that the motion has to meet.
-        halt: Why the part ends early; None if it is complete.
+        failure: Why the part ends early; None if it is complete.
+        share: Completed fraction of its last segment, from 0 to 1.
         timing: Comparison of timings, if requested.
     """
 
     motion: PiecewisePolynomial
     reports: tuple[SegmentReport, ...]
     demands: Demands
-    halt: Halt | None = None
+    failure: PlanningFailure | None = None
+    share: float = 1.0
     timing: TimingComparison | None = None
 
     def slowed(self, factor: float) -> "PlannedPart":
         """Return the part slowed down to `factor` times its duration."""
         if factor == 1.0:
             return self
+        path = self.demands.path
+        zones = tuple(replace(one, begin=factor * one.begin, end=factor * one.end) for one in self.demands.zones)
+        slower = None if path is None else lambda times: path(times / factor)
         return replace(
             self,
             motion=self.motion.scaled(factor),
-            reports=tuple(report.slowed(factor) for report in self.reports),
-            demands=_slowed_demands(self.demands, factor),
+            reports=tuple(report.retimed(factor) for report in self.reports),
+            demands=replace(self.demands, path=slower, zones=zones),
         )
 
     def noted(self, notes: tuple[str, ...]) -> "PlannedPart":
@@ -71,10 +53,6 @@ class PlannedPart:
         if not notes:
             return self
         return replace(self, reports=tuple(replace(one, notes=(*one.notes, *notes)) for one in self.reports))
-
-    def moved(self, start: float) -> tuple[SegmentReport, ...]:
-        """Return the reports of its segments for a part that begins at `start`, [s]."""
-        return tuple(report.moved(start) for report in self.reports)
 
 
 def standing(configuration: Array, duration: float = 0.0) -> PiecewisePolynomial:
@@ -89,13 +67,3 @@ def in_field(field: str) -> Iterator[None]:
         yield
     except InvalidField as error:
         raise InvalidField(f"{field}.{error.field}", error.reason) from error
-
-
-def _slowed_demands(demands: Demands, factor: float) -> Demands:
-    zones = tuple(replace(one, begin=factor * one.begin, end=factor * one.end) for one in demands.zones)
-    path = None if demands.path is None else _slowed(demands.path, factor)
-    return replace(demands, path=path, zones=zones)
-
-
-def _slowed(path: Callable[[Array], Poses], factor: float) -> Callable[[Array], Poses]:
-    return lambda times: path(times / factor)

@@ -5,7 +5,6 @@ or the tip along a line, a circle or a spline. Each segment has its own time law
 two segments unless they are blended lines.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -157,19 +156,14 @@ class SegmentReport:
     blend: SegmentBlend | None = None
     notes: tuple[str, ...] = ()
 
-    def slowed(self, factor: float) -> "SegmentReport":
-        """Return the report of the motion slowed down to `factor` times its duration."""
-        return self._timed(lambda time: factor * time)
-
-    def moved(self, start: float) -> "SegmentReport":
-        """Return the report with all times moved later by `start`, [s]."""
-        return self._timed(lambda time: start + time)
-
-    def _timed(self, change: Callable[[float], float]) -> "SegmentReport":
+    def retimed(self, factor: float = 1.0, start: float = 0.0) -> "SegmentReport":
+        """Return the report of the motion in `factor` times its time, and later by `start`, [s]."""
         blend = self.blend
         if blend is not None:
-            blend = replace(blend, start_time=change(blend.start_time), end_time=change(blend.end_time))
-        return replace(self, start_time=change(self.start_time), end_time=change(self.end_time), blend=blend)
+            begin, end = start + factor * blend.start_time, start + factor * blend.end_time
+            blend = replace(blend, start_time=begin, end_time=end)
+        begin, end = start + factor * self.start_time, start + factor * self.end_time
+        return replace(self, start_time=begin, end_time=end, blend=blend)
 
 
 @dataclass(frozen=True, slots=True)

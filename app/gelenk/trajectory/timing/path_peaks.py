@@ -13,8 +13,7 @@ import numpy as np
 from gelenk.robot.arrays import Array, Indices
 from gelenk.trajectory.motion.composition import derivatives
 from gelenk.trajectory.motion.extremes import candidates
-from gelenk.trajectory.motion.intervals import bernstein, cut
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut
 from gelenk.trajectory.paths.path_geometry import (
     ACCELERATION,
     JOINTS,
@@ -23,6 +22,7 @@ from gelenk.trajectory.paths.path_geometry import (
     LimitedPath,
     TipMotion,
     of_order,
+    subdivided,
     tip_ratios,
 )
 from gelenk.trajectory.paths.paths import Path
@@ -138,10 +138,7 @@ def _of_tip(geometry: LimitedPath, motion: PiecewisePolynomial, law: PiecewisePo
         ratios = _along_path(geometry, geometry.path, along, places)
     else:
         return np.zeros(len(QUANTITIES) - JOINTS)
-    counts = np.maximum(np.ceil(widths / widths.sum() * _SAMPLES).astype(np.int64), _LEAST_SAMPLES) + 1
-    piece = np.repeat(np.arange(len(counts)), counts)
-    within = np.arange(len(piece)) - np.repeat(np.cumsum(counts) - counts, counts)
-    steps = (counts - 1)[piece]
+    piece, within, steps = subdivided(widths, _SAMPLES, _LEAST_SAMPLES)
     found = ratios(piece, within * widths[piece] / steps)
     largest: Array = found.max(axis=0)
     rows, columns = _promising(found, within, steps)

@@ -28,25 +28,25 @@ class Stages:
         upper: Offsets and slopes of the lines in x that bound u from above, ∞ and 0 for none; shape (2, N, m).
         lower: The same for those that bound u from below, -∞ and 0 for none.
         highest: Largest x at the start of each interval from which the motion can continue; shape (N,).
-        kept: Smallest fraction of x that must be left at the end of each interval; shape (N,).
+        least_shares: Smallest fraction of x that must be left at the end of each interval; shape (N,).
     """
 
     lengths: Array
     upper: Array
     lower: Array
     highest: Array
-    kept: Array
+    least_shares: Array
 
 
-def stages(lengths: Array, alpha: Array, beta: Array, kept: Array) -> Stages:
+def stages(lengths: Array, alpha: Array, beta: Array, least_shares: Array) -> Stages:
     """Build the constraints of intervals from their rows αu + βx ≤ 1.
 
     Args:
         lengths: Δ > 0; shape (N,).
         alpha: α; shape (N, m).
         beta: β; shape (N, m).
-        kept: Smallest fraction of x to leave at the end of an interval, from 0 to 1; shape (N,). Without it, where q'
-            of a joint changes sign, the largest x may be one from which the motion can only stop.
+        least_shares: Smallest fraction of x to leave at the end of an interval, from 0 to 1; shape (N,). Without it,
+            where q' of a joint changes sign, the largest x may be one from which the motion can only stop.
     """
     is_without = np.abs(alpha) <= _NO_WEIGHT * np.abs(alpha).max(axis=1, keepdims=True)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -55,10 +55,10 @@ def stages(lengths: Array, alpha: Array, beta: Array, kept: Array) -> Stages:
     is_above, is_below = ~is_without & (alpha > 0.0), ~is_without & (alpha < 0.0)
     upper = np.stack((np.where(is_above, offsets, np.inf), np.where(is_above, slopes, 0.0)))
     lower = np.stack((np.where(is_below, offsets, -np.inf), np.where(is_below, slopes, 0.0)))
-    # x_i + 2Δu ≥ kept x_i.
-    onward = np.stack((np.zeros_like(lengths), -0.5 * (1.0 - kept) / lengths))[:, :, None]
+    # x_i + 2Δu ≥ share x_i.
+    onward = np.stack((np.zeros_like(lengths), -0.5 * (1.0 - least_shares) / lengths))[:, :, None]
     highest = _highest(upper, np.concatenate((lower, onward), axis=2), np.minimum(bounds.min(axis=1), _UNBOUNDED))
-    return Stages(lengths, upper, lower, highest, kept)
+    return Stages(lengths, upper, lower, highest, least_shares)
 
 
 def _highest(upper: Array, lower: Array, x: Array) -> Array:
@@ -84,14 +84,14 @@ def _highest(upper: Array, lower: Array, x: Array) -> Array:
     return x
 
 
-def controllable(course: Stages, caps: Array) -> Array:
+def controllable(course: Stages, end: float) -> Array:
     """Return the largest x at each node from which the end can be reached; shape (N + 1,).
 
     Args:
         course: Constraints of the intervals.
-        caps: Further upper bound of x at each node; shape (N + 1,).
+        end: Largest x at the end.
     """
-    most: Array = np.minimum(np.append(course.highest, np.inf), caps)
+    most: Array = np.append(course.highest, end)
     halves = 0.5 / course.lengths
     climb = course.lower[1] + halves[:, None]
     with np.errstate(divide="ignore"):
@@ -100,8 +100,8 @@ def controllable(course: Stages, caps: Array) -> Array:
     for i in range(len(course.lengths) - 1, -1, -1):
         # No faster than the motion can brake to the largest x of the next node.
         most[i] = min(most[i], ((most[i + 1] * halves[i] - offsets[i]) * gains[i]).min())
-        if course.kept[i] > 0.0:
-            most[i] = min(most[i], most[i + 1] / course.kept[i])
+        if course.least_shares[i] > 0.0:
+            most[i] = min(most[i], most[i + 1] / course.least_shares[i])
     return most
 
 
