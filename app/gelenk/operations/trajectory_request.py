@@ -128,11 +128,7 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedL
 
 
 def _law(call: TrajectoryRequest, index: int) -> Law:
-    """Return the law of a segment; with `slow_down`, only `time_optimal` suits a path of the tip.
-
-    Raises:
-        InvalidField: The request names another law, and does not allow a fallback.
-    """
+    """Return the law of a segment; with `slow_down`, only `time_optimal` suits a path of the tip."""
     segment = call.segments[index]
     law = segment.law or call.law
     if law == "time_optimal" or call.near_singularity != "slow_down" or not _is_tip_path(segment):

@@ -147,11 +147,7 @@ def _zones(corners: Sequence[BlendedCorner], segments: Sequence[Segment], extent
 
 
 def _turns(rotations: Array, segments: Sequence[Segment], first: int) -> Sequence[Turn]:
-    """Return the turns from each orientation to the next; `zyz_other` changes the sign of θ.
-
-    Raises:
-        InvalidField: Some lines turn about an axis and others by ZYZ angles, which leaves no turn over the corner.
-    """
+    """Return the turns from each orientation to the next; `zyz_other` changes the sign of θ."""
     by_axis = [segment.orientation == "axis_angle" for segment in segments]
     if all(by_axis):
         return [axis_angle(*pair) for pair in pairwise(rotations)]
