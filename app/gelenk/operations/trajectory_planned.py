@@ -52,12 +52,7 @@ class TrajectorySizeLimits:
     numbers: int
 
     def check(self, call: TrajectoryRequest, chain: Chain, duration: float) -> None:
-        """Refuse a motion with too many samples.
-
-        Args:
-            call: Request with the sample period.
-            chain: Chain of the motion.
-            duration: Duration of the motion, or a lower bound of it, [s].
+        """Refuse a motion whose duration, or a lower bound of it, [s], makes too many samples.
 
         Raises:
             InvalidField: There are too many; the message gives an allowed period.

@@ -225,8 +225,7 @@ def _within(chain: Chain, value: Configuration, field: str) -> Array:
         check_limits(chain, rows)
     except OutsideLimits as error:
         raise replace(error, index=None, field=field) from None
-    configuration: Array = rows[0]
-    return configuration
+    return rows[0]
 
 
 def _matrix(pose: Pose, field: str) -> Array:

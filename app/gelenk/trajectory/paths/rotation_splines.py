@@ -160,8 +160,7 @@ def rate_matrices(thetas: Array) -> Array:
     """Return A(θ), the right Jacobian of SO(3); shape (N, 3) → (N, 3, 3)."""
     k1, k2, _, _ = _coefficients(np.linalg.norm(thetas, axis=1))
     crosses = skew(thetas)
-    matrices: Array = np.eye(3) - k1[:, None, None] * crosses + k2[:, None, None] * (crosses @ crosses)
-    return matrices
+    return np.eye(3) - k1[:, None, None] * crosses + k2[:, None, None] * (crosses @ crosses)
 
 
 def angular_motion(thetas: Array, rates: Array, second: Array) -> tuple[Array, Array]:
@@ -185,8 +184,7 @@ def _quadratic_part(coefficients: _Coefficients, thetas: Array, rates: Array) ->
 def _applied(k1: Array, k2: Array, thetas: Array, vectors: Array) -> Array:
     """Multiply A(θ) by vectors; shape (N, 3)."""
     once = _crossed(thetas, vectors)
-    products: Array = vectors - k1[:, None] * once + k2[:, None] * _crossed(thetas, once)
-    return products
+    return vectors - k1[:, None] * once + k2[:, None] * _crossed(thetas, once)
 
 
 def _crossed(a: Array, b: Array) -> Array:

@@ -114,8 +114,7 @@ class PolynomialPath:
         """Return the arc lengths between pairs of u that are close together; shape (N,), [m]."""
         half = 0.5 * (finish - begin)
         u = (begin + half)[:, None] + half[:, None] * _NODES
-        lengths: Array = half * (self._speeds(u.ravel()).reshape(u.shape) @ _WEIGHTS)
-        return lengths
+        return half * (self._speeds(u.ravel()).reshape(u.shape) @ _WEIGHTS)
 
     @cached_property
     def _velocity(self) -> PiecewisePolynomial:
