@@ -52,12 +52,7 @@ class TrajectorySizeLimits:
     numbers: int
 
     def check(self, call: TrajectoryRequest, chain: Chain, duration: float) -> None:
-        """Refuse a motion with too many samples.
-
-        Args:
-            call: Request with the sample period.
-            chain: Chain of the motion.
-            duration: Duration of the motion, or a lower bound of it, [s].
+        """Refuse a motion whose duration, or a lower bound of it, [s], makes too many samples.
 
         Raises:
             InvalidField: There are too many; the message gives an allowed period.
@@ -65,11 +60,12 @@ class TrajectorySizeLimits:
         period, most = call.sample_period, self._most(call, chain)
         if duration / period <= 2.0 * most and sample_count(duration, period) <= most:
             return
+        count = duration / period + 1.0
         # Rounded up, so that the period in the message is long enough.
         allowed = math.ceil(duration / (most - 1) * 1e6) / 1e6
         raise InvalidField(
             "sample_period",
-            f"{period:g} s makes {duration / period + 1.0:.0f} samples of {duration:.6g} s; at most {most} are "
+            f"{period:g} s makes {count:.0f} samples of {duration:.6g} s; at most {most} are "
             f"allowed, every {allowed:.6f} s",
         )
 

@@ -128,11 +128,7 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedL
 
 
 def _law(call: TrajectoryRequest, index: int) -> Law:
-    """Return the law of a segment; with `slow_down`, only `time_optimal` suits a path of the tip.
-
-    Raises:
-        InvalidField: The request names another law, and does not allow a fallback.
-    """
+    """Return the law of a segment; with `slow_down`, only `time_optimal` suits a path of the tip."""
     segment = call.segments[index]
     law = segment.law or call.law
     if law == "time_optimal" or call.near_singularity != "slow_down" or not _is_tip_path(segment):
@@ -229,8 +225,7 @@ def _within(chain: Chain, value: Configuration, field: str) -> Array:
         check_limits(chain, rows)
     except OutsideLimits as error:
         raise replace(error, index=None, field=field) from None
-    configuration: Array = rows[0]
-    return configuration
+    return rows[0]
 
 
 def _matrix(pose: Pose, field: str) -> Array:

@@ -89,8 +89,7 @@ class Pieces:
 
     def times(self, piece: Indices, tau: Array) -> Array:
         """Return the times at τ of some pieces, [s]."""
-        times: Array = self.starts[piece] + tau * self.widths[piece]
-        return times
+        return self.starts[piece] + tau * self.widths[piece]
 
 
 def pieces_of(motion: PiecewisePolynomial) -> Pieces:

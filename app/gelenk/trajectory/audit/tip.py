@@ -142,8 +142,7 @@ def _rounding(pieces: Pieces) -> Array:
     """Return the rounding of each of `QUANTITIES`, for a tip that hardly moves while the joints do."""
     velocity, acceleration = (float(np.abs(pieces.on(_ENDS, order)).max(initial=0.0)) for order in (1, 2))
     rates = np.repeat([velocity, max(acceleration, velocity**2), 1.0], 2)
-    rounding: Array = _ROUNDING * rates
-    return rounding
+    return _ROUNDING * rates
 
 
 def _tip_motion(chain: Chain, qs: Array, velocities: Array, accelerations: Array, Js: Array) -> list[Array]:
@@ -198,8 +197,7 @@ def _between(
 
     def values_at(tried: Array) -> Array:
         found = quantities(np.repeat(piece[rows], tried.shape[1]), tried.ravel())
-        values_there: Array = found.reshape(*tried.shape, -1)[each, :, columns]
-        return values_there
+        return found.reshape(*tried.shape, -1)[each, :, columns]
 
     near = rows[:, None] + np.arange(-1, 2)
     peaks, where = highest(values_at, places[near], values[near, columns[:, None]], exact[columns])

@@ -144,5 +144,4 @@ def _inverses(matrices: Array) -> Array:
 
 
 def _times(matrices: Array, vectors: Array) -> Array:
-    products: Array = (matrices @ vectors[:, :, None])[:, :, 0]
-    return products
+    return (matrices @ vectors[:, :, None])[:, :, 0]

@@ -190,8 +190,7 @@ def _step(rows: CountedRows) -> Array:
 def _applied(left: Array, sigmas: Array, right: Array, bs: Array) -> Array:
     """Return J⁺b from singular value decompositions of J; shape (N, n)."""
     gains = _gains(sigmas)
-    result: Array = ((gains[:, :, None] * (left.transpose(0, 2, 1) @ bs[:, :, None])).transpose(0, 2, 1) @ right)[:, 0]
-    return result
+    return ((gains[:, :, None] * (left.transpose(0, 2, 1) @ bs[:, :, None])).transpose(0, 2, 1) @ right)[:, 0]
 
 
 def _gains(sigmas: Array) -> Array:
@@ -224,8 +223,7 @@ def derivative_along(velocities: Velocities, at: PathSamples, q: Array, dq: Arra
         float(np.abs(dq).max()), float(np.abs(at.first[:, 3:]).max()), 1e-300
     )
     places = PLACES * step
-    result: Array = STENCIL @ velocities(beside(at, places), q + places[:, None] * dq)[0] / step
-    return result
+    return STENCIL @ velocities(beside(at, places), q + places[:, None] * dq)[0] / step
 
 
 def beside(at: PathSamples, places: Array) -> PathSamples:

@@ -74,8 +74,7 @@ class Piece:
 
 def rates_of(taus: Array, order: int, data: Array) -> Array:
     """Return a derivative by τ of a quintic at places from 0 to 1; shape (N, n)."""
-    result: Array = _basis(taus, order) @ data
-    return result
+    return _basis(taus, order) @ data
 
 
 def end_conditions(a: Knot, b: Knot) -> Array:

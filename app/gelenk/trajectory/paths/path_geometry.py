@@ -133,8 +133,7 @@ class LimitedPath:
     def piece_of(self, s: Array) -> Indices:
         """Return the index of the piece of q(s) at each place, the later one at a break; shape (N,)."""
         last = len(self.joints.breaks) - 2
-        found: Indices = np.clip(np.searchsorted(self.joints.breaks, s, side="right") - 1, 0, last)
-        return found
+        return np.clip(np.searchsorted(self.joints.breaks, s, side="right") - 1, 0, last)
 
     def at(self, piece: Indices, s: Array) -> Slopes:
         """Return the derivatives at places s; the pieces distinguish the two sides of a break; shape (N,) each."""
@@ -166,8 +165,7 @@ class LimitedPath:
         """Return the values of s at which q'' jumps; shape (m,)."""
         (jumps, bend), (_, slope) = _jumps(self.joints, 2), _jumps(self.joints, 1)
         scale = max(bend, _BEND * slope / self.joints.duration)
-        found: Array = self.joints.breaks[1:-1][jumps > _BEND * scale]
-        return found
+        return self.joints.breaks[1:-1][jumps > _BEND * scale]
 
     def parts(self) -> tuple["LimitedPath", ...]:
         """Cut the path where q' jumps, because the motion has to stop there."""

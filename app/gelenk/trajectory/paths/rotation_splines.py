@@ -110,9 +110,10 @@ def _solve(steps: Array, widths: Array, inverses: Array, omegas: Array) -> None:
     fixed[0] -= 2.0 * (rate_matrices(steps[:1])[0] @ omegas[0]) / widths[0]
     fixed[-1] -= 2.0 * (inverses[-1] @ omegas[-1]) / widths[-1]
     factors, pivots = _eliminated(lower, diagonal, upper)
+    coefficients = _coefficients(sizes(steps[:-1]))
     for _ in range(_ITERATIONS):
         rates = _turned(inverses[:-1], omegas[1:-1])
-        found = _substituted(factors, pivots, upper, fixed - quadratic_part(steps[:-1], rates))
+        found = _substituted(factors, pivots, upper, fixed - _quadratic_part(coefficients, steps[:-1], rates))
         change = np.abs(found - omegas[1:-1]).max()
         omegas[1:-1] = found
         if change <= _CONVERGED * max(1.0, float(np.abs(found).max())):
@@ -144,9 +145,7 @@ def _substituted(factors: Array, pivots: Array, upper: Array, right: Array) -> A
 
 
 def _turned(matrices: Array, vectors: Array) -> Array:
-    """Multiply each matrix by its vector; shapes (N, 3, 3) and (N, 3)."""
-    products: Array = np.einsum("nij,nj->ni", matrices, vectors)
-    return products
+    return cast(Array, np.einsum("nij,nj->ni", matrices, vectors))
 
 
 def skew(vectors: Array) -> Array:
@@ -161,24 +160,19 @@ def rate_matrices(thetas: Array) -> Array:
     """Return A(θ), the right Jacobian of SO(3); shape (N, 3) → (N, 3, 3)."""
     k1, k2, _, _ = _coefficients(np.linalg.norm(thetas, axis=1))
     crosses = skew(thetas)
-    matrices: Array = np.eye(3) - k1[:, None, None] * crosses + k2[:, None, None] * (crosses @ crosses)
-    return matrices
+    return np.eye(3) - k1[:, None, None] * crosses + k2[:, None, None] * (crosses @ crosses)
 
 
 def angular_motion(thetas: Array, rates: Array, second: Array) -> tuple[Array, Array]:
     """Return ω and ω̇ in the moving frame's axes from θ, θ̇, θ̈; shape (N, 3) each, [rad/s] and [rad/s²]."""
-    coefficients = _coefficients(_sizes(thetas))
+    coefficients = _coefficients(sizes(thetas))
     k1, k2 = coefficients[:2]
     quadratic = _quadratic_part(coefficients, thetas, rates)
     return _applied(k1, k2, thetas, rates), _applied(k1, k2, thetas, second) + quadratic
 
 
-def quadratic_part(thetas: Array, rates: Array) -> Array:
-    """Return β(θ, θ̇), the angular acceleration for θ̈ = 0; shape (N, 3) each."""
-    return _quadratic_part(_coefficients(_sizes(thetas)), thetas, rates)
-
-
 def _quadratic_part(coefficients: _Coefficients, thetas: Array, rates: Array) -> Array:
+    """Return β(θ, θ̇), the angular acceleration for θ̈ = 0; shape (N, 3) each."""
     _, k2, slope1, slope2 = coefficients
     growth = np.einsum("ij,ij->i", thetas, rates)
     once = _crossed(thetas, rates)
@@ -190,8 +184,7 @@ def _quadratic_part(coefficients: _Coefficients, thetas: Array, rates: Array) ->
 def _applied(k1: Array, k2: Array, thetas: Array, vectors: Array) -> Array:
     """Multiply A(θ) by vectors; shape (N, 3)."""
     once = _crossed(thetas, vectors)
-    products: Array = vectors - k1[:, None] * once + k2[:, None] * _crossed(thetas, once)
-    return products
+    return vectors - k1[:, None] * once + k2[:, None] * _crossed(thetas, once)
 
 
 def _crossed(a: Array, b: Array) -> Array:
@@ -202,9 +195,9 @@ def _crossed(a: Array, b: Array) -> Array:
     return products
 
 
-def _sizes(vectors: Array) -> Array:
-    sizes: Array = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
-    return sizes
+def sizes(vectors: Array) -> Array:
+    """Return the lengths of vectors of shape (N, 3); shape (N,)."""
+    return cast(Array, np.sqrt(np.einsum("ij,ij->i", vectors, vectors)))
 
 
 def _coefficients(n: Array) -> _Coefficients:

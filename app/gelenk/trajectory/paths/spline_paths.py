@@ -32,7 +32,7 @@ from gelenk.trajectory.paths.paths import (
     refuse_reversal,
     through_orientations,
 )
-from gelenk.trajectory.paths.rotation_splines import rotation_corner
+from gelenk.trajectory.paths.rotation_splines import rotation_corner, sizes
 from gelenk.trajectory.paths.zyz_paths import ZyzPath, zyz_corner
 
 SplineBoundary: TypeAlias = Literal["natural", "not_a_knot", "periodic"]
@@ -89,7 +89,7 @@ class PolynomialPath:
         positions, first, second = self.position.rates_at(u)
         rotations, rates, changes = self.orientation.at(x)
         rates, changes = rates / width, changes / width**2
-        speeds = _sizes(first)[:, None]
+        speeds = sizes(first)[:, None]
         tangents = first / np.maximum(speeds, np.finfo(float).tiny)
         growth = np.einsum("ij,ij->i", tangents, second)[:, None]
         by_s = np.hstack((tangents, rates / speeds))
@@ -114,22 +114,21 @@ class PolynomialPath:
         """Return the arc lengths between pairs of u that are close together; shape (N,), [m]."""
         half = 0.5 * (finish - begin)
         u = (begin + half)[:, None] + half[:, None] * _NODES
-        lengths: Array = half * (self._speeds(u.ravel()).reshape(u.shape) @ _WEIGHTS)
-        return lengths
+        return half * (self._speeds(u.ravel()).reshape(u.shape) @ _WEIGHTS)
 
     @cached_property
     def _velocity(self) -> PiecewisePolynomial:
         return self.position.derivative()
 
     def _speeds(self, u: Array) -> Array:
-        return _sizes(self._velocity.at(u))
+        return sizes(self._velocity.at(u))
 
     @cached_property
     def _inverse(self) -> PiecewisePolynomial:
         """Approximation of u(s): quintics with its value and two derivatives at the edges of the panels."""
         edges, lengths = self._table
         _, first, second = self.position.rates_at(edges)
-        slopes = 1.0 / np.maximum(_sizes(first), np.finfo(float).tiny)
+        slopes = 1.0 / np.maximum(sizes(first), np.finfo(float).tiny)
         bends = -np.einsum("ij,ij->i", first, second) * slopes**4
         ends = np.stack((edges, slopes, bends))[:, :, None]
         return PiecewisePolynomial(lengths, hermite_pieces(ends[:, :-1], ends[:, 1:], np.diff(lengths)))
@@ -242,8 +241,3 @@ def _turn_over(turns: Sequence[Turn], entry: float, leaving: float) -> Orientati
         return zyz_corner(before.triple_at(entry), after.triple_at(0.0), after.triple_at(leaving))
     at_entry = before.at(np.array([entry]))[0][0]
     return rotation_corner(at_entry, *after.at(np.array([0.0, leaving]))[0])
-
-
-def _sizes(vectors: Array) -> Array:
-    sizes: Array = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
-    return sizes
