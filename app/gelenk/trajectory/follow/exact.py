@@ -15,8 +15,8 @@ from gelenk.trajectory.audit.result import PathError
 from gelenk.trajectory.follow.bounds import SLACK
 from gelenk.trajectory.follow.rate_field import RateField
 from gelenk.trajectory.follow.rows import row_derivatives, task_rows
-from gelenk.trajectory.motion.composition import RATES_KNOWN, derivatives
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut
+from gelenk.trajectory.motion.composition import RATES_KNOWN
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut, derivatives
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.timing import Timed
@@ -112,7 +112,7 @@ def _divided(field: RateField, positions: PiecewisePolynomial, parts: Indices) -
     new = share > 0.0
     starts[:, new] = _exact(field, breaks[:-1][new], *starts[:, new])[0]
     ends = np.roll(starts, -1, axis=1)
-    ends[:, np.append(~new[1:], True)] = np.stack(derivatives(positions.coefficients, widths[:, None])[:3])
+    ends[:, np.append(~new[1:], True)] = np.stack(derivatives(positions.coefficients, widths[:, None], 2))
     lengths = np.diff(breaks)
     coefficients = hermite_pieces(starts, ends, lengths)
     hull = bernstein(coefficients * lengths[:, None, None] ** np.arange(coefficients.shape[1])[:, None])

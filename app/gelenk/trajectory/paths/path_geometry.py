@@ -15,8 +15,7 @@ from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
 from gelenk.trajectory.audit.demands import TipLimits, Zone
-from gelenk.trajectory.motion.composition import derivatives
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut, derivatives
 from gelenk.trajectory.paths.paths import Path
 from gelenk.trajectory.problem.problem import SegmentLimits
 
@@ -146,7 +145,7 @@ class LimitedPath:
         """Return ξ_s and ξ_s' of a tip with limits; shape (2, N, 6)."""
         local = (s - self.joints.breaks[piece])[:, None]
         motion = cast(TipMotion, self.tip_motion)
-        return np.stack(motion(*derivatives(self.joints.coefficients[piece], local)[:3]))
+        return np.stack(motion(*derivatives(self.joints.coefficients[piece], local, 2)))
 
     def samples(self, count: int, least: int) -> tuple[Indices, Array]:
         """Sample about `count` places in order, with at least `least` intervals and both ends of each piece.

@@ -12,8 +12,7 @@ import numpy as np
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.jerk_limited import jerk_limited
-from gelenk.trajectory.motion.composition import derivatives
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, derivatives, joined
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.paths.path_geometry import ORDERS, LimitedPath, Slopes, of_order, ratios
 

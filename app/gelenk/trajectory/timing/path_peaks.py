@@ -11,9 +11,8 @@ from typing import TypeAlias, cast
 import numpy as np
 
 from gelenk.robot.arrays import Array, Indices
-from gelenk.trajectory.motion.composition import derivatives
 from gelenk.trajectory.motion.extremes import candidates
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, derivatives
 from gelenk.trajectory.paths.path_geometry import (
     ACCELERATION,
     JOINTS,
@@ -131,8 +130,8 @@ def _of_tip(geometry: LimitedPath, motion: PiecewisePolynomial, law: PiecewisePo
     tip_motion, bounds = cast(TipMotion, geometry.tip_motion), geometry.tip_bounds(geometry.piece_of(middles))
 
     def ratios(piece: Indices, local: Array) -> Array:
-        rates = derivatives(motion.coefficients[piece], local[:, None])
-        return tip_ratios(*tip_motion(*rates[:3]), bounds[piece])
+        rates = derivatives(motion.coefficients[piece], local[:, None], 2)
+        return tip_ratios(*tip_motion(*rates), bounds[piece])
 
     piece, within, steps = subdivided(widths, _SAMPLES, _LEAST_SAMPLES)
     found = ratios(piece, within * widths[piece] / steps)
