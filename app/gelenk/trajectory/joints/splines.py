@@ -93,7 +93,7 @@ class JointSpline:
             motion = self._fastest()
             if segment.duration is None:
                 return motion
-            return lasting(motion, segment.duration, kept_limits(segment.law, segment.limits))
+            return lasting(motion, segment.duration, segment.law, segment.limits)
         scaling = self._scaling_at_times()
         if scaling.course_factor > 1.0 + ROUNDING:
             bound = scaling.binding

@@ -89,11 +89,7 @@ class Scaling:
 
 
 def check_limits(limits: Iterable[Array]) -> None:
-    """Check that limits of velocity, acceleration and so on, of shape (n,) each, are usable numbers.
-
-    Raises:
-        InvalidField: A limit is not.
-    """
+    """Refuse limits of velocity, acceleration and so on, (n,) each, that are not usable, with `InvalidField`."""
     for quantity, values in zip(QUANTITIES, limits, strict=False):
         wrong = ~((values >= SMALLEST) & (values <= LARGEST))
         if wrong.any():
