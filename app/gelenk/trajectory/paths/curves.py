@@ -5,7 +5,7 @@ A curve gives its position p(s), its unit tangent dp/ds, and d²p/ds², whose le
 
 import math
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TypeAlias
 
 import numpy as np
 
@@ -14,17 +14,6 @@ from gelenk.robot.arrays import Array
 
 COLLINEAR = 1e-6
 """Sine of the angle at the via point, or at either end, below which three points count as collinear."""
-
-
-class Curve(Protocol):
-    """A curve in space."""
-
-    @property
-    def length(self) -> float:
-        """Total arc length, [m]."""
-
-    def at(self, s: Array) -> tuple[Array, Array, Array]:
-        """Return position [m], unit tangent and d²p/ds² [1/m] at arc lengths [m]; shape (N,) → three of (N, 3)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +34,7 @@ class Line:
         return math.dist(self.start, self.end)
 
     def at(self, s: Array) -> tuple[Array, Array, Array]:
-        """See `Curve`."""
+        """Return position [m], unit tangent and d²p/ds² [1/m] at arc lengths [m]; shape (N,) → three of (N, 3)."""
         length = self.length
         direction = (self.end - self.start) / length if length > 0.0 else np.zeros(3)
         still = np.zeros((len(s), 3))
@@ -81,10 +70,13 @@ class Arc:
         return self.radius * self.angle
 
     def at(self, s: Array) -> tuple[Array, Array, Array]:
-        """See `Curve`."""
+        """See `Line`."""
         cosines, sines = np.cos(s / self.radius)[:, None], np.sin(s / self.radius)[:, None]
         outwards = cosines * self.x + sines * self.y
         return self.centre + self.radius * outwards, cosines * self.y - sines * self.x, -outwards / self.radius
+
+
+Curve: TypeAlias = Line | Arc
 
 
 def arc_through(start: Array, via: Array, end: Array) -> Arc:

@@ -12,9 +12,9 @@ from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.demands import TipLimits, Zone
-from gelenk.trajectory.paths.orientation_paths import Turn, axis_angle
+from gelenk.trajectory.paths.orientation_paths import axis_angle
 from gelenk.trajectory.paths.paths import POINT, Path, circle, line, refuse_reversal
-from gelenk.trajectory.paths.spline_paths import PolynomialPath, SplineBoundary, blended_lines, spline
+from gelenk.trajectory.paths.spline_paths import PolynomialPath, SplineBoundary, Turn, blended_lines, spline
 from gelenk.trajectory.paths.zyz_paths import zyz_turns
 from gelenk.trajectory.problem.parts import in_field
 from gelenk.trajectory.problem.problem import Segment

@@ -20,7 +20,7 @@ from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.paths.curves import Line
-from gelenk.trajectory.paths.orientation_paths import OrientationPath, Turn, axis_angle
+from gelenk.trajectory.paths.orientation_paths import AxisAnglePath, OrientationPath, axis_angle
 from gelenk.trajectory.paths.paths import (
     POINT,
     CurvePath,
@@ -35,6 +35,7 @@ from gelenk.trajectory.paths.paths import (
 from gelenk.trajectory.paths.rotation_splines import rotation_corner, sizes
 from gelenk.trajectory.paths.zyz_paths import ZyzPath, zyz_corner
 
+Turn: TypeAlias = AxisAnglePath | ZyzPath
 SplineBoundary: TypeAlias = Literal["natural", "not_a_knot", "periodic"]
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)

@@ -49,7 +49,7 @@ class ZyzPath:
         return _motion(*self.angles.rates_at(x))
 
     def part(self, begin: float, finish: float) -> "ZyzPath":
-        """See `Turn`; the angles are linear in x."""
+        """Return the part of a turn between two values of x; its angles are linear in x."""
         return _polynomial(self.triple_at(begin), (finish - begin) * self.angles.coefficients[0, 1])
 
 
