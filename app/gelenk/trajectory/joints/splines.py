@@ -58,12 +58,7 @@ class JointSpline:
 
     @classmethod
     def of(cls, start: Array, segment: Segment, chain: Chain) -> "JointSpline":
-        """Return the spline of a segment with `configurations`.
-
-        Args:
-            start: The first knot; shape (n,), [rad or m].
-            segment: The segment.
-            chain: The moving chain.
+        """Return the spline of a segment with `configurations`, from a start of shape (n,), [rad or m].
 
         Raises:
             InvalidField: There is no such spline, its times are impossible, or a waypoint is outside limits.

@@ -25,9 +25,9 @@ _CRUISES, _SLOWEST, _CAPS, _HALVINGS = 3, 32.0, 11, 4
 _STEP = 2.0
 """Largest factor by which the speeds at both ends are lowered in one round, if no law connects them."""
 _ROUNDS = 60
-_KEPT = 1e-6
+_EXCESS = 1e-6
 """Excess over a limit that a final uniform scaling removes."""
-_ENOUGH = 1.0 + _KEPT
+_ENOUGH = 1.0 + _EXCESS
 _NO_LENGTH = 1e-9
 """Least length of a line between two blends, in fractions of the path."""
 
@@ -98,7 +98,7 @@ class _Chain:
         good_laws = [law for law, factor in found if factor <= _ENOUGH]
         if good_laws:
             return min(good_laws, key=lambda law: law.duration), 1.0
-        return None, float(np.clip(min((factor for _, factor in found), default=_STEP), 1.0 + 2.0 * _KEPT, _STEP))
+        return None, float(np.clip(min((factor for _, factor in found), default=_STEP), 1.0 + 2.0 * _EXCESS, _STEP))
 
     def _under(self, start: Array, end: Array, limits: Array) -> tuple[PiecewisePolynomial | None, float]:
         """Return the jerk-limited profile from one state to another, if any, and its k; ∞ if it turns back."""
@@ -130,7 +130,7 @@ class _Chain:
         rows = np.repeat(pieces, count, axis=0)
         law = [values.reshape(t.shape) for values in derivatives(rows, t.reshape(-1, 1))]
         factors: Array = self.factors(*law).max(axis=1)
-        factors[law[1].min(axis=1) < -_KEPT * speed] = np.inf
+        factors[law[1].min(axis=1) < -_EXCESS * speed] = np.inf
         return factors
 
 
@@ -158,7 +158,7 @@ def chain_law(geometry: LimitedPath, count: int | None) -> PiecewisePolynomial |
         for i, (first, last) in enumerate(lines.tolist()):
             law, factor = chain.line(first, last, speeds[i : i + 2])
             laws.append(law)
-            if factor > 1.0 + _KEPT:
+            if factor > 1.0 + _EXCESS:
                 speeds[i : i + 2] /= factor
         if (speeds == before).all():
             break

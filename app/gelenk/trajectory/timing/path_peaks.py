@@ -174,5 +174,5 @@ def _promising(found: Array, within: Indices, steps: Indices) -> tuple[Indices, 
         heights = np.where(rises, at + vertex * (slope - 0.5 * bend * vertex), 0.0)
     chosen = np.argsort(heights, axis=0)[-_CANDIDATES:]
     columns = np.broadcast_to(np.arange(found.shape[1]), chosen.shape)
-    kept = np.take_along_axis(heights, chosen, axis=0) > found.max(axis=0) * (1.0 - _DOUBT)
-    return rows[chosen[kept]], columns[kept]
+    is_near = np.take_along_axis(heights, chosen, axis=0) > found.max(axis=0) * (1.0 - _DOUBT)
+    return rows[chosen[is_near]], columns[is_near]

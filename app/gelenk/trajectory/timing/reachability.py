@@ -84,38 +84,38 @@ def _highest(upper: Array, lower: Array, x: Array) -> Array:
     return x
 
 
-def controllable(course: Stages, end: float) -> Array:
+def controllable(constraints: Stages, end: float) -> Array:
     """Return the largest x at each node from which the end can be reached; shape (N + 1,).
 
     Args:
-        course: Constraints of the intervals.
+        constraints: Constraints of the intervals.
         end: Largest x at the end.
     """
-    most: Array = np.append(course.highest, end)
-    halves = 0.5 / course.lengths
-    climb = course.lower[1] + halves[:, None]
+    most: Array = np.append(constraints.highest, end)
+    halves = 0.5 / constraints.lengths
+    climb = constraints.lower[1] + halves[:, None]
     with np.errstate(divide="ignore"):
         gains = np.where(climb > 0.0, 1.0 / climb, np.inf)
-    offsets = course.lower[0]
-    for i in range(len(course.lengths) - 1, -1, -1):
+    offsets = constraints.lower[0]
+    for i in range(len(constraints.lengths) - 1, -1, -1):
         # No faster than the motion can brake to the largest x of the next node.
         most[i] = min(most[i], ((most[i + 1] * halves[i] - offsets[i]) * gains[i]).min())
-        if course.least_shares[i] > 0.0:
-            most[i] = min(most[i], most[i + 1] / course.least_shares[i])
+        if constraints.least_shares[i] > 0.0:
+            most[i] = min(most[i], most[i + 1] / constraints.least_shares[i])
     return most
 
 
-def fastest(course: Stages, most: Array, start: float) -> Array:
+def fastest(constraints: Stages, most: Array, start: float) -> Array:
     """Return x at each node for the largest u in every interval that keeps x within bounds; shape (N + 1,).
 
     Args:
-        course: Constraints of the intervals.
+        constraints: Constraints of the intervals.
         most: Largest x at each node; shape (N + 1,).
         start: Largest x at the first node.
     """
     x = min(start, most[0])
     found = [x]
-    for twice, offsets, slopes, upper in zip(2.0 * course.lengths, *course.upper, most[1:], strict=True):
+    for twice, offsets, slopes, upper in zip(2.0 * constraints.lengths, *constraints.upper, most[1:], strict=True):
         u = (offsets + slopes * x).min()
         x = max(min(x + twice * u, upper), 0.0)
         found.append(x)

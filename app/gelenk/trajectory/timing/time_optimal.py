@@ -170,9 +170,9 @@ def _squared_speeds(task: _Task, nodes: Array) -> Array:
     if task.rows is not None:
         more = task.rows(nodes)
         alpha, beta = np.hstack((alpha, more[0])), np.hstack((beta, more[1]))
-    course = stages(lengths, alpha, beta, least_shares)
+    constraints = stages(lengths, alpha, beta, least_shares)
     start, end = task.most_at_ends
-    return fastest(course, controllable(course, end), start)
+    return fastest(constraints, controllable(constraints, end), start)
 
 
 def _rows(pieces: Array, lengths: Array, limits: Array) -> tuple[Array, Array]:
