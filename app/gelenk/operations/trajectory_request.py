@@ -105,9 +105,9 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedL
         stated_jerk=np.where(stated, bounds.limits.jerk, np.inf) if stated.any() else None,
     )
     match segment:
-        case JointSegment(target=Pose() as pose):
-            return replace(part, pose=_matrix(pose, f"{place}.target"))
         case JointSegment():
+            if isinstance(segment.target, Pose):
+                return replace(part, pose=_matrix(segment.target, f"{place}.target"))
             return replace(part, configuration=_within(chain, segment.target, f"{place}.target"))
         case LineSegment():
             _check_blend(call.segments, index)
@@ -225,7 +225,8 @@ def _within(chain: Chain, value: Configuration, field: str) -> Array:
         check_limits(chain, rows)
     except OutsideLimits as error:
         raise replace(error, index=None, field=field) from None
-    return rows[0]
+    configuration: Array = rows[0]
+    return configuration
 
 
 def _matrix(pose: Pose, field: str) -> Array:

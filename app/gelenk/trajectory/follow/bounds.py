@@ -124,7 +124,7 @@ def located(
     field: RateField, piece: Piece, crossing: Crossing, stretch: tuple[float, float]
 ) -> tuple[Piece | None, Crossing]:
     """Locate a violation in a piece more exactly; return the part of the piece before it (None if empty) too."""
-    good, bad, kept = piece.a.s, crossing.bad, None
+    good, bad, end = piece.a.s, crossing.bad, None
     kind, joint = crossing.kind, crossing.joint
     room, lack = _margin(field, piece.a, crossing.floor), -np.inf
     closest = _CLOSEST * piece.width
@@ -135,16 +135,16 @@ def located(
         knot = knot_within(field, piece, middle, stretch)
         margin = -np.inf if knot is None else _margin(field, knot, crossing.floor)
         if knot is not None and margin >= 0.0:
-            good, kept, room, lack = middle, knot, margin, 0.5 * lack
+            good, end, room, lack = middle, knot, margin, 0.5 * lack
             continue
         joint = None if knot is None else _outside(field, knot)
         kind = "lost" if knot is None else "threshold" if joint is None else "joint_limit"
         bad, lack, room = middle, margin, 0.5 * room
     found = Crossing(good, bad, kind, joint, crossing.floor)
-    if kept is None:
+    if end is None:
         return None, found
-    at = field.samples(piece.a.s + (kept.s - piece.a.s) * INNER, *stretch)
-    return piece_between(field, piece.a, kept, at), found
+    at = field.samples(piece.a.s + (end.s - piece.a.s) * INNER, *stretch)
+    return piece_between(field, piece.a, end, at), found
 
 
 def _between(good: float, bad: float, room: float, lack: float, closest: float) -> float:

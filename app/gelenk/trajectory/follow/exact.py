@@ -117,8 +117,8 @@ def _divided(field: RateField, positions: PiecewisePolynomial, parts: Indices) -
     coefficients = hermite_pieces(starts, ends, lengths)
     hull = bernstein(coefficients * lengths[:, None, None] ** np.arange(coefficients.shape[1])[:, None])
     beyond = (hull < field.chain.lower - SLACK) | (hull > field.chain.upper + SLACK)
-    kept = np.isin(piece, piece[beyond.any(axis=(1, 2))])
-    coefficients[kept] = own[kept]
+    unchanged = np.isin(piece, piece[beyond.any(axis=(1, 2))])
+    coefficients[unchanged] = own[unchanged]
     return PiecewisePolynomial(breaks, coefficients)
 
 

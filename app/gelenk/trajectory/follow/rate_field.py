@@ -12,6 +12,7 @@ from typing import TypeAlias
 import numpy as np
 
 from gelenk.ik.search.task import Task
+from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.notations import rotations_from_vectors
@@ -101,6 +102,10 @@ class RateField:
     def samples(self, s: Array, begin: float, end: float) -> PathSamples:
         """Sample the path between two of its breaks; at the end the derivatives are those before the break."""
         return self.path.at(np.minimum(np.maximum(s, begin), end - 8.0 * np.spacing(end)))
+
+    def errors(self, at: PathSamples, qs: Array) -> Array:
+        """Return the distances [m] and angles [rad] of configurations from the path; shape (2, N)."""
+        return self.task.errors(at.poses, Poses(*chain_poses(self.chain.flat, qs)))
 
     def velocities(self, at: PathSamples, qs: Array) -> tuple[Array, Array]:
         """Return the field's rates q', shape (N, n), and the smallest singular value, shape (N,)."""

@@ -9,9 +9,7 @@ from math import comb, perm
 
 import numpy as np
 
-from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array
-from gelenk.robot.poses import Poses
 from gelenk.trajectory.follow.rate_field import SHARE, Knot, RateField, taken
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.paths.paths import PathSamples
@@ -97,8 +95,7 @@ def piece_between(field: RateField, a: Knot, b: Knot, at: PathSamples) -> Piece:
     velocities, sigmas = field.velocities(at, qs)
     fastest = max(float(np.abs(velocities).max()), float(np.abs(data[[1, 4]]).max()) / h, 1e-300)
     rate_ratio = float(np.abs(_RATES @ data / h - velocities).max()) / (RATE_TOLERANCE * fastest + 20.0 * a.offset / h)
-    errors = field.task.errors(at.poses, Poses(*chain_poses(field.chain.flat, qs)))
-    deviations = errors.max(axis=1)
+    deviations = field.errors(at, qs).max(axis=1)
     ratio = max(rate_ratio, float((deviations / (SHARE * np.array(field.tolerances) + 10.0 * a.offset)).max()))
     return Piece(a, b, data, np.concatenate(([a.sigma], sigmas, [b.sigma])), deviations, ratio)
 
