@@ -14,19 +14,8 @@ from matplotlib.figure import Figure
 
 from gelenk.kinematics.ellipsoids.limited_motion import LimitedMotion
 from gelenk.kinematics.ellipsoids.manipulability import Ellipsoids, is_within_task, space_of, transmission_ratios
+from gelenk.plots import figure as style
 from gelenk.plots.arm import ArmLine, arm_line
-from gelenk.plots.figure import (
-    FORCE,
-    INK,
-    LINE,
-    LINK,
-    VELOCITY,
-    PictureFormat,
-    as_bytes,
-    metric_axes,
-    new_figure,
-    plain,
-)
 from gelenk.plots.legend import LegendRow, configuration_lines, legend, legend_height, write_head, write_legend
 from gelenk.plots.shadows import (
     DASHED,
@@ -101,7 +90,7 @@ def manipulability_picture(
     chain: Chain,
     q: Array,
     translation: Ellipsoids | None,
-    kind: PictureFormat,
+    kind: style.PictureFormat,
     asked: Overlay = NOTHING_MORE,
 ) -> bytes:
     """Draw the arm with its ellipsoids.
@@ -123,13 +112,13 @@ def manipulability_picture(
     arrows = _arrows(translation, quantities, asked)
     scene = Scene(arm, extent, quantities, outlines, arrows)
     entries = legend(quantities, outlines, arrows, translation)
-    title = f"{plain(name)}: {plain(chain.base_frame)} → {plain(chain.tip_frame)}"
+    title = f"{style.plain(name)}: {style.plain(chain.base_frame)} → {style.plain(chain.tip_frame)}"
     figure = (
         _in_projections(scene, title, chain, q, entries)
         if plane is None
         else _in_plane(scene, plane, title, chain, q, entries)
     )
-    return as_bytes(figure, kind)
+    return style.as_bytes(figure, kind)
 
 
 def _plane(chain: Chain, translation: Ellipsoids | None) -> Array | None:
@@ -158,16 +147,16 @@ def _quantities(chain: Chain, translation: Ellipsoids, extent: float) -> tuple[Q
     velocity, force = _units(chain)
     inverses = np.divide(1.0, sigmas, out=np.full_like(sigmas, np.inf), where=sigmas > 0.0)
     return (
-        Quantity("Velocity", f"m/s per {velocity}", VELOCITY, SOLID, axes, sigmas, _scale(sigmas, extent)),
-        Quantity("Force", f"N per {force}", FORCE, DASHED, axes, inverses, _scale(inverses, extent)),
+        Quantity("Velocity", f"m/s per {velocity}", style.VELOCITY, SOLID, axes, sigmas, _scale(sigmas, extent)),
+        Quantity("Force", f"N per {force}", style.FORCE, DASHED, axes, inverses, _scale(inverses, extent)),
     )
 
 
 def _outlines(translation: Ellipsoids, limited: LimitedMotion, extent: float) -> tuple[Outline, ...]:
     found = []
     for name, unit, color, numbers, vertices in (
-        ("Velocity", "m/s", VELOCITY, limited.velocities, limited.velocity_vertices),
-        ("Force", "N", FORCE, limited.forces, limited.force_vertices),
+        ("Velocity", "m/s", style.VELOCITY, limited.velocities, limited.velocity_vertices),
+        ("Force", "N", style.FORCE, limited.forces, limited.force_vertices),
     ):
         missing = f"not every joint has {'a velocity' if name == 'Velocity' else 'an effort'} limit"
         if numbers is not None:
@@ -215,16 +204,17 @@ def _scale(sizes: Array, extent: float) -> float:
 def _in_plane(scene: Scene, plane: Array, title: str, chain: Chain, q: Array, entries: Sequence[LegendRow]) -> Figure:
     width = 6.4
     lines = configuration_lines(chain, q, width)
-    top, bottom = _TITLE_HEIGHT + len(lines) * LINE, _LABELS_HEIGHT + legend_height(entries)
+    top, bottom = _TITLE_HEIGHT + len(lines) * style.LINE, _LABELS_HEIGHT + legend_height(entries)
     height = top + _AXES_HEIGHT + bottom
-    figure = new_figure(width, height)
+    figure = style.new_figure(width, height)
     axes = figure.add_axes((0.13, bottom / height, _AXES_WIDTH / width, _AXES_HEIGHT / height))
-    view = (plane, f"{_axis_name(plane[0], 1)} / m", f"{_axis_name(plane[1], 2)} / m")
+    view = (plane, f"{style.axis_name(plane[0], 1)} / m", f"{style.axis_name(plane[1], 2)} / m")
     halves = [np.abs(plane) @ half for half in scene.halves]
     middle, half = _box(scene.arm.points @ plane.T, halves, scene.extent)
     _draw(axes, view, scene)
     # Widen the narrower range, so that the axes fill their space.
-    _look_at(axes, middle, np.maximum(half, half[::-1] * _shape(axes) ** np.array([1.0, -1.0])))
+    across, upwards = axes.bbox.size
+    style.look_at(axes, middle, np.maximum(half, half[::-1] * (across / upwards) ** np.array([1.0, -1.0])))
     write_head(figure, title, lines)
     write_legend(figure, (0.06, (bottom - _LABELS_HEIGHT) / height), entries)
     return figure
@@ -234,26 +224,18 @@ def _in_projections(scene: Scene, title: str, chain: Chain, q: Array, entries: S
     """Draw front and side views above, and the top view below the front, all on one scale."""
     width, side = 9.0, 3.6
     lines = configuration_lines(chain, q, width)
-    height = _TITLE_HEIGHT + len(lines) * LINE + 2.0 * (side + _LABELS_HEIGHT)
-    figure = new_figure(width, height)
+    height = _TITLE_HEIGHT + len(lines) * style.LINE + 2.0 * (side + _LABELS_HEIGHT)
+    figure = style.new_figure(width, height)
     names, e = ("x / m", "y / m", "z / m"), np.eye(3)
     middle, half = _box(scene.arm.points, scene.halves, scene.extent)
     upper = side + 2.0 * _LABELS_HEIGHT
     for (i, j), left, bottom in (((0, 2), 0.72, upper), ((1, 2), 5.13, upper), ((0, 1), 0.72, _LABELS_HEIGHT)):
         axes = figure.add_axes((left / width, bottom / height, side / width, side / height))
         _draw(axes, (e[[i, j]], names[i], names[j]), scene)
-        _look_at(axes, middle[[i, j]], np.full(2, half.max()))
+        style.look_at(axes, middle[[i, j]], np.full(2, half.max()))
     write_head(figure, title, lines)
     write_legend(figure, (5.13 / width, (side + 0.35) / height), entries)
     return figure
-
-
-def _axis_name(direction: Array, number: int) -> str:
-    """Return x, y or z if the direction is one of these, else a numbered name."""
-    for name, unit in zip("xyz", np.eye(3), strict=True):
-        if np.abs(direction - unit).max() < 1e-9:
-            return name
-    return f"in-plane direction {number}"
 
 
 def _box(points: Array, halves: Sequence[Array], extent: float) -> tuple[Array, Array]:
@@ -263,20 +245,9 @@ def _box(points: Array, halves: Sequence[Array], extent: float) -> tuple[Array, 
     return (lower + upper) / 2.0, (upper - lower) / 2.0 + _MARGIN * extent
 
 
-def _shape(axes: Axes) -> float:
-    """Return the ratio of width to height."""
-    width, height = axes.bbox.size
-    return float(width / height)
-
-
-def _look_at(axes: Axes, middle: Array, half: Array) -> None:
-    axes.set_xlim(middle[0] - half[0], middle[0] + half[0])
-    axes.set_ylim(middle[1] - half[1], middle[1] + half[1])
-
-
 def _draw(axes: Axes, view: View, scene: Scene) -> None:
     plane, x_label, y_label = view
-    metric_axes(axes, x_label, y_label)
+    style.metric_axes(axes, x_label, y_label)
     points = scene.arm.points @ plane.T
     tip = points[-1]
     for quantity in scene.quantities:
@@ -290,10 +261,10 @@ def _draw(axes: Axes, view: View, scene: Scene) -> None:
 
 def _draw_arm(axes: Axes, points: Array, arm: ArmLine) -> None:
     caps: dict[str, Any] = {"solid_capstyle": "round", "solid_joinstyle": "round"}
-    axes.plot(points[:, 0], points[:, 1], color=LINK, linewidth=5.0, zorder=2, **caps)
-    axes.plot(*points[0], marker="s", markersize=11, color=INK, zorder=2.5)
-    edge: dict[str, Any] = {"color": "white", "markeredgecolor": INK, "markeredgewidth": 1.4, "zorder": 3}
+    axes.plot(points[:, 0], points[:, 1], color=style.LINK, linewidth=5.0, zorder=2, **caps)
+    axes.plot(*points[0], marker="s", markersize=11, color=style.INK, zorder=2.5)
+    edge: dict[str, Any] = {"color": "white", "markeredgecolor": style.INK, "markeredgewidth": 1.4, "zorder": 3}
     for slides, marker, size in ((False, "o", 8.0), (True, "s", 7.5)):
         some = points[1:-1][arm.slides == slides]
         axes.plot(some[:, 0], some[:, 1], marker, markersize=size, **edge)
-    axes.plot(*points[-1], marker="o", markersize=5.0, color=INK, zorder=5)
+    axes.plot(*points[-1], marker="o", markersize=5.0, color=style.INK, zorder=5)
