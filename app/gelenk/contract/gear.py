@@ -7,7 +7,7 @@ from pydantic import Field
 from gelenk.contract.common import Answer, Payload
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import AngularVelocity, Inertia, Ratio, Steps, Torque
-from gelenk.course.actuators.gear import GearSide, PowerFlow, ReflectedInertias
+from gelenk.course.actuators.gear import BackDriving, GearSide, PowerFlow, ReflectedInertias
 
 
 class GearRequest(Payload):
@@ -27,14 +27,6 @@ class GearRequest(Payload):
     load_inertia: Inertia | None = Field(default=None, description="J_L of the load, [kg m²].")
 
 
-class BackDrivingInfo(Answer):
-    """What happens when the load drives."""
-
-    efficiency: float | None = Field(description="2 - 1/η, no unit; null where the gear locks itself.")
-    self_locking: bool = Field(description="Whether no load can turn the motor: η ≤ 1/2.")
-    note: str = Field(description="An explanation in one sentence.")
-
-
 class GearAnswer(Answer):
     """Both sides of a gear."""
 
@@ -43,7 +35,7 @@ class GearAnswer(Answer):
     power_loss: float | None = Field(description="What the gear turns into heat, [W]; null where a power is missing.")
     power_flow: PowerFlow = Field(description="Which side drives; `none` without a torque.")
     inertia: ReflectedInertias | None = Field(description="Null without both inertias.")
-    back_driving: BackDrivingInfo
+    back_driving: BackDriving
     steps: Steps
 
 

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from gelenk.kinematics.ellipsoids.limited_motion import LimitedMotion
 from gelenk.kinematics.ellipsoids.manipulability import Ellipsoids, is_within_task, space_of, transmission_ratios
 from gelenk.plots import figure as style
-from gelenk.plots.arm import ArmLine, arm_line
+from gelenk.plots.arm import arm_line
 from gelenk.plots.legend import LegendRow, configuration_lines, legend, legend_height, write_head, write_legend
 from gelenk.plots.shadows import (
     DASHED,
@@ -27,7 +27,7 @@ from gelenk.plots.shadows import (
     draw_outline,
     draw_quantity,
 )
-from gelenk.robot.arrays import Array
+from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain
 
 View: TypeAlias = tuple[Array, str, str]
@@ -65,14 +65,16 @@ class Scene:
     """Everything that is drawn.
 
     Attributes:
-        arm: Line of the arm.
+        points: Base, a point on each joint, and tip; shape (m + 2, 3), [m].
+        slides: Whether each joint is prismatic; shape (m,).
         extent: Size of the arm, [m].
         quantities: Ellipsoids at the tip.
         outlines: Polytopes at the tip.
         arrows: Directions at the tip.
     """
 
-    arm: ArmLine
+    points: Array
+    slides: Flags
     extent: float
     quantities: tuple[Quantity, ...]
     outlines: tuple[Outline, ...]
@@ -104,13 +106,13 @@ def manipulability_picture(
         kind: Format of the returned bytes.
         asked: What to show in addition.
     """
-    arm = arm_line(chain, q)
-    extent = max(float(np.ptp(arm.points, axis=0).max()), float(np.linalg.norm(arm.points[-1])), 1e-3)
+    points, slides = arm_line(chain, q)
+    extent = max(float(np.ptp(points, axis=0).max()), float(np.linalg.norm(points[-1])), 1e-3)
     quantities = () if translation is None else _quantities(chain, translation, extent)
     outlines = () if translation is None or asked.limited is None else _outlines(translation, asked.limited, extent)
     plane = _plane(chain, translation)
     arrows = _arrows(translation, quantities, asked)
-    scene = Scene(arm, extent, quantities, outlines, arrows)
+    scene = Scene(points, slides, extent, quantities, outlines, arrows)
     entries = legend(quantities, outlines, arrows, translation)
     title = f"{style.plain(name)}: {style.plain(chain.base_frame)} → {style.plain(chain.tip_frame)}"
     figure = (
@@ -210,7 +212,7 @@ def _in_plane(scene: Scene, plane: Array, title: str, chain: Chain, q: Array, en
     axes = figure.add_axes((0.13, bottom / height, _AXES_WIDTH / width, _AXES_HEIGHT / height))
     view = (plane, f"{style.axis_name(plane[0], 1)} / m", f"{style.axis_name(plane[1], 2)} / m")
     halves = [np.abs(plane) @ half for half in scene.halves]
-    middle, half = _box(scene.arm.points @ plane.T, halves, scene.extent)
+    middle, half = _box(scene.points @ plane.T, halves, scene.extent)
     _draw(axes, view, scene)
     # Widen the narrower range, so that the axes fill their space.
     across, upwards = axes.bbox.size
@@ -227,7 +229,7 @@ def _in_projections(scene: Scene, title: str, chain: Chain, q: Array, entries: S
     height = _TITLE_HEIGHT + len(lines) * style.LINE + 2.0 * (side + _LABELS_HEIGHT)
     figure = style.new_figure(width, height)
     names, e = ("x / m", "y / m", "z / m"), np.eye(3)
-    middle, half = _box(scene.arm.points, scene.halves, scene.extent)
+    middle, half = _box(scene.points, scene.halves, scene.extent)
     upper = side + 2.0 * _LABELS_HEIGHT
     for (i, j), left, bottom in (((0, 2), 0.72, upper), ((1, 2), 5.13, upper), ((0, 1), 0.72, _LABELS_HEIGHT)):
         axes = figure.add_axes((left / width, bottom / height, side / width, side / height))
@@ -248,23 +250,23 @@ def _box(points: Array, halves: Sequence[Array], extent: float) -> tuple[Array, 
 def _draw(axes: Axes, view: View, scene: Scene) -> None:
     plane, x_label, y_label = view
     style.metric_axes(axes, x_label, y_label)
-    points = scene.arm.points @ plane.T
+    points = scene.points @ plane.T
     tip = points[-1]
     for quantity in scene.quantities:
         draw_quantity(axes, plane, tip, quantity, scene.extent)
     for outline in scene.outlines:
         draw_outline(axes, plane, tip, outline)
-    _draw_arm(axes, points, scene.arm)
+    _draw_arm(axes, points, scene.slides)
     for arrow in scene.arrows:
         draw_arrow(axes, plane, tip, arrow, _ARROW * scene.extent)
 
 
-def _draw_arm(axes: Axes, points: Array, arm: ArmLine) -> None:
+def _draw_arm(axes: Axes, points: Array, slides: Flags) -> None:
     caps: dict[str, Any] = {"solid_capstyle": "round", "solid_joinstyle": "round"}
     axes.plot(points[:, 0], points[:, 1], color=style.LINK, linewidth=5.0, zorder=2, **caps)
     axes.plot(*points[0], marker="s", markersize=11, color=style.INK, zorder=2.5)
     edge: dict[str, Any] = {"color": "white", "markeredgecolor": style.INK, "markeredgewidth": 1.4, "zorder": 3}
-    for slides, marker, size in ((False, "o", 8.0), (True, "s", 7.5)):
-        some = points[1:-1][arm.slides == slides]
+    for rows, marker, size in ((~slides, "o", 8.0), (slides, "s", 7.5)):
+        some = points[1:-1][rows]
         axes.plot(some[:, 0], some[:, 1], marker, markersize=size, **edge)
     axes.plot(*points[-1], marker="o", markersize=5.0, color=style.INK, zorder=5)
