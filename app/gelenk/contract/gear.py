@@ -4,7 +4,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload
+from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import AngularVelocity, Inertia, Ratio, Steps, Torque
 from gelenk.course.actuators.gear import BackDriving, GearSide, PowerFlow, ReflectedInertias
@@ -17,14 +17,12 @@ class GearRequest(Payload):
     efficiency: Annotated[float, Field(ge=1e-6, le=1.0)] = Field(
         default=1.0, description="η, power out over power in when the motor drives, no unit."
     )
-    motor_angular_velocity: AngularVelocity | None = Field(default=None, description="ω_m, [rad/s].")
-    load_angular_velocity: AngularVelocity | None = Field(default=None, description="ω_L, instead of ω_m, [rad/s].")
-    motor_torque: Torque | None = Field(default=None, description="τ_m, from the motor into the gear, [N m].")
-    load_torque: Torque | None = Field(
-        default=None, description="τ_L, from the gear into the load, instead of τ_m, [N m]."
-    )
-    motor_inertia: Inertia | None = Field(default=None, description="J_m of the rotor, [kg m²].")
-    load_inertia: Inertia | None = Field(default=None, description="J_L of the load, [kg m²].")
+    motor_angular_velocity: AngularVelocity | None = optional("ω_m, [rad/s].")
+    load_angular_velocity: AngularVelocity | None = optional("ω_L, instead of ω_m, [rad/s].")
+    motor_torque: Torque | None = optional("τ_m, from the motor into the gear, [N m].")
+    load_torque: Torque | None = optional("τ_L, from the gear into the load, instead of τ_m, [N m].")
+    motor_inertia: Inertia | None = optional("J_m of the rotor, [kg m²].")
+    load_inertia: Inertia | None = optional("J_L of the load, [kg m²].")
 
 
 class GearAnswer(Answer):

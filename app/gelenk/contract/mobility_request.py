@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal, TypeAlias, cast, get_args
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from gelenk.contract.common import Payload, RobotName
+from gelenk.contract.common import Payload, RobotName, optional
 from gelenk.contract.pose import MAX_MAGNITUDE, Vector3
 from gelenk.course.mobility.mechanism import GivenPair, Node
 from gelenk.course.mobility.mobility import NodeCount
@@ -49,26 +49,23 @@ class MechanismLinkPayload(Payload):
 class PairPayload(Payload):
     """A kinematic pair: two links that touch."""
 
-    name: Name | None = Field(default=None, description="Unique in the mechanism; `pair_1`, `pair_2`, … if left out.")
+    name: Name | None = optional("Unique in the mechanism; `pair_1`, `pair_2`, … if left out.")
     link_a: Name = Field(description="The one link.")
     link_b: Name = Field(description="The other one.")
     type: PairType = Field(description=PAIR_TYPE)
-    joint: Name | None = Field(
-        default=None,
-        description="The joint it is part of. Links whose pairs name the same joint meet there: k links, k - 1 pairs.",
+    joint: Name | None = optional(
+        "The joint it is part of. Links whose pairs name the same joint meet there: k links, k - 1 pairs."
     )
-    point: Vector3 | None = Field(
-        default=None,
-        description="Its location in the given posture: on its axis, its centre or the place of contact, [m]. In the "
-        "plane all points have the same z.",
+    point: Vector3 | None = optional(
+        "Its location in the given posture: on its axis, its centre or the place of contact, [m]. In the "
+        "plane all points have the same z."
     )
-    axis: Vector3 | None = Field(
-        default=None,
-        description="A direction, of any length but 0, no unit: of the axis to turn about or slide along, of a slot or "
+    axis: Vector3 | None = optional(
+        "A direction, of any length but 0, no unit: of the axis to turn about or slide along, of a slot or "
         "groove, or the normal of surfaces that touch. In the plane a revolute or rolling pair needs none, as it is z; "
-        "all others lie in x y.",
+        "all others lie in x y."
     )
-    second_axis: Vector3 | None = Field(default=None, description="The other axis of a universal joint, no unit.")
+    second_axis: Vector3 | None = optional("The other axis of a universal joint, no unit.")
     pitch: float | None = Field(
         default=None, ge=-MAX_MAGNITUDE, le=MAX_MAGNITUDE, description="Of a screw: advance a radian, [m/rad]."
     )
@@ -99,16 +96,14 @@ class PairPayload(Payload):
 class NodePayload(Payload):
     """A joint at which more than two links meet."""
 
-    joint: Name | None = Field(default=None, description="Its name; `node_1`, `node_2`, … if left out.")
+    joint: Name | None = optional("Its name; `node_1`, `node_2`, … if left out.")
     links: Annotated[
         Annotated[Annotated[int, Field(ge=3, le=MAX_LINKS)], Tag("<number>")]
         | Annotated[Annotated[list[Name], Field(min_length=3, max_length=MAX_LINKS)], Tag("<list>")],
         Discriminator(_shape),
     ] = Field(description="The k links that meet there, by name, or their number where `pairs` are counts.")
-    type: PairType | None = Field(
-        default=None,
-        description="Kind of the pairs that are missing there; that of the joint's other pairs, or revolute, if left "
-        "out.",
+    type: PairType | None = optional(
+        "Kind of the pairs that are missing there; that of the joint's other pairs, or revolute, if left out."
     )
 
 
@@ -134,27 +129,21 @@ _OF_A_MECHANISM = ("space", "links", "pairs", "coincident", "output", "rank_tole
 class MobilityRequest(Payload):
     """A mechanism, or a robot by name."""
 
-    space: Literal["planar", "spatial"] | None = Field(
-        default=None, description="Where the mechanism moves: in the plane, λ = 3, or in space, λ = 6."
+    space: Literal["planar", "spatial"] | None = optional(
+        "Where the mechanism moves: in the plane, λ = 3, or in space, λ = 6."
     )
-    links: Links | None = Field(
-        default=None,
-        description="The links by name, the ground among them: marked by `{name, ground: true}`, else the first one. "
-        "Only their number n, the ground included, where `pairs` are counts.",
+    links: Links | None = optional(
+        "The links by name, the ground among them: marked by `{name, ground: true}`, else the first one. "
+        "Only their number n, the ground included, where `pairs` are counts."
     )
-    pairs: Pairs | None = Field(
-        default=None,
-        description="The pairs, each with its two links; or their number by type, which says nothing about loops and "
-        "idle freedoms.",
+    pairs: Pairs | None = optional(
+        "The pairs, each with its two links; or their number by type, which says nothing about loops and idle freedoms."
     )
-    coincident: Annotated[list[NodePayload], Field(max_length=MAX_NODES)] | None = Field(
-        default=None,
-        description="The joints at which more than two links meet. Each of k links is split into k - 1 pairs: those "
-        "that `pairs` leaves out are added. Where `pairs` are counts, such a joint is counted there once.",
+    coincident: Annotated[list[NodePayload], Field(max_length=MAX_NODES)] | None = optional(
+        "The joints at which more than two links meet. Each of k links is split into k - 1 pairs: those "
+        "that `pairs` leaves out are added. Where `pairs` are counts, such a joint is counted there once."
     )
-    output: Name | None = Field(
-        default=None, description="A link whose own degrees of freedom to compute, if the pairs give their locations."
-    )
+    output: Name | None = optional("A link whose own degrees of freedom to compute, if the pairs give their locations.")
     rank_tolerance: float = Field(
         default=1e-10,
         gt=0,
@@ -162,7 +151,7 @@ class MobilityRequest(Payload):
         description="Where the pairs say where they are: a singular value of the constraints counts where it exceeds "
         "this times the largest, no unit. Raise it for numbers that were rounded; less than 1e-13 counts as that.",
     )
-    robot: RobotName | None = Field(default=None, description="Name of a robot instead of a mechanism.")
+    robot: RobotName | None = optional("Name of a robot instead of a mechanism.")
 
     @model_validator(mode="after")
     def _one_source(self) -> "MobilityRequest":

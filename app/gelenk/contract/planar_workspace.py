@@ -4,7 +4,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload
+from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Steps
 from gelenk.course.planar import WorkspacePlace, WorkspaceTrial
@@ -21,8 +21,8 @@ class PlanarWorkspaceRequest(Payload):
     links: Annotated[list[Length], Field(min_length=2, max_length=3)] = Field(
         description="Lengths l_1, l_2 and perhaps l_3, from the base on, [m]."
     )
-    point: Annotated[list[Coordinate], Field(min_length=2, max_length=2)] | None = Field(
-        default=None, description="x and y of a point, relative to the first joint, [m]."
+    point: Annotated[list[Coordinate], Field(min_length=2, max_length=2)] | None = optional(
+        "x and y of a point, relative to the first joint, [m]."
     )
     tolerance: Annotated[float, Field(ge=0.0, le=1.0)] = Field(
         default=1e-9, description="Distance within which the point lies on a boundary, [m]."

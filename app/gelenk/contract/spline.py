@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer
+from gelenk.contract.common import Answer, optional
 from gelenk.contract.course_motion import Coordinates, MotionAnswer, SampledRequest, Time, Times, Waypoints
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Steps, Warnings
@@ -27,18 +27,13 @@ class SplineRequest(SampledRequest):
         "start; "
         "`assigned`: velocities and accelerations given, by two fictitious knots.",
     )
-    start_velocity: Coordinates | None = Field(
-        default=None, description="Of `clamped` or `assigned`; 0 if left out, [rad/s or m/s]."
-    )
-    end_velocity: Coordinates | None = Field(default=None, description="The same at the end, [rad/s or m/s].")
-    start_acceleration: Coordinates | None = Field(
-        default=None, description="Of `assigned`; 0 if left out, [rad/s² or m/s²]."
-    )
-    end_acceleration: Coordinates | None = Field(default=None, description="The same at the end, [rad/s² or m/s²].")
-    fictitious_times: Annotated[list[Time], Field(min_length=2, max_length=2)] | None = Field(
-        default=None,
-        description="Of `assigned`: when the fictitious knots are, one within the first and one within the last "
-        "segment, [s]; in their middles if left out, at the thirds of a single segment.",
+    start_velocity: Coordinates | None = optional("Of `clamped` or `assigned`; 0 if left out, [rad/s or m/s].")
+    end_velocity: Coordinates | None = optional("The same at the end, [rad/s or m/s].")
+    start_acceleration: Coordinates | None = optional("Of `assigned`; 0 if left out, [rad/s² or m/s²].")
+    end_acceleration: Coordinates | None = optional("The same at the end, [rad/s² or m/s²].")
+    fictitious_times: Annotated[list[Time], Field(min_length=2, max_length=2)] | None = optional(
+        "Of `assigned`: when the fictitious knots are, one within the first and one within the last "
+        "segment, [s]; in their middles if left out, at the thirds of a single segment."
     )
 
 

@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer
+from gelenk.contract.common import Answer, optional
 from gelenk.contract.course_motion import (
     Coordinates,
     Duration,
@@ -27,27 +27,24 @@ class TimeScalingRequest(SampledRequest):
     law: Literal["cubic", "quintic", "septic"] = Field(
         default="cubic", description="From rest to rest; of a motion by `displacement`."
     )
-    displacement: Coordinates | None = Field(default=None, description="Δq of each joint, [rad or m].")
-    duration: Duration | None = Field(default=None, description="T of this motion, [s].")
-    times: Times | None = Field(default=None, description="Of the waypoints, increasing, [s].")
-    waypoints: Waypoints | None = Field(
-        default=None, description="Positions, one row per time, [rad or m]. Alone, a cubic spline is laid through them."
+    displacement: Coordinates | None = optional("Δq of each joint, [rad or m].")
+    duration: Duration | None = optional("T of this motion, [s].")
+    times: Times | None = optional("Of the waypoints, increasing, [s].")
+    waypoints: Waypoints | None = optional(
+        "Positions, one row per time, [rad or m]. Alone, a cubic spline is laid through them."
     )
     boundary: Boundary = Field(
         default="not_a_knot", description="Of that spline; `clamped` and `assigned` are at rest at both ends."
     )
-    velocities: Waypoints | None = Field(
-        default=None, description="At the waypoints, instead of a spline: cubic pieces, [rad/s or m/s]."
-    )
-    accelerations: Waypoints | None = Field(
-        default=None, description="At the waypoints, beside `velocities`: quintic pieces, [rad/s² or m/s²]."
+    velocities: Waypoints | None = optional("At the waypoints, instead of a spline: cubic pieces, [rad/s or m/s].")
+    accelerations: Waypoints | None = optional(
+        "At the waypoints, beside `velocities`: quintic pieces, [rad/s² or m/s²]."
     )
     scaling: Literal["course", "unclipped"] = Field(
         default="course", description="The k that scales the motion in the answer: `course` never speeds up."
     )
-    factor: Annotated[float, Field(ge=1e-6, le=1e6)] | None = Field(
-        default=None,
-        description="A custom k for the motion in the answer, no unit; it need not respect the limits.",
+    factor: Annotated[float, Field(ge=1e-6, le=1e6)] | None = optional(
+        "A custom k for the motion in the answer, no unit; it need not respect the limits."
     )
 
 
