@@ -1,6 +1,6 @@
 """A DC motor: request, answer, operation."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field
 
@@ -118,18 +118,6 @@ class DcMotorAnswer(Answer):
     certificate: MotorCertificate
 
 
-EXAMPLE_MOTOR: dict[str, Any] = {
-    "resistance": 1.2,
-    "inductance": 2e-3,
-    "torque_constant": 0.05,
-    "viscous_friction": 1e-4,
-    "inertia": 2e-4,
-    "voltage": 24.0,
-    "load_torque": 0.1,
-    "times": [0.0, 0.02, 0.1, 0.5],
-}
-
-
 ENDPOINT = Endpoint(
     name="dc_motor",
     path="v1/course/dc-motor",
@@ -148,5 +136,14 @@ ENDPOINT = Endpoint(
 
     The lecture describes the motor in words; these are the equations behind it.
     """,
-    example=EXAMPLE_MOTOR,
+    example={
+        "resistance": 1.2,
+        "inductance": 2e-3,
+        "torque_constant": 0.05,
+        "viscous_friction": 1e-4,
+        "inertia": 2e-4,
+        "voltage": 24.0,
+        "load_torque": 0.1,
+        "times": [0.0, 0.02, 0.1, 0.5],
+    },
 )

@@ -1,6 +1,6 @@
 """Shaft encoders: request, answer, operation."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -82,16 +82,6 @@ class EncoderAnswer(Answer):
     steps: Steps
 
 
-EXAMPLE_ENCODER: dict[str, Any] = {
-    "type": "incremental",
-    "pulses_per_revolution": 1024,
-    "decoding": "x4",
-    "gear_ratio": 50.0,
-    "sample_period": 0.001,
-    "samples": "00 10 11 01 00 10 11 10",
-}
-
-
 ENDPOINT = Endpoint(
     name="encoder",
     path="v1/course/encoder",
@@ -112,5 +102,12 @@ ENDPOINT = Endpoint(
     the shaft does. Required counts are rounded up before bits and lines are, so a line count times the decoding
     may be a little more than the counts required.
     """,
-    example=EXAMPLE_ENCODER,
+    example={
+        "type": "incremental",
+        "pulses_per_revolution": 1024,
+        "decoding": "x4",
+        "gear_ratio": 50.0,
+        "sample_period": 0.001,
+        "samples": "00 10 11 01 00 10 11 10",
+    },
 )

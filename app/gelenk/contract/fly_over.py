@@ -1,6 +1,6 @@
 """Fly-over of a corner without a stop: request, answer, operation."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
@@ -113,17 +113,6 @@ class FlyOverAnswer(Answer):
     certificate: BlendCheck
 
 
-EXAMPLE_FLY_OVER: dict[str, Any] = {
-    "start": [3.0, 3.0],
-    "corner": [1.0, 9.0],
-    "end": [8.0, 9.0],
-    "speed_before": 1.0,
-    "speed_after": 2.0,
-    "blend_time": 4.0,
-    "samples": 5,
-}
-
-
 ENDPOINT = Endpoint(
     name="fly_over",
     path="v1/course/fly-over",
@@ -145,5 +134,13 @@ ENDPOINT = Endpoint(
     `image/png`.
     """,
     picture="The corner in its plane, and the speed and the acceleration over time.",
-    example=EXAMPLE_FLY_OVER,
+    example={
+        "start": [3.0, 3.0],
+        "corner": [1.0, 9.0],
+        "end": [8.0, 9.0],
+        "speed_before": 1.0,
+        "speed_after": 2.0,
+        "blend_time": 4.0,
+        "samples": 5,
+    },
 )

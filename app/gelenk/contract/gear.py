@@ -1,6 +1,6 @@
 """A gear: request, answer, operation."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field
 
@@ -37,16 +37,6 @@ class GearAnswer(Answer):
     steps: Steps
 
 
-EXAMPLE_GEAR: dict[str, Any] = {
-    "ratio": 100.0,
-    "efficiency": 0.8,
-    "motor_torque": 1.0,
-    "motor_angular_velocity": 458.015267176,
-    "motor_inertia": 2e-4,
-    "load_inertia": 3.0,
-}
-
-
 ENDPOINT = Endpoint(
     name="gear",
     path="v1/course/gear",
@@ -61,5 +51,12 @@ ENDPOINT = Endpoint(
     given motor torque accelerates the load most. Where speed and torque have different signs the load drives:
     then friction helps to hold it, with the efficiency 2 - 1/η; at η ≤ 1/2 the gear locks itself.
     """,
-    example=EXAMPLE_GEAR,
+    example={
+        "ratio": 100.0,
+        "efficiency": 0.8,
+        "motor_torque": 1.0,
+        "motor_angular_velocity": 458.015267176,
+        "motor_inertia": 2e-4,
+        "load_inertia": 3.0,
+    },
 )

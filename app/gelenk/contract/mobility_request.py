@@ -255,15 +255,3 @@ class MobilityRequest(Payload):
 
 def _kind(name: Any) -> Any:
     return LETTERS.get(name, name)
-
-
-EXAMPLE_FOUR_BAR: dict[str, Any] = {
-    "space": "planar",
-    "links": [{"name": "frame", "ground": True}, "crank", "coupler", "rocker"],
-    "pairs": [
-        {"link_a": "frame", "link_b": "crank", "type": "revolute"},
-        {"link_a": "crank", "link_b": "coupler", "type": "revolute"},
-        {"link_a": "coupler", "link_b": "rocker", "type": "revolute"},
-        {"link_a": "rocker", "link_b": "frame", "type": "revolute"},
-    ],
-}

@@ -1,6 +1,6 @@
 """The calculator of orientations: request, answer, operation."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -207,13 +207,6 @@ class OrientationAnswer(Answer):
     certificate: OrientationCertificate
 
 
-EXAMPLE_ZYZ: dict[str, Any] = {
-    "zyz": [0.3, 0.7, -1.1],
-    "then": [{"elementary": {"axis": "x", "angle": 0.4}, "position": [0.0, 0.0, 0.2], "about": "moving"}],
-    "points": [[1.0, 2.0, 3.0]],
-}
-
-
 ENDPOINT = Endpoint(
     name="orientation",
     path="v1/course/orientation",
@@ -236,5 +229,9 @@ ENDPOINT = Endpoint(
     frames of orientations, whose origin is the last column (the notes once say row) of the homogeneous matrix.
     `inverse` is Rᵀ, -Rᵀp, and `points` are moved along. Every notation is converted back into R as a check.
     """,
-    example=EXAMPLE_ZYZ,
+    example={
+        "zyz": [0.3, 0.7, -1.1],
+        "then": [{"elementary": {"axis": "x", "angle": 0.4}, "position": [0.0, 0.0, 0.2], "about": "moving"}],
+        "points": [[1.0, 2.0, 3.0]],
+    },
 )

@@ -1,6 +1,6 @@
 """Workspaces of planar arms: request, answer, operation."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field
 
@@ -62,9 +62,6 @@ class PlanarWorkspaceAnswer(Answer):
     certificate: WorkspaceTrial
 
 
-EXAMPLE_WORKSPACE: dict[str, Any] = {"links": [1.0, 0.9, 0.5], "point": [0.3, 0.2]}
-
-
 ENDPOINT = Endpoint(
     name="planar_workspace",
     path="v1/course/workspace",
@@ -87,5 +84,5 @@ ENDPOINT = Endpoint(
     with `Accept: image/svg+xml` or `image/png`.
     """,
     picture="Both workspaces, and the arm with its tip at `point`.",
-    example=EXAMPLE_WORKSPACE,
+    example={"links": [1.0, 0.9, 0.5], "point": [0.3, 0.2]},
 )

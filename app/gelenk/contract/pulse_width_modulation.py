@@ -1,6 +1,6 @@
 """Pulse width modulation: request, answer, operation."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field
 
@@ -62,15 +62,6 @@ class PwmAnswer(Answer):
     warnings: Warnings
 
 
-EXAMPLE_PWM: dict[str, Any] = {
-    "supply_voltage": 24.0,
-    "frequency": 20_000.0,
-    "duty": 0.35,
-    "resistance": 1.2,
-    "inductance": 2e-3,
-}
-
-
 ENDPOINT = Endpoint(
     name="pulse_width_modulation",
     path="v1/course/pwm",
@@ -85,5 +76,11 @@ ENDPOINT = Endpoint(
     negative average needs an H-bridge, and `direction` is -1. The ripple V_s D (1 - D) / (L f) leaves out the
     resistance; with R and L the current's extremes are exact, in the steady state, with a constant back-EMF.
     """,
-    example=EXAMPLE_PWM,
+    example={
+        "supply_voltage": 24.0,
+        "frequency": 20_000.0,
+        "duty": 0.35,
+        "resistance": 1.2,
+        "inductance": 2e-3,
+    },
 )

@@ -1,7 +1,7 @@
 """Cubic splines: request, answer, operation."""
 
 from math import pi
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field
 
@@ -68,14 +68,6 @@ class SplineAnswer(MotionAnswer):
     warnings: Warnings
 
 
-EXAMPLE_SPLINE: dict[str, Any] = {
-    "times": [0.0, 2.0, 3.0, 5.0],
-    "waypoints": [0.0, 2.0 * pi, 0.5 * pi, pi],
-    "boundary": "clamped",
-    "samples": 6,
-}
-
-
 ENDPOINT = Endpoint(
     name="spline",
     path="v1/course/spline",
@@ -95,5 +87,10 @@ ENDPOINT = Endpoint(
     As a picture of the profiles with `Accept: image/svg+xml` or `image/png`.
     """,
     picture="Position, velocity, acceleration and jerk over time, with the limits.",
-    example=EXAMPLE_SPLINE,
+    example={
+        "times": [0.0, 2.0, 3.0, 5.0],
+        "waypoints": [0.0, 2.0 * pi, 0.5 * pi, pi],
+        "boundary": "clamped",
+        "samples": 6,
+    },
 )

@@ -1,6 +1,6 @@
 """Time laws: request, answer, operation."""
 
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import BeforeValidator, Field
 
@@ -101,17 +101,6 @@ class TimeLawAnswer(MotionAnswer):
     warnings: Warnings
 
 
-EXAMPLE_TIME_LAW: dict[str, Any] = {
-    "law": "cubic",
-    "start": 0.2,
-    "target": 1.4,
-    "start_velocity": 0.5,
-    "end_velocity": -0.3,
-    "duration": 2.0,
-    "samples": 5,
-}
-
-
 ENDPOINT = Endpoint(
     name="time_law",
     path="v1/course/time-law",
@@ -134,5 +123,13 @@ ENDPOINT = Endpoint(
     As a picture of the profiles with `Accept: image/svg+xml` or `image/png`.
     """,
     picture="Position, velocity, acceleration and jerk over time, with the limits.",
-    example=EXAMPLE_TIME_LAW,
+    example={
+        "law": "cubic",
+        "start": 0.2,
+        "target": 1.4,
+        "start_velocity": 0.5,
+        "end_velocity": -0.3,
+        "duration": 2.0,
+        "samples": 5,
+    },
 )

@@ -1,6 +1,6 @@
 """Uniform time scaling: request, answer, operation."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -84,15 +84,6 @@ class TimeScalingAnswer(MotionAnswer):
     warnings: Warnings
 
 
-EXAMPLE_TIME_SCALING: dict[str, Any] = {
-    "displacement": [1.0, -2.0],
-    "duration": 1.0,
-    "law": "cubic",
-    "limits": {"joint_velocity": [1.0, 2.0], "joint_acceleration": [8.0, 8.0]},
-    "samples": 5,
-}
-
-
 ENDPOINT = Endpoint(
     name="time_scaling",
     path="v1/course/time-scaling",
@@ -115,5 +106,11 @@ ENDPOINT = Endpoint(
     As a picture of the scaled profiles with `Accept: image/svg+xml` or `image/png`.
     """,
     picture="Position, velocity, acceleration and jerk over time, with the limits.",
-    example=EXAMPLE_TIME_SCALING,
+    example={
+        "displacement": [1.0, -2.0],
+        "duration": 1.0,
+        "law": "cubic",
+        "limits": {"joint_velocity": [1.0, 2.0], "joint_acceleration": [8.0, 8.0]},
+        "samples": 5,
+    },
 )
