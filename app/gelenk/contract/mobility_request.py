@@ -71,26 +71,19 @@ class PairPayload(Payload):
     )
 
     def given(self, number: int) -> GivenPair:
-        """Return the core's pair, the `number`-th from 0.
-
-        Raises:
-            InvalidField: An axis has no direction.
-        """
+        """Return the core's pair, the `number`-th from 0; raises InvalidField if an axis has no direction."""
+        axes = {
+            name: unit_axis(direction, f"pairs/{number}/{name}").tolist()
+            for name in ("axis", "second_axis")
+            if (direction := getattr(self, name)) is not None
+        }
+        geometry = PairGeometry(self.point, pitch=self.pitch, **axes) if self.has_geometry() else None
         name = self.name or f"pair_{number + 1}"
-        return GivenPair(name, self.link_a, self.link_b, _kind(self.type), self.joint, self._geometry(number))
+        return GivenPair(name, self.link_a, self.link_b, _kind(self.type), self.joint, geometry)
 
     def has_geometry(self) -> bool:
         """Check whether it gives anything about its location."""
         return any(field is not None for field in (self.point, self.axis, self.second_axis, self.pitch))
-
-    def _geometry(self, number: int) -> PairGeometry | None:
-        if not self.has_geometry():
-            return None
-        axis, second = (
-            None if direction is None else unit_axis(direction, f"pairs/{number}/{name}").tolist()
-            for name, direction in (("axis", self.axis), ("second_axis", self.second_axis))
-        )
-        return PairGeometry(self.point, axis, second, self.pitch)
 
 
 class NodePayload(Payload):
@@ -192,11 +185,7 @@ class MobilityRequest(Payload):
         return any(pair.has_geometry() for pair in pairs)
 
     def output_link(self, names: tuple[str, ...]) -> int | None:
-        """Return the index of the link whose freedoms are requested, if any.
-
-        Raises:
-            InvalidField: There is no link of this name.
-        """
+        """Return the index of the link whose freedoms are requested, if any; raises InvalidField for another name."""
         if self.output is None:
             return None
         if self.output not in names:
@@ -204,11 +193,7 @@ class MobilityRequest(Payload):
         return names.index(self.output)
 
     def link_names(self) -> tuple[tuple[str, ...], int]:
-        """Return the names of the links, and the index of the ground.
-
-        Raises:
-            InvalidField: More than one link is the ground.
-        """
+        """Return the names of the links, and the index of the ground; raises InvalidField for more than one."""
         links = cast(list[str | MechanismLinkPayload], self.links)
         grounds = [i for i, link in enumerate(links) if isinstance(link, MechanismLinkPayload) and link.ground]
         if len(grounds) > 1:
@@ -229,11 +214,7 @@ class MobilityRequest(Payload):
         return {_kind(name): count for name, count in cast(dict[str, int], self.pairs).items()}
 
     def nodes(self) -> list[Node]:
-        """Return the joints of more than two links, with the names of the links.
-
-        Raises:
-            InvalidField: A joint gives only a number of links.
-        """
+        """Return the joints of more than two links, with their names; raises InvalidField for a number of links."""
         nodes = []
         for i, node in enumerate(self.coincident or ()):
             if isinstance(node.links, int):
@@ -243,14 +224,11 @@ class MobilityRequest(Payload):
 
     def node_counts(self) -> list[NodeCount]:
         """Return the joints of more than two links, with the number of links."""
-        return [
-            NodeCount(
-                node.joint or f"node_{i}",
-                node.links if isinstance(node.links, int) else len(node.links),
-                _kind(node.type),
-            )
-            for i, node in enumerate(self.coincident or (), start=1)
-        ]
+        nodes = []
+        for i, node in enumerate(self.coincident or (), start=1):
+            count = node.links if isinstance(node.links, int) else len(node.links)
+            nodes.append((node.joint or f"node_{i}", count, _kind(node.type)))
+        return nodes
 
 
 def _kind(name: Any) -> Any:

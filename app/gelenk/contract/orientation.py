@@ -133,10 +133,11 @@ class OrientationRequest(MotionPayload):
     def motions(self) -> tuple[Array, list[FrameMotion], list[Validation | None]]:
         """Return the first transform, the further motions, and how far each matrix was from a rotation."""
         first, validation = self.read()
-        further, validations = [], [validation]
+        further: list[FrameMotion] = []
+        validations = [validation]
         for i, motion in enumerate(self.then):
             T, validation = motion.read(f"then/{i}/")
-            further.append(FrameMotion(T, motion.about))
+            further.append((T, motion.about))
             validations.append(validation)
         return first, further, validations
 

@@ -104,11 +104,7 @@ class Blend:
 
     @property
     def motion(self) -> PiecewisePolynomial:
-        """Motion from A' to C'.
-
-        Raises:
-            ValueError: It has no duration.
-        """
+        """Motion from A' to C'; raises ValueError if it takes no time."""
         if self.time == 0.0:
             raise ValueError("a blend of zero time is not a motion")
         return PiecewisePolynomial(np.array([0.0, self.time]), self.coefficients[None])
