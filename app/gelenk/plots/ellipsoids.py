@@ -115,22 +115,15 @@ def manipulability_picture(
     scene = Scene(points, slides, extent, quantities, outlines, arrows)
     entries = legend(quantities, outlines, arrows, translation)
     title = f"{style.plain(name)}: {style.plain(chain.base_frame)} → {style.plain(chain.tip_frame)}"
-    figure = (
-        _in_projections(scene, title, chain, q, entries)
-        if plane is None
-        else _in_plane(scene, plane, title, chain, q, entries)
-    )
+    captions = (title, chain, q, entries)
+    figure = _in_projections(scene, *captions) if plane is None else _in_plane(scene, plane, *captions)
     return style.as_bytes(figure, kind)
 
 
 def _plane(chain: Chain, translation: Ellipsoids | None) -> Array | None:
     """Return two unit vectors of the picture's plane, that of all motion or else of the task; shape (2, 3), or None."""
-    space = space_of(chain, (0, 1, 2))
-    if space.is_plane:
-        return space.spread(space.basis.T)
-    if translation is not None and translation.space.is_plane:
-        return translation.space.spread(translation.space.basis.T)
-    return None
+    spaces = [space_of(chain, (0, 1, 2)), *([] if translation is None else [translation.space])]
+    return next((space.spread(space.basis.T) for space in spaces if space.is_plane), None)
 
 
 def _units(chain: Chain) -> tuple[str, str]:
@@ -156,13 +149,11 @@ def _quantities(chain: Chain, translation: Ellipsoids, extent: float) -> tuple[Q
 
 def _outlines(translation: Ellipsoids, limited: LimitedMotion, extent: float) -> tuple[Outline, ...]:
     found = []
-    for name, unit, color, numbers, vertices in (
-        ("Velocity", "m/s", style.VELOCITY, limited.velocities, limited.velocity_vertices),
-        ("Force", "N", style.FORCE, limited.forces, limited.force_vertices),
+    for name, unit, color, limit, numbers, vertices in (
+        ("Velocity", "m/s", style.VELOCITY, "a velocity", limited.velocities, limited.velocity_vertices),
+        ("Force", "N", style.FORCE, "an effort", limited.forces, limited.force_vertices),
     ):
-        missing = f"not every joint has {'a velocity' if name == 'Velocity' else 'an effort'} limit"
-        if numbers is not None:
-            missing = "unbounded"
+        missing = f"not every joint has {limit} limit" if numbers is None else "unbounded"
         scale = 1.0 if vertices is None else _scale(np.linalg.norm(vertices, axis=1), extent)
         corners = None if vertices is None else translation.space.spread(vertices)
         found.append(Outline(name, unit, color, corners, scale, missing))
@@ -182,13 +173,10 @@ def _arrows(translation: Ellipsoids | None, quantities: Sequence[Quantity], aske
         if not inside[i]:
             arrows.append(Arrow(i + 1, direction, (), words + "not in the task"))
             continue
-        values = [float(ratio) for ratio in ratios[:, i]]
+        values = ratios[:, i].tolist()
         texts = [f"{value:.4g}" if np.isfinite(value) else "unbounded" for value in values]
-        ends = tuple(
-            (quantity.color, value * quantity.scale)
-            for quantity, value in zip(quantities, values, strict=True)
-            if np.isfinite(value)
-        )
+        reached = zip(quantities, values, strict=True)
+        ends = tuple((one.color, value * one.scale) for one, value in reached if np.isfinite(value))
         arrows.append(Arrow(i + 1, direction, ends, f"{words}v {texts[0]}, F {texts[1]}"))
     return tuple(arrows)
 

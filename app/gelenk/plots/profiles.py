@@ -128,19 +128,19 @@ def _draw(axes: Axes, motion: PiecewisePolynomial) -> None:
 
 def _limit(axes: Axes, lines: ProfileLines, which: int) -> None:
     """Draw the limits of all joints in both directions, with one line for joints that share a limit."""
-    if not lines.spans:
-        limit = lines.limits[which]
-        if limit is not None:
-            for bound, color in _bounds(limit[None]):
-                for side in (bound, -bound):
-                    axes.axhline(float(side[0]), color=color, linewidth=1.0, linestyle=_LIMIT_DASHES, zorder=2)
-        return
-    # NaN between two spans leaves a gap in the line.
-    times = np.array([(span.start, span.end, np.nan) for span in lines.spans]).ravel()
-    limits = np.repeat([span.limits[which] for span in lines.spans], 3, axis=0)
-    for bound, color in _bounds(limits):
-        for side in (bound, -bound):
-            axes.plot(times, side, color=color, linewidth=1.0, linestyle=_LIMIT_DASHES, zorder=2)
+    look: dict[str, Any] = {"linewidth": 1.0, "linestyle": _LIMIT_DASHES, "zorder": 2}
+    limit = lines.limits[which]
+    if lines.spans:
+        # NaN between two spans leaves a gap in the line.
+        times = np.array([(span.start, span.end, np.nan) for span in lines.spans]).ravel()
+        limits = np.repeat([span.limits[which] for span in lines.spans], 3, axis=0)
+        for bound, color in _bounds(limits):
+            for side in (bound, -bound):
+                axes.plot(times, side, color=color, **look)
+    elif limit is not None:
+        for bound, color in _bounds(limit[None]):
+            for height in (float(bound[0]), -float(bound[0])):
+                axes.axhline(height, color=color, **look)
 
 
 def _bounds(limits: Array) -> list[tuple[Array, str]]:

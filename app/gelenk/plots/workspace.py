@@ -57,18 +57,13 @@ class Picture:
     cell: float
 
     @property
-    def is_cloud(self) -> bool:
-        """Whether the rows are samples, not voxels."""
-        return "measure" in self.columns
-
-    @property
     def element(self) -> float:
         """Edge length of a picture element, [m]: one or more voxels, or so that most cover several samples."""
         longest = float(np.ptp(self.rows[:, :3], axis=0).max()) if len(self.rows) else 1.0
         if _is_one_place(self.rows[:, :3]):
             lower, upper = _corners(self.rows[:, :3])
             return float((upper - lower).max()) / _FEWEST_ELEMENTS
-        if not self.is_cloud:
+        if "measure" not in self.columns:  # voxels, not samples
             return self.cell * max(1.0, float(np.ceil(longest / (self.cell * _MOST_VOXELS))))
         count = np.clip(np.sqrt(len(self.rows)) / 2.0, _FEWEST_ELEMENTS, _MOST_ELEMENTS)
         return longest / float(count)
