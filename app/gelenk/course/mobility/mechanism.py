@@ -19,7 +19,6 @@ from gelenk.robot.result import Result
 
 FLOATING = "floating"
 """URDF's name for a joint that removes no freedom: not a pair, and c = 0."""
-_KIND_OF_JOINT = {"continuous": "revolute"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,13 +67,7 @@ class Pair(Result):
 
 @dataclass(frozen=True, slots=True)
 class Node:
-    """A joint where links meet.
-
-    Attributes:
-        joint: Name of the joint.
-        links: Names of the links.
-        kind: Kind of the missing pairs there; if None, that of the other pairs, or revolute.
-    """
+    """A joint where links meet, and the kind of the missing pairs there; if None, that of the others, or revolute."""
 
     joint: str
     links: tuple[str, ...]
@@ -196,7 +189,7 @@ def mechanism_of_tree(description: Description) -> Mechanism:
             free = FREEDOMS["spatial"]
             pairs.append(Pair(joint.name, joint.parent, joint.child, FLOATING, None, 0, free, None, False))
         else:
-            kind = _KIND_OF_JOINT.get(joint.type, joint.type)
+            kind = "revolute" if joint.type == "continuous" else joint.type
             pairs.append(_of_kind("spatial", joint.name, kind, (joint.parent, joint.child)))
     couplings = sum(joint.mimic is not None for joint in description.joints)
     ground, unknown = links.index(description.root), (None,) * len(pairs)
@@ -207,9 +200,8 @@ def check_kind(space: Space, kind: str, field: str) -> None:
     """Refuse a kind of pair that a space does not have."""
     if KINDS[kind].constraints(space) is None:
         where = "the plane (λ = 3)" if space == "planar" else "space (λ = 6)"
-        raise InvalidField(
-            field, f"there is no {quoted(kind)} pair in {where}; allowed: {', '.join(allowed_kinds(space))}"
-        )
+        allowed = ", ".join(allowed_kinds(space))
+        raise InvalidField(field, f"there is no {quoted(kind)} pair in {where}; allowed: {allowed}")
 
 
 def _of_kind(
