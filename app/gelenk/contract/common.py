@@ -95,6 +95,11 @@ class Payload(Shown):
     """Fields that a query string gives as JSON."""
 
 
+def optional(description: str) -> Any:
+    """Return a field that is None unless given."""
+    return Field(default=None, description=description)
+
+
 class Answer(Shown):
     """The base of all answers."""
 

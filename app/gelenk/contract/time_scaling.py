@@ -1,9 +1,10 @@
 """Uniform time scaling: request, answer, operation."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
+from gelenk.contract.common import optional
 from gelenk.contract.course_motion import (
     Coordinates,
     Duration,
@@ -25,27 +26,24 @@ class TimeScalingRequest(SampledRequest):
 
     limits: MotionLimits = Field(description="Limits; at least one of them.")
     law: PolynomialLaw = Field(default="cubic", description="From rest to rest; of a motion by `displacement`.")
-    displacement: Coordinates | None = Field(default=None, description="Δq of each joint, [rad or m].")
-    duration: Duration | None = Field(default=None, description="T of this motion, [s].")
-    times: Times | None = Field(default=None, description="Of the waypoints, increasing, [s].")
-    waypoints: Waypoints | None = Field(
-        default=None, description="Positions, one row per time, [rad or m]. Alone, a cubic spline is laid through them."
+    displacement: Coordinates | None = optional("Δq of each joint, [rad or m].")
+    duration: Duration | None = optional("T of this motion, [s].")
+    times: Times | None = optional("Of the waypoints, increasing, [s].")
+    waypoints: Waypoints | None = optional(
+        "Positions, one row per time, [rad or m]. Alone, a cubic spline is laid through them."
     )
     boundary: Boundary = Field(
         default="not_a_knot", description="Of that spline; `clamped` and `assigned` are at rest at both ends."
     )
-    velocities: Waypoints | None = Field(
-        default=None, description="At the waypoints, instead of a spline: cubic pieces, [rad/s or m/s]."
-    )
-    accelerations: Waypoints | None = Field(
-        default=None, description="At the waypoints, beside `velocities`: quintic pieces, [rad/s² or m/s²]."
+    velocities: Waypoints | None = optional("At the waypoints, instead of a spline: cubic pieces, [rad/s or m/s].")
+    accelerations: Waypoints | None = optional(
+        "At the waypoints, beside `velocities`: quintic pieces, [rad/s² or m/s²]."
     )
     scaling: Literal["course", "unclipped"] = Field(
         default="course", description="The k that scales the motion in the answer: `course` never speeds up."
     )
-    factor: Annotated[float, Field(ge=1e-6, le=1e6)] | None = Field(
-        default=None,
-        description="A custom k for the motion in the answer, no unit; it need not respect the limits.",
+    factor: Annotated[float, Field(ge=1e-6, le=1e6)] | None = optional(
+        "A custom k for the motion in the answer, no unit; it need not respect the limits."
     )
 
 
@@ -70,15 +68,6 @@ class TimeScalingAnswer(MotionAnswer):
     warnings: Warnings
 
 
-EXAMPLE_TIME_SCALING: dict[str, Any] = {
-    "displacement": [1.0, -2.0],
-    "duration": 1.0,
-    "law": "cubic",
-    "limits": {"joint_velocity": [1.0, 2.0], "joint_acceleration": [8.0, 8.0]},
-    "samples": 5,
-}
-
-
 ENDPOINT = Endpoint(
     name="time_scaling",
     path="v1/course/time-scaling",
@@ -101,5 +90,11 @@ ENDPOINT = Endpoint(
     As a picture of the scaled profiles with `Accept: image/svg+xml` or `image/png`.
     """,
     picture="Position, velocity, acceleration and jerk over time, with the limits.",
-    example=EXAMPLE_TIME_SCALING,
+    example={
+        "displacement": [1.0, -2.0],
+        "duration": 1.0,
+        "law": "cubic",
+        "limits": {"joint_velocity": [1.0, 2.0], "joint_acceleration": [8.0, 8.0]},
+        "samples": 5,
+    },
 )
