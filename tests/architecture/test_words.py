@@ -21,7 +21,7 @@ NO_NOUNS = {
 NEVER_ONE = {
     *("len(keys) keys", "count coordinates", "joints joints", "pieces pieces", "count samples", "waypoints waypoints"),
     *("len(links) links", "len(links) - 1 pairs", "split.links links", "split.pairs pairs", "links links"),
-    *("links - 1 pairs", "node.links links", "FREEDOMS[found.space] freedoms", "freedoms freedoms", "len(lost) parts"),
+    *("links - 1 pairs", "meeting links", "FREEDOMS[found.space] freedoms", "freedoms freedoms", "len(lost) parts"),
     *("counted.couplings joints", "counted.constraints constraints", "total constraints", "placed joints"),
     *("self._lost lines", "len(self.joints) joints", "len(joints) joints", "self.representation angles"),
     *("self.unfinished jobs", "self.allowed requests"),

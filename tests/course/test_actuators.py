@@ -292,7 +292,7 @@ def test_numbers_in_formulas(value: float, text: str) -> None:
 def test_the_gear_of_the_lecture() -> None:
     """N = 100, η = 0.8 behind the motor of the lecture, whose load has J = 3 kg m²."""
     line = torque_speed_line(LECTURE, 24.0)
-    _, load, _ = gear.sides(gear.Gear(100.0, 0.8), line.no_load_angular_velocity, None, line.stall_torque, None)
+    _, load, _ = gear.sides(100.0, 0.8, line.no_load_angular_velocity, None, line.stall_torque, None)
     assert load.torque == pytest.approx(80.0)
     assert load.angular_velocity is not None
     assert printed(load.angular_velocity, "4.580152672")
@@ -307,14 +307,13 @@ def test_the_gear_of_the_lecture() -> None:
 @pytest.mark.parametrize("speed", [-3.0, 0.0, 3.0])
 @pytest.mark.parametrize("torque", [-2.0, 0.0, 2.0])
 def test_there_and_back_across_a_gear(ratio: float, efficiency: float, speed: float, torque: float) -> None:
-    train = gear.Gear(ratio, efficiency)
-    motor, load, flow = gear.sides(train, None, speed, None, torque)
+    motor, load, flow = gear.sides(ratio, efficiency, None, speed, None, torque)
     assert motor.angular_velocity == pytest.approx(ratio * speed)
     assert motor.power is not None
     assert load.power is not None
     assert motor.power >= load.power - 1e-12, "a gear gives no power"
-    _, back, _ = gear.sides(train, motor.angular_velocity, None, motor.torque, None)
-    if flow == "load_to_motor" and train.is_self_locking:
+    _, back, _ = gear.sides(ratio, efficiency, motor.angular_velocity, None, motor.torque, None)
+    if flow == "load_to_motor" and gear.back_driving(efficiency).self_locking:
         assert motor.torque is not None
         assert motor.torque * speed >= 0.0, "a load on a gear that locks itself has to be driven down"
     else:
@@ -324,19 +323,18 @@ def test_there_and_back_across_a_gear(ratio: float, efficiency: float, speed: fl
 @pytest.mark.parametrize(("efficiency", "locks"), [(1.0, False), (0.8, False), (0.51, False), (0.5, True), (0.2, True)])
 def test_a_gear_of_half_or_less_locks_itself(efficiency: float, locks: bool) -> None:
     """By the definition: friction is the same torque both ways, and takes all that the load transmits."""
-    train = gear.Gear(10.0, efficiency)
+    found = gear.back_driving(efficiency)
     friction_over_load_torque = 1.0 / efficiency - 1.0
-    assert train.is_self_locking == (friction_over_load_torque >= 1.0) == locks
-    assert ("locks" in gear.back_driving_note(train)) == locks
-    _, held, _ = gear.sides(train, 5.0, None, -1.0, None)
+    assert found.self_locking == (friction_over_load_torque >= 1.0) == locks
+    assert ("locks" in found.note) == (found.efficiency is None) == locks
+    _, held, _ = gear.sides(10.0, efficiency, 5.0, None, -1.0, None)
     assert (held.torque is None) == locks
 
 
 def test_without_a_speed_the_motor_drives() -> None:
-    train = gear.Gear(10.0, 0.5)
-    assert gear.sides(train, None, None, 2.0, None)[1].torque == pytest.approx(10.0)
-    assert gear.sides(train, None, None, None, 10.0)[0].torque == pytest.approx(2.0)
-    motor, load, flow = gear.sides(train, None, None, None, None)
+    assert gear.sides(10.0, 0.5, None, None, 2.0, None)[1].torque == pytest.approx(10.0)
+    assert gear.sides(10.0, 0.5, None, None, None, 10.0)[0].torque == pytest.approx(2.0)
+    motor, load, flow = gear.sides(10.0, 0.5, None, None, None, None)
     assert (flow, motor.power, load.angular_velocity) == ("none", None, None)
 
 

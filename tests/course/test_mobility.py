@@ -7,7 +7,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from gelenk.course.mobility.mechanism import GivenPair, Mechanism, Node, mechanism, mechanism_of_tree
-from gelenk.course.mobility.mobility import NodeCount, certify_mobility, tally, tally_of_counts, verdict, warnings
+from gelenk.course.mobility.mobility import certify_mobility, tally, tally_of_counts, verdict, warnings
 from gelenk.course.mobility.pairs import FREEDOMS, KINDS, LETTERS, Space, allowed_kinds
 from gelenk.course.mobility.steps import steps
 from gelenk.course.mobility.topology import topology
@@ -149,7 +149,7 @@ def test_the_forgotten_split_is_made_where_the_node_is_named() -> None:
 
 
 def test_the_forgotten_split_by_counts_alone() -> None:
-    counted = tally_of_counts("planar", 6, {"revolute": 6}, [NodeCount("B", 3)])
+    counted = tally_of_counts("planar", 6, {"revolute": 6}, [("B", 3, None)])
     assert (counted.pairs, counted.constraints, counted.mobility, counted.mobility_without_split) == (7, 14, 1, 3)
     assert tally_of_counts("planar", 6, {"revolute": 6}, []).mobility == 3
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.linalg import polar
 from scipy.spatial.transform import Rotation
 
-from gelenk.course.orientation.composition import About, FrameMotion, composed
+from gelenk.course.orientation.composition import About, composed
 from gelenk.course.orientation.orientation import Notations, notations, wrapped
 from gelenk.course.orientation.rotations import DEGENERATE, AxisName, about_axis, elementary, validated
 from gelenk.errors import CertificationFailed
@@ -62,7 +62,7 @@ def test_inverse_of_a_homogeneous_transform() -> None:
 def test_composition_of_two_frames() -> None:
     """The lecture's p_0 = R_0_1 R_1_2 p_2."""
     first, second = (transform(np.zeros(3), R) for R in (elementary("z", 0.3), elementary("x", 0.4)))
-    found = composed(first, [FrameMotion(second, "moving")], np.array([[1.0, 2.0, 3.0]]))
+    found = composed(first, [(second, "moving")], np.array([[1.0, 2.0, 3.0]]))
     assert found.points[0] == pytest.approx([0.756195185525, 0.939289903397, 3.542019666626], abs=PRINTED)
 
 
@@ -74,7 +74,7 @@ def test_composition_about_moving_and_fixed_axes(seed: int) -> None:
     abouts: list[About] = ["fixed" if fixed else "moving" for fixed in rng.integers(0, 2, 5)]
     Ts = [transform(p, R.as_matrix()) for p, R in zip(positions, rotations, strict=True)]
     points = rng.normal(size=(7, 3))
-    found = composed(Ts[0], [FrameMotion(T, about) for T, about in zip(Ts[1:], abouts[1:], strict=True)], points)
+    found = composed(Ts[0], list(zip(Ts[1:], abouts[1:], strict=True)), points)
     R, p = rotations[0], positions[0]
     for further, shift, about in zip(rotations[1:], positions[1:], abouts[1:], strict=True):
         R, p = (R * further, p + R.apply(shift)) if about == "moving" else (further * R, shift + further.apply(p))
@@ -85,7 +85,7 @@ def test_composition_about_moving_and_fixed_axes(seed: int) -> None:
 
 def test_roll_pitch_yaw_are_the_same_as_turns_about_fixed_axes() -> None:
     first, *turns = (transform(np.zeros(3), R) for R in map(elementary, AXES, (-0.2, 0.5, 0.9)))
-    found = composed(first, [FrameMotion(T, "fixed") for T in turns], np.empty((0, 3)))
+    found = composed(first, [(T, "fixed") for T in turns], np.empty((0, 3)))
     assert found.transforms[-1][:3, :3] == pytest.approx(rpy(-0.2, 0.5, 0.9), abs=1e-15)
 
 

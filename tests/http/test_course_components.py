@@ -10,10 +10,16 @@ import pytest
 from starlette.testclient import TestClient
 
 from gelenk.contract.common import Answer
-from gelenk.contract.dc_motor import EXAMPLE_MOTOR, DcMotorAnswer
-from gelenk.contract.encoder import EXAMPLE_ENCODER, EncoderAnswer
-from gelenk.contract.gear import EXAMPLE_GEAR, GearAnswer
-from gelenk.contract.pulse_width_modulation import EXAMPLE_PWM, PwmAnswer
+from gelenk.contract.dc_motor import DcMotorAnswer
+from gelenk.contract.encoder import EncoderAnswer
+from gelenk.contract.endpoints import BY_NAME
+from gelenk.contract.gear import GearAnswer
+from gelenk.contract.pulse_width_modulation import PwmAnswer
+
+EXAMPLE_MOTOR = BY_NAME["dc_motor"].example
+EXAMPLE_ENCODER = BY_NAME["encoder"].example
+EXAMPLE_GEAR = BY_NAME["gear"].example
+EXAMPLE_PWM = BY_NAME["pulse_width_modulation"].example
 
 ANSWERS: dict[str, type[Answer]] = {
     "dc-motor": DcMotorAnswer,

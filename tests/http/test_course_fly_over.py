@@ -9,7 +9,10 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.contract.fly_over import EXAMPLE_FLY_OVER, FlyOverAnswer
+from gelenk.contract.endpoints import BY_NAME
+from gelenk.contract.fly_over import FlyOverAnswer
+
+EXAMPLE_FLY_OVER = BY_NAME["fly_over"].example
 
 PATH = "/v1/course/fly-over"
 IN_SPACE = {

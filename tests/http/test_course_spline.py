@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.contract.spline import EXAMPLE_SPLINE, SplineAnswer
+from gelenk.contract.endpoints import BY_NAME
+from gelenk.contract.spline import SplineAnswer
+
+EXAMPLE_SPLINE = BY_NAME["spline"].example
 
 PATH = "/v1/course/spline"
 FIVE = {"times": [0.0, 1.0, 2.5, 3.0, 4.0], "waypoints": [0.0, 1.0, 0.5, 2.0, 1.5]}

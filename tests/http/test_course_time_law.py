@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.contract.time_law import EXAMPLE_TIME_LAW, TimeLawAnswer
+from gelenk.contract.endpoints import BY_NAME
+from gelenk.contract.time_law import TimeLawAnswer
+
+EXAMPLE_TIME_LAW = BY_NAME["time_law"].example
 
 PATH = "/v1/course/time-law"
 LIMITS = {"joint_velocity": 0.8, "joint_acceleration": 1.6}

@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.contract.time_scaling import EXAMPLE_TIME_SCALING, TimeScalingAnswer
+from gelenk.contract.endpoints import BY_NAME
+from gelenk.contract.time_scaling import TimeScalingAnswer
+
+EXAMPLE_TIME_SCALING = BY_NAME["time_scaling"].example
 
 PATH = "/v1/course/time-scaling"
 LOOSE = {"joint_velocity": 10.0, "joint_acceleration": 100.0}

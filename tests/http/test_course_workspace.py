@@ -8,7 +8,10 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.contract.planar_workspace import EXAMPLE_WORKSPACE, PlanarWorkspaceAnswer
+from gelenk.contract.endpoints import BY_NAME
+from gelenk.contract.planar_workspace import PlanarWorkspaceAnswer
+
+EXAMPLE_WORKSPACE = BY_NAME["planar_workspace"].example
 
 PATH = "/v1/course/workspace"
 

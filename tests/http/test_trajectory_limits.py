@@ -6,10 +6,10 @@ import numpy as np
 import orjson
 import pytest
 
-from gelenk.contract.trajectory_request import MotionOptions
+from gelenk.contract.trajectory_request import MotionOptions, TrajectoryRequest
 from gelenk.errors import InvalidField
 from gelenk.operations.trajectory_limits import SourcedLimits, bounds_of, limit_notes, own_velocities
-from gelenk.operations.trajectory_samples import check_samples, sample_count, sample_times
+from gelenk.operations.trajectory_planned import TrajectorySizeLimits, sample_count, sample_times
 from tests.oracles import catalogue
 from tests.robots import robot, swept
 
@@ -119,11 +119,17 @@ def test_samples_are_multiples_of_the_period(period: float) -> None:
 
 @pytest.mark.parametrize(("duration", "most"), [(1e6, 100_000), (1e300, 100_000), (10.0, 1000), (10.0, 2)])
 def test_too_many_samples_are_refused_with_the_period_that_is_allowed(duration: float, most: int) -> None:
+    bounds, chain = TrajectorySizeLimits(most, 10**9), robot("panda").chain(None, None)
+
+    def check(period: float) -> None:
+        call = TrajectoryRequest.model_construct(start=[], segments=[], sample_period=period, tip_poses=False)
+        bounds.check(call, chain, duration)
+
     with pytest.raises(InvalidField) as caught:
-        check_samples(duration, 1e-6, most)
+        check(1e-6)
     assert caught.value.field == "sample_period"
     least = float(caught.value.reason.split()[-2])
-    check_samples(duration, least, most)
+    check(least)
     if least < 1.0:
         with pytest.raises(InvalidField):
-            check_samples(duration, least - 2e-6, most)
+            check(least - 2e-6)

@@ -17,7 +17,6 @@ from matplotlib.patches import Ellipse, Polygon
 from gelenk.ik.search.words import DIRECTIONS, Direction
 from gelenk.kinematics.ellipsoids.limited_motion import JointBounds, limited_motion
 from gelenk.kinematics.ellipsoids.manipulability import manipulability
-from gelenk.plots import ellipsoids as module
 from gelenk.plots.ellipsoids import NOTHING_MORE, Overlay, manipulability_picture
 from gelenk.plots.figure import FORCE, LINK, VELOCITY, PictureFormat
 from gelenk.robot.arrays import Array
@@ -52,7 +51,7 @@ def figures(monkeypatch: pytest.MonkeyPatch) -> list[Figure]:
         drawn.append(figure)
         return b""
 
-    monkeypatch.setattr(module, "as_bytes", kept)
+    monkeypatch.setattr("gelenk.plots.figure.as_bytes", kept)
     return drawn
 
 

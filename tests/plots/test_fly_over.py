@@ -6,7 +6,6 @@ from matplotlib.figure import Figure
 
 from gelenk.course.motion.blended_motion import rest_to_rest
 from gelenk.course.motion.fly_over import Blend, blended, corner_of
-from gelenk.plots import fly_over as module
 from gelenk.plots.figure import PictureFormat
 from gelenk.plots.fly_over import fly_over_picture
 from gelenk.robot.arrays import Array
@@ -29,7 +28,7 @@ def drawn(monkeypatch: pytest.MonkeyPatch, blend: Blend, motion: PiecewisePolyno
         figures.append(figure)
         return b""
 
-    monkeypatch.setattr(module, "as_bytes", kept)
+    monkeypatch.setattr("gelenk.plots.figure.as_bytes", kept)
     fly_over_picture(blend, motion, "svg")
     return figures[0]
 

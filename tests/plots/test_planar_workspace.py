@@ -11,7 +11,6 @@ from matplotlib.image import imread
 from matplotlib.patches import Annulus, Circle
 
 from gelenk.course.planar import planar_workspace
-from gelenk.plots import planar_workspace as module
 from gelenk.plots.figure import PictureFormat
 from gelenk.plots.planar_workspace import planar_workspace_picture
 
@@ -24,7 +23,7 @@ def drawn(monkeypatch: pytest.MonkeyPatch, links: Sequence[float], point: Sequen
         figures.append(figure)
         return b""
 
-    monkeypatch.setattr(module, "as_bytes", kept)
+    monkeypatch.setattr("gelenk.plots.figure.as_bytes", kept)
     planar_workspace_picture(planar_workspace(links), point, "svg")
     return figures[0]
 

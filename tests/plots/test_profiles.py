@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from gelenk.plots import profiles as module
 from gelenk.plots.figure import QUIET, PictureFormat
 from gelenk.plots.profiles import ProfileLines, Span, curve, profiles_picture
 from gelenk.robot.arrays import Array
@@ -28,7 +27,7 @@ def figures(monkeypatch: pytest.MonkeyPatch) -> list[Figure]:
         drawn.append(figure)
         return b""
 
-    monkeypatch.setattr(module, "as_bytes", kept)
+    monkeypatch.setattr("gelenk.plots.figure.as_bytes", kept)
     return drawn
 
 

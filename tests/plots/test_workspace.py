@@ -86,6 +86,6 @@ def test_a_single_place_is_seen_together_with_the_base(
 def test_the_title_names_robot_and_chain() -> None:
     figures: list[str] = []
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("gelenk.plots.workspace.as_bytes", lambda figure, _: figures.append(figure.texts[-1].get_text()))
+        patch.setattr("gelenk.plots.figure.as_bytes", lambda figure, _: figures.append(figure.texts[-1].get_text()))
         picture_bytes(picture(np.zeros((1, 4))), "png")
     assert figures == ["Workspace of arm: base → tip ? $\\frac"]

@@ -13,8 +13,7 @@ from gelenk.trajectory.paths.orientation_paths import (
     axis_angle,
     travelled,
 )
-from gelenk.trajectory.paths.rotation_splines import rotation_corner, rotation_spline
-from gelenk.trajectory.paths.so3 import angular_motion, rate_matrices
+from gelenk.trajectory.paths.rotation_splines import angular_motion, rate_matrices, rotation_corner, rotation_spline
 from gelenk.trajectory.paths.zyz_paths import zyz_turns
 
 HALF = np.array([0.5])

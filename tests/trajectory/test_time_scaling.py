@@ -52,7 +52,7 @@ def test_the_line_of_the_lecture() -> None:
     assert found.bounds[1].ratio == pytest.approx(6.151971947, abs=1e-9)
     assert found.course_factor == pytest.approx(2.480316904599, abs=1e-10)
     assert found.binding.quantity == "acceleration"
-    assert found.binding.joint == 0
+    assert found.binding.joint == 1
     scaled = peaks(motion.scaled(found.course_factor), 2)
     assert abs(scaled.values[0]) == pytest.approx(5.0, abs=1e-12)
 
@@ -67,9 +67,9 @@ def test_the_simple_example() -> None:
     assert [bound.ratio for bound in found.bounds] == pytest.approx([1.5, 1.5])
     assert found.course_factor == pytest.approx(1.5)
     assert found.binding.quantity == "velocity"
-    assert found.binding.joint == 0
+    assert found.binding.joint == 1
     assert found.binding.time == pytest.approx(0.5)
-    assert found.bounds[1].joint == 1
+    assert found.bounds[1].joint == 2
 
 
 def test_loose_limits_speed_up_only_without_the_one() -> None:

@@ -132,7 +132,7 @@ TURNED = transform(np.array([0.1, 1.2, 0.3]), Rotation.from_rotvec([0.0, 0.0, 0.
 @pytest.mark.parametrize("law", ["trapezoidal", "time_optimal"])
 def test_bang_coast_bang_along_a_line_of_the_tip(tip: TipLimits, v: float, a: float, law: Law) -> None:
     path = line(LEVEL, TURNED)
-    found = timed(path, gantry(path, 5), law, limits(tip=tip, joints=3))
+    found = timed(path, gantry(path, 5), law, limits(tip=tip, joints=4))
     expected = 1.0 / v + v / a if v * v / a < 1.0 else 2.0 / math.sqrt(a)
     assert found.motion.duration == pytest.approx(expected, rel=3e-9)
 
@@ -147,7 +147,7 @@ def test_time_optimal_round_half_a_circle() -> None:
     """At full acceleration ṡ² = a r sin(2s/r) as far as s = πr/4, then even motion; ∫ dθ/√sin θ up to π/2 is 2.622."""
     radius, a = 0.3, 2.0
     path = circle(*half_circle(radius))
-    bounds = limits(tip=TipLimits(acceleration=a), joints=3)
+    bounds = limits(tip=TipLimits(acceleration=a), joints=4)
     expected = math.sqrt(radius / a) * (2.622057554292119 + 0.5 * math.pi)
     found = timed(path, gantry(path, 8), "time_optimal", bounds)
     assert expected * (1.0 - 1e-6) < found.motion.duration < expected * 1.003
@@ -164,7 +164,7 @@ def test_trapezoid_round_half_a_circle() -> None:
         return (length + 2.0 * d) / math.sqrt(2.0 * a * d)
 
     expected = minimize_scalar(lasting, bounds=(1e-3, 0.5 * length), method="bounded", options={"xatol": 1e-12}).fun
-    found = timed(path, gantry(path, 12), "trapezoidal", limits(tip=TipLimits(acceleration=limit), joints=3))
+    found = timed(path, gantry(path, 12), "trapezoidal", limits(tip=TipLimits(acceleration=limit), joints=4))
     assert found.motion.duration == pytest.approx(expected, rel=1e-9)
 
 
@@ -254,7 +254,7 @@ def test_each_law_starts_and_ends_at_rest_on_the_way_and_is_as_smooth_as_it_says
 def test_acceleration_jumps_where_the_curvature_does(law: Law) -> None:
     corners = Poses(np.array([[0.0, 0.0, 0.0], [0.5, 0.0, 0.0], [0.5, 0.4, 0.0]]), np.array([np.eye(3)] * 3))
     path = blended_lines(corners, [0.1])
-    way, bounds = gantry(path, 12), limits(1.0, 3.0, 40.0, TipLimits(0.5, math.inf, 2.0, math.inf), joints=3)
+    way, bounds = gantry(path, 12), limits(1.0, 3.0, 40.0, TipLimits(0.5, math.inf, 2.0, math.inf), joints=4)
     found = timed(path, way, law, bounds)
     assert (found.continuous, found.has_bounded_jerk) == (1, False)
     assert bool(found.notes) == (law in SMOOTH)
@@ -342,7 +342,7 @@ def test_the_tip_s_limit_that_binds_is_named() -> None:
         ("acceleration", "acceleration, 0.25"),
         ("angular_acceleration", "angular acceleration, 0.25"),
     ):
-        bounds = limits(tip=TipLimits(**{name: 0.25}), joints=3)
+        bounds = limits(tip=TipLimits(**{name: 0.25}), joints=4)
         with pytest.raises(InvalidField, match=f"the tip reaches its limit of {words}$"):
             timed(path, gantry(path, 4), "quintic", bounds, duration=1e-3)
 

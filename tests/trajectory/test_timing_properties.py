@@ -25,6 +25,7 @@ from gelenk.trajectory.timing.tip_constraints import tip_rows
 from tests.robots import robot
 from tests.trajectory.timed_ways import (
     LAWS,
+    LOOSE,
     SMOOTH,
     compared,
     gantry,
@@ -34,6 +35,7 @@ from tests.trajectory.timed_ways import (
     planar_line,
     random_way,
     timed,
+    tip_of_gantry,
 )
 
 PANDA = robot("panda")
@@ -145,9 +147,10 @@ def test_the_time_optimal_law_under_limits_of_the_tip_is_near_that_of_a_finer_gr
     start, via, end = (transform(rng.uniform(-0.4, 0.4, 3), turn) for turn in turns)
     path = circle(start, via, end)
     way = gantry(path, 20)
-    bounds = random_limits(rng, 3, TipLimits(0.5, 1.0, 1.5, 4.0))
+    velocity, acceleration, jerk = np.column_stack((random_limits(rng, 3).joints, np.full(3, LOOSE)))
+    bounds = SegmentLimits(velocity, acceleration, jerk, TipLimits(0.5, 1.0, 1.5, 4.0))
     found = timed(path, way, "time_optimal", bounds)
-    rows = tip_rows(geometry_of(path, way, bounds, None))
+    rows = tip_rows(geometry_of(path, way, bounds, tip_of_gantry(path)))
     finer = time_optimal(way, bounds.velocity, bounds.acceleration, intervals=1500, further=rows)
     assert 0.9999 * finer.motion.duration < found.motion.duration < 1.005 * finer.motion.duration
     # The sides of the polygon take no more than 1 - cos(π/32) of an acceleration.

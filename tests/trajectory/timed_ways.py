@@ -9,7 +9,7 @@ from gelenk.robot.arrays import Array
 from gelenk.trajectory.audit.demands import TipLimits
 from gelenk.trajectory.audit.words import Law
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
-from gelenk.trajectory.paths.path_geometry import geometry_of
+from gelenk.trajectory.paths.path_geometry import TipMotion, geometry_of
 from gelenk.trajectory.paths.paths import Path
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing import timing
@@ -23,6 +23,8 @@ LOOSE = 1e6
 def timed(path: Path | None, joints: PiecewisePolynomial, law: Law, limits: SegmentLimits, **options: object) -> Timed:
     """The motion along a path, with options of the geometry and of the timing."""
     of_geometry = {name: options.pop(name) for name in ("tip_motion", "zones", "corners") if name in options}
+    if path is not None:
+        of_geometry.setdefault("tip_motion", tip_of_gantry(path))
     geometry = geometry_of(path, joints, limits, **of_geometry)  # type: ignore[arg-type]
     return timing.timed(geometry, law, **options)  # type: ignore[arg-type]
 
@@ -90,7 +92,7 @@ def planar_line(pieces: int) -> PiecewisePolynomial:
 
 
 def gantry(path: Path, pieces: int) -> PiecewisePolynomial:
-    """Three sliding joints that are the tip's coordinates along a path."""
+    """Three sliding joints that are the tip's coordinates along a path, and one that is s."""
     inner = [b for b in path.breaks if 0.0 < b < path.extent]
     edges = np.array([0.0, *inner, path.extent])
     parts = []
@@ -98,9 +100,23 @@ def gantry(path: Path, pieces: int) -> PiecewisePolynomial:
         s = np.linspace(begin, end, max(1, round(pieces * (end - begin) / path.extent)) + 1)
         inside = np.clip(s, begin + 1e-12, end - 1e-12)
         samples = path.at(inside)
-        parts.append(hermite(s, path.at(s).poses.positions, samples.first[:, :3], samples.second[:, :3]))
+        q = np.column_stack((path.at(s).poses.positions, s))
+        first, second = samples.first.copy(), samples.second.copy()
+        first[:, 3], second[:, 3] = 1.0, 0.0
+        parts.append(hermite(s, q, first[:, :4], second[:, :4]))
     breaks = np.concatenate([edges[:1], *(part.breaks[1:] for part in parts)])
     return PiecewisePolynomial(breaks, np.concatenate([part.coefficients for part in parts]))
+
+
+def tip_of_gantry(path: Path) -> TipMotion:
+    """The tip's motion along a path, found from the joint of a gantry that is s."""
+
+    def motion(q: Array, velocity: Array, acceleration: Array) -> tuple[Array, Array]:
+        samples = path.at(np.clip(q[:, 3], 1e-9, path.extent - 1e-9))
+        v, a = velocity[:, 3:], acceleration[:, 3:]
+        return samples.first * v, samples.first * a + samples.second * v**2
+
+    return motion
 
 
 def random_way(rng: np.random.Generator, joints: int) -> PiecewisePolynomial:

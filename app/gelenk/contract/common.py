@@ -88,6 +88,11 @@ class Payload(Shown):
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
 
 
+def optional(description: str) -> Any:
+    """Return a field that is None unless given."""
+    return Field(default=None, description=description)
+
+
 class Answer(Shown):
     """The base of all answers."""
 

@@ -4,7 +4,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, BeforeValidator, Field
 
-from gelenk.contract.common import Answer, Payload
+from gelenk.contract.common import Answer, Payload, optional
 from gelenk.course.motion.check import MotionCertificate
 
 MAX_JOINTS = 32
@@ -49,9 +49,9 @@ SampleCount = Annotated[int, Field(ge=2, le=MAX_SAMPLES)]
 class MotionLimits(Payload):
     """Limits of each joint; a single number applies to all joints."""
 
-    joint_velocity: Bounds | None = Field(default=None, description="|q̇|, > 0, [rad/s or m/s].")
-    joint_acceleration: Bounds | None = Field(default=None, description="|q̈|, > 0, [rad/s² or m/s²].")
-    joint_jerk: Bounds | None = Field(default=None, description="|q⃛|, > 0, [rad/s³ or m/s³].")
+    joint_velocity: Bounds | None = optional("|q̇|, > 0, [rad/s or m/s].")
+    joint_acceleration: Bounds | None = optional("|q̈|, > 0, [rad/s² or m/s²].")
+    joint_jerk: Bounds | None = optional("|q⃛|, > 0, [rad/s³ or m/s³].")
 
 
 class SampledRequest(Payload):
@@ -60,11 +60,9 @@ class SampledRequest(Payload):
     samples: SampleCount = Field(
         default=101, description="Number of samples, evenly spaced from start to end, both included; no unit."
     )
-    sample_times: SampleTimes | None = Field(
-        default=None, description="Instead of `samples`: the times, none outside the motion, [s]."
-    )
-    limits: MotionLimits | None = Field(
-        default=None, description="Limits of each joint: peaks are given as ratios to them, and pictures show them."
+    sample_times: SampleTimes | None = optional("Instead of `samples`: the times, none outside the motion, [s].")
+    limits: MotionLimits | None = optional(
+        "Limits of each joint: peaks are given as ratios to them, and pictures show them."
     )
 
 

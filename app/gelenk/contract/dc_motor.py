@@ -1,10 +1,10 @@
 """A DC motor: request, answer, operation."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload
+from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import (
     AngularVelocity,
@@ -31,8 +31,8 @@ class DcMotorRequest(Payload):
     resistance: Resistance = Field(description="R of the winding, [Ω].")
     inductance: Inductance = Field(description="L of the winding, [H]; 0, or at least 1e-12.")
     torque_constant: MachineConstant = Field(description="k_t, [N m/A].")
-    back_emf_constant: MachineConstant | None = Field(
-        default=None, description="k_e, [V s/rad]; k_t if left out, which it equals in these units."
+    back_emf_constant: MachineConstant | None = optional(
+        "k_e, [V s/rad]; k_t if left out, which it equals in these units."
     )
     viscous_friction: Friction = Field(default=0.0, description="b, [N m s/rad].")
     inertia: Inertia = Field(description="J of the rotor and what turns with it, [kg m²].")
@@ -40,16 +40,14 @@ class DcMotorRequest(Payload):
     load_torque: Torque = Field(
         default=0.0, description="τ_L, constant from t = 0 on, [N m]: it keeps its direction, as a hanging load's does."
     )
-    times: Annotated[list[Time], Field(min_length=1, max_length=MAX_SAMPLES, fail_fast=True)] | None = Field(
-        default=None,
-        description="Times at which to compute the response, from the step on, [s]; no response if left out.",
+    times: Annotated[list[Time], Field(min_length=1, max_length=MAX_SAMPLES, fail_fast=True)] | None = optional(
+        "Times at which to compute the response, from the step on, [s]; no response if left out."
     )
-    duration: Annotated[float, Field(ge=1e-12, le=1e9)] | None = Field(
-        default=None,
-        description="Instead of `times`: the last of `samples` times, which are evenly spaced from 0 on, [s].",
+    duration: Annotated[float, Field(ge=1e-12, le=1e9)] | None = optional(
+        "Instead of `times`: the last of `samples` times, which are evenly spaced from 0 on, [s]."
     )
-    samples: Annotated[int, Field(ge=2, le=MAX_SAMPLES)] | None = Field(
-        default=None, description="Number of times that `duration` is sampled at; 101 if left out."
+    samples: Annotated[int, Field(ge=2, le=MAX_SAMPLES)] | None = optional(
+        "Number of times that `duration` is sampled at; 101 if left out."
     )
     initial_current: Current = Field(
         default=0.0, description="i(0), [A]; not used without inductance, where the current follows at once."
@@ -120,18 +118,6 @@ class DcMotorAnswer(Answer):
     certificate: MotorCertificate
 
 
-EXAMPLE_MOTOR: dict[str, Any] = {
-    "resistance": 1.2,
-    "inductance": 2e-3,
-    "torque_constant": 0.05,
-    "viscous_friction": 1e-4,
-    "inertia": 2e-4,
-    "voltage": 24.0,
-    "load_torque": 0.1,
-    "times": [0.0, 0.02, 0.1, 0.5],
-}
-
-
 ENDPOINT = Endpoint(
     name="dc_motor",
     path="v1/course/dc-motor",
@@ -150,5 +136,14 @@ ENDPOINT = Endpoint(
 
     The lecture describes the motor in words; these are the equations behind it.
     """,
-    example=EXAMPLE_MOTOR,
+    example={
+        "resistance": 1.2,
+        "inductance": 2e-3,
+        "torque_constant": 0.05,
+        "viscous_friction": 1e-4,
+        "inertia": 2e-4,
+        "voltage": 24.0,
+        "load_torque": 0.1,
+        "times": [0.0, 0.02, 0.1, 0.5],
+    },
 )

@@ -1,10 +1,10 @@
 """Shaft encoders: request, answer, operation."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload
+from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Ratio, Steps
 from gelenk.course.actuators.encoders import TURN, Decoding, EncoderResolution, RequiredEncoder
@@ -22,43 +22,40 @@ class EncoderRequest(Payload):
 
     type: Literal["incremental", "absolute"] = Field(description="Two channels and a counter, or a code disc.")
     gear_ratio: Ratio = Field(default=1.0, description="N = ω_motor / ω_load, no unit.")
-    sample_period: Annotated[float, Field(ge=1e-12, le=1e6)] | None = Field(
-        default=None, description="T_s over which counts are read as a speed, [s]; requests the velocity quantum."
+    sample_period: Annotated[float, Field(ge=1e-12, le=1e6)] | None = optional(
+        "T_s over which counts are read as a speed, [s]; requests the velocity quantum."
     )
-    motor_angular_velocity: Annotated[float, Field(ge=-1e9, le=1e9)] | None = Field(
-        default=None, description="Speed of the motor, [rad/s]; requests the count rate."
+    motor_angular_velocity: Annotated[float, Field(ge=-1e9, le=1e9)] | None = optional(
+        "Speed of the motor, [rad/s]; requests the count rate."
     )
-    wanted_resolution: Annotated[float, Field(ge=1e-12, le=TURN)] | None = Field(
-        default=None, description="Smallest angle to resolve at the load, [rad]; requests the encoder needed."
+    wanted_resolution: Annotated[float, Field(ge=1e-12, le=TURN)] | None = optional(
+        "Smallest angle to resolve at the load, [rad]; requests the encoder needed."
     )
     decoding: Decoding = Field(
         default="x4",
         description="Counts per line of an incremental encoder; of an absolute one only with `wanted_resolution`.",
     )
 
-    pulses_per_revolution: Annotated[int, Field(ge=1, le=10_000_000)] | None = Field(
-        default=None, description="Lines of an incremental encoder, no unit."
+    pulses_per_revolution: Annotated[int, Field(ge=1, le=10_000_000)] | None = optional(
+        "Lines of an incremental encoder, no unit."
     )
-    samples: Annotated[str, Field(max_length=300_000)] | None = Field(
-        default=None,
-        description='Samples of an incremental encoder\'s channels A and B, such as "00 10 11 01": A leads forward. '
-        "With a third digit also of the index channel Z.",
+    samples: Annotated[str, Field(max_length=300_000)] | None = optional(
+        'Samples of an incremental encoder\'s channels A and B, such as "00 10 11 01": A leads forward. '
+        "With a third digit also of the index channel Z."
     )
-    counter_bits: Annotated[int, Field(ge=1, le=64)] | None = Field(
-        default=None, description="Width of the counter, no unit; requests its reading with wrap-around."
+    counter_bits: Annotated[int, Field(ge=1, le=64)] | None = optional(
+        "Width of the counter, no unit; requests its reading with wrap-around."
     )
 
-    bits: Annotated[int, Field(ge=1, le=MAX_BITS)] | None = Field(
-        default=None, description="Tracks of an absolute encoder, no unit."
-    )
+    bits: Annotated[int, Field(ge=1, le=MAX_BITS)] | None = optional("Tracks of an absolute encoder, no unit.")
     code: Code = Field(default="gray", description="Code of an absolute encoder's disc, and so of `readings`.")
-    readings: Annotated[list[Reading], Field(max_length=MAX_READINGS, fail_fast=True)] | None = Field(
-        default=None, description='Codes as read from an absolute encoder, `bits` digits each, such as "0110".'
+    readings: Annotated[list[Reading], Field(max_length=MAX_READINGS, fail_fast=True)] | None = optional(
+        'Codes as read from an absolute encoder, `bits` digits each, such as "0110".'
     )
     values: (
         Annotated[list[Annotated[int, Field(ge=0, lt=1 << MAX_BITS)]], Field(max_length=MAX_READINGS, fail_fast=True)]
         | None
-    ) = Field(default=None, description="Numbers below 2^bits, no unit, to be written in both codes.")
+    ) = optional("Numbers below 2^bits, no unit, to be written in both codes.")
     table: bool = Field(default=False, description="Whether to list all positions of an absolute encoder of ≤ 8 bits.")
 
 
@@ -85,16 +82,6 @@ class EncoderAnswer(Answer):
     steps: Steps
 
 
-EXAMPLE_ENCODER: dict[str, Any] = {
-    "type": "incremental",
-    "pulses_per_revolution": 1024,
-    "decoding": "x4",
-    "gear_ratio": 50.0,
-    "sample_period": 0.001,
-    "samples": "00 10 11 01 00 10 11 10",
-}
-
-
 ENDPOINT = Endpoint(
     name="encoder",
     path="v1/course/encoder",
@@ -115,5 +102,12 @@ ENDPOINT = Endpoint(
     the shaft does. Required counts are rounded up before bits and lines are, so a line count times the decoding
     may be a little more than the counts required.
     """,
-    example=EXAMPLE_ENCODER,
+    example={
+        "type": "incremental",
+        "pulses_per_revolution": 1024,
+        "decoding": "x4",
+        "gear_ratio": 50.0,
+        "sample_period": 0.001,
+        "samples": "00 10 11 01 00 10 11 10",
+    },
 )

@@ -1,10 +1,10 @@
 """Fly-over of a corner without a stop: request, answer, operation."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
-from gelenk.contract.common import Answer, Payload
+from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Steps, Warnings
 from gelenk.course.motion.blended_motion import Phase
@@ -35,22 +35,19 @@ class FlyOverRequest(Payload):
     end: Point = Field(description="C, likewise, [m].")
     speed_before: Speed = Field(description="v₁ along AB, [m/s]; 0 to begin at rest in B.")
     speed_after: Speed = Field(description="v₂ along BC, [m/s]; 0 to come to rest in B. Not both are 0.")
-    blend_time: Annotated[float, Field(ge=1e-6, le=1e6)] | None = Field(default=None, description="ΔT, [s].")
-    distance_before: Distance | None = Field(default=None, description="d₁ from where the blend begins to B, [m].")
-    distance_after: Distance | None = Field(default=None, description="d₂ from B to where the blend ends, [m].")
-    radius: Distance | None = Field(default=None, description="The larger of d₁ and d₂, [m].")
-    max_acceleration: Acceleration | None = Field(
-        default=None, description="Constant acceleration in the blend, which is then as short as possible, [m/s²]."
+    blend_time: Annotated[float, Field(ge=1e-6, le=1e6)] | None = optional("ΔT, [s].")
+    distance_before: Distance | None = optional("d₁ from where the blend begins to B, [m].")
+    distance_after: Distance | None = optional("d₂ from B to where the blend ends, [m].")
+    radius: Distance | None = optional("The larger of d₁ and d₂, [m].")
+    max_acceleration: Acceleration | None = optional(
+        "Constant acceleration in the blend, which is then as short as possible, [m/s²]."
     )
-    rest_acceleration: Acceleration | None = Field(
-        default=None,
-        description="For the whole motion from rest in A to rest in C: acceleration with which it begins and ends, "
-        "[m/s²]. Without it, the blend alone.",
+    rest_acceleration: Acceleration | None = optional(
+        "For the whole motion from rest in A to rest in C: acceleration with which it begins and ends, "
+        "[m/s²]. Without it, the blend alone."
     )
-    samples: Annotated[int, Field(ge=2, le=MAX_SAMPLES)] | None = Field(
-        default=None,
-        description="Number of evenly spaced times at which to sample the motion, both ends included, no unit; none if "
-        "left out.",
+    samples: Annotated[int, Field(ge=2, le=MAX_SAMPLES)] | None = optional(
+        "Number of evenly spaced times at which to sample the motion, both ends included, no unit; none if left out."
     )
 
 
@@ -116,17 +113,6 @@ class FlyOverAnswer(Answer):
     certificate: BlendCheck
 
 
-EXAMPLE_FLY_OVER: dict[str, Any] = {
-    "start": [3.0, 3.0],
-    "corner": [1.0, 9.0],
-    "end": [8.0, 9.0],
-    "speed_before": 1.0,
-    "speed_after": 2.0,
-    "blend_time": 4.0,
-    "samples": 5,
-}
-
-
 ENDPOINT = Endpoint(
     name="fly_over",
     path="v1/course/fly-over",
@@ -148,5 +134,13 @@ ENDPOINT = Endpoint(
     `image/png`.
     """,
     picture="The corner in its plane, and the speed and the acceleration over time.",
-    example=EXAMPLE_FLY_OVER,
+    example={
+        "start": [3.0, 3.0],
+        "corner": [1.0, 9.0],
+        "end": [8.0, 9.0],
+        "speed_before": 1.0,
+        "speed_after": 2.0,
+        "blend_time": 4.0,
+        "samples": 5,
+    },
 )

@@ -1,13 +1,13 @@
 """A gear: request, answer, operation."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload
+from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import AngularVelocity, Inertia, Ratio, Steps, Torque
-from gelenk.course.actuators.gear import GearSide, PowerFlow, ReflectedInertias
+from gelenk.course.actuators.gear import BackDriving, GearSide, PowerFlow, ReflectedInertias
 
 
 class GearRequest(Payload):
@@ -17,22 +17,12 @@ class GearRequest(Payload):
     efficiency: Annotated[float, Field(ge=1e-6, le=1.0)] = Field(
         default=1.0, description="η, power out over power in when the motor drives, no unit."
     )
-    motor_angular_velocity: AngularVelocity | None = Field(default=None, description="ω_m, [rad/s].")
-    load_angular_velocity: AngularVelocity | None = Field(default=None, description="ω_L, instead of ω_m, [rad/s].")
-    motor_torque: Torque | None = Field(default=None, description="τ_m, from the motor into the gear, [N m].")
-    load_torque: Torque | None = Field(
-        default=None, description="τ_L, from the gear into the load, instead of τ_m, [N m]."
-    )
-    motor_inertia: Inertia | None = Field(default=None, description="J_m of the rotor, [kg m²].")
-    load_inertia: Inertia | None = Field(default=None, description="J_L of the load, [kg m²].")
-
-
-class BackDrivingInfo(Answer):
-    """What happens when the load drives."""
-
-    efficiency: float | None = Field(description="2 - 1/η, no unit; null where the gear locks itself.")
-    self_locking: bool = Field(description="Whether no load can turn the motor: η ≤ 1/2.")
-    note: str = Field(description="An explanation in one sentence.")
+    motor_angular_velocity: AngularVelocity | None = optional("ω_m, [rad/s].")
+    load_angular_velocity: AngularVelocity | None = optional("ω_L, instead of ω_m, [rad/s].")
+    motor_torque: Torque | None = optional("τ_m, from the motor into the gear, [N m].")
+    load_torque: Torque | None = optional("τ_L, from the gear into the load, instead of τ_m, [N m].")
+    motor_inertia: Inertia | None = optional("J_m of the rotor, [kg m²].")
+    load_inertia: Inertia | None = optional("J_L of the load, [kg m²].")
 
 
 class GearAnswer(Answer):
@@ -43,18 +33,8 @@ class GearAnswer(Answer):
     power_loss: float | None = Field(description="What the gear turns into heat, [W]; null where a power is missing.")
     power_flow: PowerFlow = Field(description="Which side drives; `none` without a torque.")
     inertia: ReflectedInertias | None = Field(description="Null without both inertias.")
-    back_driving: BackDrivingInfo
+    back_driving: BackDriving
     steps: Steps
-
-
-EXAMPLE_GEAR: dict[str, Any] = {
-    "ratio": 100.0,
-    "efficiency": 0.8,
-    "motor_torque": 1.0,
-    "motor_angular_velocity": 458.015267176,
-    "motor_inertia": 2e-4,
-    "load_inertia": 3.0,
-}
 
 
 ENDPOINT = Endpoint(
@@ -71,5 +51,12 @@ ENDPOINT = Endpoint(
     given motor torque accelerates the load most. Where speed and torque have different signs the load drives:
     then friction helps to hold it, with the efficiency 2 - 1/η; at η ≤ 1/2 the gear locks itself.
     """,
-    example=EXAMPLE_GEAR,
+    example={
+        "ratio": 100.0,
+        "efficiency": 0.8,
+        "motor_torque": 1.0,
+        "motor_angular_velocity": 458.015267176,
+        "motor_inertia": 2e-4,
+        "load_inertia": 3.0,
+    },
 )

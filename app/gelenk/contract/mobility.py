@@ -4,7 +4,7 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.mobility_request import EXAMPLE_FOUR_BAR, MobilityRequest
+from gelenk.contract.mobility_request import MobilityRequest
 from gelenk.course.mobility.mechanism import IdleSpin, JointSplit, Pair
 from gelenk.course.mobility.mobility import PairCount, Verdict
 from gelenk.course.mobility.pairs import Space
@@ -98,5 +98,14 @@ ENDPOINT = Endpoint(
     found and subtracted in `mobility_without_idle`.
     """,
     robot_field="robot",
-    example=EXAMPLE_FOUR_BAR,
+    example={
+        "space": "planar",
+        "links": [{"name": "frame", "ground": True}, "crank", "coupler", "rocker"],
+        "pairs": [
+            {"link_a": "frame", "link_b": "crank", "type": "revolute"},
+            {"link_a": "crank", "link_b": "coupler", "type": "revolute"},
+            {"link_a": "coupler", "link_b": "rocker", "type": "revolute"},
+            {"link_a": "rocker", "link_b": "frame", "type": "revolute"},
+        ],
+    },
 )

@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal, TypeAlias, cast, get_args
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from gelenk.contract.common import Payload, RobotName
+from gelenk.contract.common import Payload, RobotName, optional
 from gelenk.contract.options import Fraction
 from gelenk.contract.pose import MAX_MAGNITUDE, Vector3
 from gelenk.course.mobility.mechanism import GivenPair, Node
@@ -50,66 +50,54 @@ class MechanismLinkPayload(Payload):
 class PairPayload(Payload):
     """A kinematic pair: two links that touch."""
 
-    name: Name | None = Field(default=None, description="Unique in the mechanism; `pair_1`, `pair_2`, … if left out.")
+    name: Name | None = optional("Unique in the mechanism; `pair_1`, `pair_2`, … if left out.")
     link_a: Name = Field(description="The one link.")
     link_b: Name = Field(description="The other one.")
     type: PairType = Field(description=PAIR_TYPE)
-    joint: Name | None = Field(
-        default=None,
-        description="The joint it is part of. Links whose pairs name the same joint meet there: k links, k - 1 pairs.",
+    joint: Name | None = optional(
+        "The joint it is part of. Links whose pairs name the same joint meet there: k links, k - 1 pairs."
     )
-    point: Vector3 | None = Field(
-        default=None,
-        description="Its location in the given posture: on its axis, its centre or the place of contact, [m]. In the "
-        "plane all points have the same z.",
+    point: Vector3 | None = optional(
+        "Its location in the given posture: on its axis, its centre or the place of contact, [m]. In the "
+        "plane all points have the same z."
     )
-    axis: Vector3 | None = Field(
-        default=None,
-        description="A direction, of any length but 0, no unit: of the axis to turn about or slide along, of a slot or "
+    axis: Vector3 | None = optional(
+        "A direction, of any length but 0, no unit: of the axis to turn about or slide along, of a slot or "
         "groove, or the normal of surfaces that touch. In the plane a revolute or rolling pair needs none, as it is z; "
-        "all others lie in x y.",
+        "all others lie in x y."
     )
-    second_axis: Vector3 | None = Field(default=None, description="The other axis of a universal joint, no unit.")
+    second_axis: Vector3 | None = optional("The other axis of a universal joint, no unit.")
     pitch: float | None = Field(
         default=None, ge=-MAX_MAGNITUDE, le=MAX_MAGNITUDE, description="Of a screw: advance a radian, [m/rad]."
     )
 
     def given(self, number: int) -> GivenPair:
-        """Return the core's pair, the `number`-th from 0.
-
-        Raises:
-            InvalidField: An axis has no direction.
-        """
+        """Return the core's pair, the `number`-th from 0; raises InvalidField if an axis has no direction."""
+        axes = {
+            name: unit_axis(direction, f"pairs/{number}/{name}").tolist()
+            for name in ("axis", "second_axis")
+            if (direction := getattr(self, name)) is not None
+        }
+        geometry = PairGeometry(self.point, pitch=self.pitch, **axes) if self.has_geometry() else None
         name = self.name or f"pair_{number + 1}"
-        return GivenPair(name, self.link_a, self.link_b, _kind(self.type), self.joint, self._geometry(number))
+        return GivenPair(name, self.link_a, self.link_b, _kind(self.type), self.joint, geometry)
 
     def has_geometry(self) -> bool:
         """Check whether it gives anything about its location."""
         return any(field is not None for field in (self.point, self.axis, self.second_axis, self.pitch))
 
-    def _geometry(self, number: int) -> PairGeometry | None:
-        if not self.has_geometry():
-            return None
-        axis, second = (
-            None if direction is None else unit_axis(direction, f"pairs/{number}/{name}").tolist()
-            for name, direction in (("axis", self.axis), ("second_axis", self.second_axis))
-        )
-        return PairGeometry(self.point, axis, second, self.pitch)
-
 
 class NodePayload(Payload):
     """A joint at which more than two links meet."""
 
-    joint: Name | None = Field(default=None, description="Its name; `node_1`, `node_2`, … if left out.")
+    joint: Name | None = optional("Its name; `node_1`, `node_2`, … if left out.")
     links: Annotated[
         Annotated[Annotated[int, Field(ge=3, le=MAX_LINKS)], Tag("<number>")]
         | Annotated[Annotated[list[Name], Field(min_length=3, max_length=MAX_LINKS)], Tag("<list>")],
         Discriminator(_shape),
     ] = Field(description="The k links that meet there, by name, or their number where `pairs` are counts.")
-    type: PairType | None = Field(
-        default=None,
-        description="Kind of the pairs that are missing there; that of the joint's other pairs, or revolute, if left "
-        "out.",
+    type: PairType | None = optional(
+        "Kind of the pairs that are missing there; that of the joint's other pairs, or revolute, if left out."
     )
 
 
@@ -135,33 +123,27 @@ _OF_A_MECHANISM = ("space", "links", "pairs", "coincident", "output", "rank_tole
 class MobilityRequest(Payload):
     """A mechanism, or a robot by name."""
 
-    space: Literal["planar", "spatial"] | None = Field(
-        default=None, description="Where the mechanism moves: in the plane, λ = 3, or in space, λ = 6."
+    space: Literal["planar", "spatial"] | None = optional(
+        "Where the mechanism moves: in the plane, λ = 3, or in space, λ = 6."
     )
-    links: Links | None = Field(
-        default=None,
-        description="The links by name, the ground among them: marked by `{name, ground: true}`, else the first one. "
-        "Only their number n, the ground included, where `pairs` are counts.",
+    links: Links | None = optional(
+        "The links by name, the ground among them: marked by `{name, ground: true}`, else the first one. "
+        "Only their number n, the ground included, where `pairs` are counts."
     )
-    pairs: Pairs | None = Field(
-        default=None,
-        description="The pairs, each with its two links; or their number by type, which says nothing about loops and "
-        "idle freedoms.",
+    pairs: Pairs | None = optional(
+        "The pairs, each with its two links; or their number by type, which says nothing about loops and idle freedoms."
     )
-    coincident: Annotated[list[NodePayload], Field(max_length=MAX_NODES)] | None = Field(
-        default=None,
-        description="The joints at which more than two links meet. Each of k links is split into k - 1 pairs: those "
-        "that `pairs` leaves out are added. Where `pairs` are counts, such a joint is counted there once.",
+    coincident: Annotated[list[NodePayload], Field(max_length=MAX_NODES)] | None = optional(
+        "The joints at which more than two links meet. Each of k links is split into k - 1 pairs: those "
+        "that `pairs` leaves out are added. Where `pairs` are counts, such a joint is counted there once."
     )
-    output: Name | None = Field(
-        default=None, description="A link whose own degrees of freedom to compute, if the pairs give their locations."
-    )
+    output: Name | None = optional("A link whose own degrees of freedom to compute, if the pairs give their locations.")
     rank_tolerance: Fraction = Field(
         default=1e-10,
         description="Where the pairs say where they are: a singular value of the constraints counts where it exceeds "
         "this times the largest, no unit. Raise it for numbers that were rounded; less than 1e-13 counts as that.",
     )
-    robot: RobotName | None = Field(default=None, description="Name of a robot instead of a mechanism.")
+    robot: RobotName | None = optional("Name of a robot instead of a mechanism.")
 
     @model_validator(mode="after")
     def _one_source(self) -> "MobilityRequest":
@@ -202,11 +184,7 @@ class MobilityRequest(Payload):
         return any(pair.has_geometry() for pair in pairs)
 
     def output_link(self, names: tuple[str, ...]) -> int | None:
-        """Return the index of the link whose freedoms are requested, if any.
-
-        Raises:
-            InvalidField: There is no link of this name.
-        """
+        """Return the index of the link whose freedoms are requested, if any; raises InvalidField for another name."""
         if self.output is None:
             return None
         if self.output not in names:
@@ -214,11 +192,7 @@ class MobilityRequest(Payload):
         return names.index(self.output)
 
     def link_names(self) -> tuple[tuple[str, ...], int]:
-        """Return the names of the links, and the index of the ground.
-
-        Raises:
-            InvalidField: More than one link is the ground.
-        """
+        """Return the names of the links, and the index of the ground; raises InvalidField for more than one."""
         links = cast(list[str | MechanismLinkPayload], self.links)
         grounds = [i for i, link in enumerate(links) if isinstance(link, MechanismLinkPayload) and link.ground]
         if len(grounds) > 1:
@@ -239,11 +213,7 @@ class MobilityRequest(Payload):
         return {_kind(name): count for name, count in cast(dict[str, int], self.pairs).items()}
 
     def nodes(self) -> list[Node]:
-        """Return the joints of more than two links, with the names of the links.
-
-        Raises:
-            InvalidField: A joint gives only a number of links.
-        """
+        """Return the joints of more than two links, with their names; raises InvalidField for a number of links."""
         nodes = []
         for i, node in enumerate(self.coincident or ()):
             if isinstance(node.links, int):
@@ -253,27 +223,12 @@ class MobilityRequest(Payload):
 
     def node_counts(self) -> list[NodeCount]:
         """Return the joints of more than two links, with the number of links."""
-        return [
-            NodeCount(
-                node.joint or f"node_{i}",
-                node.links if isinstance(node.links, int) else len(node.links),
-                _kind(node.type),
-            )
-            for i, node in enumerate(self.coincident or (), start=1)
-        ]
+        nodes = []
+        for i, node in enumerate(self.coincident or (), start=1):
+            count = node.links if isinstance(node.links, int) else len(node.links)
+            nodes.append((node.joint or f"node_{i}", count, _kind(node.type)))
+        return nodes
 
 
 def _kind(name: Any) -> Any:
     return LETTERS.get(name, name)
-
-
-EXAMPLE_FOUR_BAR: dict[str, Any] = {
-    "space": "planar",
-    "links": [{"name": "frame", "ground": True}, "crank", "coupler", "rocker"],
-    "pairs": [
-        {"link_a": "frame", "link_b": "crank", "type": "revolute"},
-        {"link_a": "crank", "link_b": "coupler", "type": "revolute"},
-        {"link_a": "coupler", "link_b": "rocker", "type": "revolute"},
-        {"link_a": "rocker", "link_b": "frame", "type": "revolute"},
-    ],
-}

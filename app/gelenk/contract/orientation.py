@@ -1,11 +1,11 @@
 """The calculator of orientations: request, answer, operation."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
 
-from gelenk.contract.common import Answer, Payload
+from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.pose import MAX_MAGNITUDE, ORIENTATIONS, Matrix3, Pose, Vector3, Vector4
 from gelenk.course.orientation.composition import FrameMotion
@@ -39,18 +39,17 @@ class ElementaryPayload(Payload):
 class MotionPayload(Payload):
     """Exactly one orientation, perhaps with a position."""
 
-    quaternion_xyzw: Vector4 | None = Field(default=None, description="Unit quaternion, scalar last.")
-    quaternion_wxyz: Vector4 | None = Field(default=None, description="Unit quaternion, scalar first.")
-    rpy: Vector3 | None = Field(
-        default=None,
-        description="Roll, pitch, yaw about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll), [rad].",
+    quaternion_xyzw: Vector4 | None = optional("Unit quaternion, scalar last.")
+    quaternion_wxyz: Vector4 | None = optional("Unit quaternion, scalar first.")
+    rpy: Vector3 | None = optional(
+        "Roll, pitch, yaw about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll), [rad]."
     )
-    zyz: Vector3 | None = Field(default=None, description="Euler angles φ, θ, ψ: R = Rz(φ) Ry(θ) Rz(ψ), [rad].")
-    rotation_vector: Vector3 | None = Field(default=None, description="Axis times angle, [rad].")
-    rotation: Matrix3 | None = Field(default=None, description="Rotation matrix, row by row.")
-    axis_angle: AxisAnglePayload | None = Field(default=None, description="A rotation about any axis.")
-    elementary: ElementaryPayload | None = Field(default=None, description="A rotation about a coordinate axis.")
-    position: Vector3 | None = Field(default=None, description="Of the moved frame's origin, [m]; zero if left out.")
+    zyz: Vector3 | None = optional("Euler angles φ, θ, ψ: R = Rz(φ) Ry(θ) Rz(ψ), [rad].")
+    rotation_vector: Vector3 | None = optional("Axis times angle, [rad].")
+    rotation: Matrix3 | None = optional("Rotation matrix, row by row.")
+    axis_angle: AxisAnglePayload | None = optional("A rotation about any axis.")
+    elementary: ElementaryPayload | None = optional("A rotation about a coordinate axis.")
+    position: Vector3 | None = optional("Of the moved frame's origin, [m]; zero if left out.")
     project: bool = Field(
         default=False,
         description="Whether to project a `rotation` further than 1e-6 from a rotation matrix onto the nearest one "
@@ -134,10 +133,11 @@ class OrientationRequest(MotionPayload):
     def motions(self) -> tuple[Array, list[FrameMotion], list[Validation | None]]:
         """Return the first transform, the further motions, and how far each matrix was from a rotation."""
         first, validation = self.read()
-        further, validations = [], [validation]
+        further: list[FrameMotion] = []
+        validations = [validation]
         for i, motion in enumerate(self.then):
             T, validation = motion.read(f"then/{i}/")
-            further.append(FrameMotion(T, motion.about))
+            further.append((T, motion.about))
             validations.append(validation)
         return first, further, validations
 
@@ -208,13 +208,6 @@ class OrientationAnswer(Answer):
     certificate: OrientationCertificate
 
 
-EXAMPLE_ZYZ: dict[str, Any] = {
-    "zyz": [0.3, 0.7, -1.1],
-    "then": [{"elementary": {"axis": "x", "angle": 0.4}, "position": [0.0, 0.0, 0.2], "about": "moving"}],
-    "points": [[1.0, 2.0, 3.0]],
-}
-
-
 ENDPOINT = Endpoint(
     name="orientation",
     path="v1/course/orientation",
@@ -237,5 +230,9 @@ ENDPOINT = Endpoint(
     frames of orientations, whose origin is the last column (the notes once say row) of the homogeneous matrix.
     `inverse` is Rᵀ, -Rᵀp, and `points` are moved along. Every notation is converted back into R as a check.
     """,
-    example=EXAMPLE_ZYZ,
+    example={
+        "zyz": [0.3, 0.7, -1.1],
+        "then": [{"elementary": {"axis": "x", "angle": 0.4}, "position": [0.0, 0.0, 0.2], "about": "moving"}],
+        "points": [[1.0, 2.0, 3.0]],
+    },
 )

@@ -1,10 +1,10 @@
 """Workspaces of planar arms: request, answer, operation."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload
+from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Steps
 from gelenk.course.planar import WorkspacePlace, WorkspaceTrial
@@ -21,8 +21,8 @@ class PlanarWorkspaceRequest(Payload):
     links: Annotated[list[Length], Field(min_length=2, max_length=3)] = Field(
         description="Lengths l_1, l_2 and perhaps l_3, from the base on, [m]."
     )
-    point: Annotated[list[Coordinate], Field(min_length=2, max_length=2)] | None = Field(
-        default=None, description="x and y of a point, relative to the first joint, [m]."
+    point: Annotated[list[Coordinate], Field(min_length=2, max_length=2)] | None = optional(
+        "x and y of a point, relative to the first joint, [m]."
     )
     tolerance: Annotated[float, Field(ge=0.0, le=1.0)] = Field(
         default=1e-9, description="Distance within which the point lies on a boundary, [m]."
@@ -62,9 +62,6 @@ class PlanarWorkspaceAnswer(Answer):
     certificate: WorkspaceTrial
 
 
-EXAMPLE_WORKSPACE: dict[str, Any] = {"links": [1.0, 0.9, 0.5], "point": [0.3, 0.2]}
-
-
 ENDPOINT = Endpoint(
     name="planar_workspace",
     path="v1/course/workspace",
@@ -87,5 +84,5 @@ ENDPOINT = Endpoint(
     with `Accept: image/svg+xml` or `image/png`.
     """,
     picture="Both workspaces, and the arm with its tip at `point`.",
-    example=EXAMPLE_WORKSPACE,
+    example={"links": [1.0, 0.9, 0.5], "point": [0.3, 0.2]},
 )

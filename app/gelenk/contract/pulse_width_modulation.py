@@ -1,10 +1,10 @@
 """Pulse width modulation: request, answer, operation."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload
+from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import (
     AngularVelocity,
@@ -25,28 +25,23 @@ class PwmRequest(Payload):
 
     supply_voltage: Annotated[float, Field(ge=1e-6, le=1e6)] = Field(description="V_s, [V].")
     frequency: Annotated[float, Field(ge=1e-6, le=1e12)] = Field(description="f of the pulses, [Hz].")
-    duty: Annotated[float, Field(ge=0.0, le=1.0)] | None = Field(default=None, description="D, no unit.")
-    average_voltage: Voltage | None = Field(
-        default=None, description="Wanted average, [V]; negative needs an H-bridge; no further from 0 than V_s."
+    duty: Annotated[float, Field(ge=0.0, le=1.0)] | None = optional("D, no unit.")
+    average_voltage: Voltage | None = optional(
+        "Wanted average, [V]; negative needs an H-bridge; no further from 0 than V_s."
     )
-    angular_velocity: AngularVelocity | None = Field(
-        default=None, description="Wanted speed of a motor, [rad/s]; it needs `resistance` and `torque_constant`."
+    angular_velocity: AngularVelocity | None = optional(
+        "Wanted speed of a motor, [rad/s]; it needs `resistance` and `torque_constant`."
     )
-    resistance: Resistance | None = Field(default=None, description="R of the winding, [Ω].")
-    inductance: Inductance | None = Field(default=None, description="L of the winding, [H]; 0, or at least 1e-12.")
-    back_emf: Voltage | None = Field(
-        default=None,
-        description="E of the motor through the period, [V]; 0 if left out. With a wanted speed it is k_e ω: leave it "
-        "out, or give that.",
+    resistance: Resistance | None = optional("R of the winding, [Ω].")
+    inductance: Inductance | None = optional("L of the winding, [H]; 0, or at least 1e-12.")
+    back_emf: Voltage | None = optional(
+        "E of the motor through the period, [V]; 0 if left out. With a wanted speed it is k_e ω: leave it "
+        "out, or give that."
     )
-    torque_constant: MachineConstant | None = Field(default=None, description="k_t, for a wanted speed, [N m/A].")
-    back_emf_constant: MachineConstant | None = Field(
-        default=None, description="k_e, for a wanted speed, [V s/rad]; k_t if left out."
-    )
-    viscous_friction: Friction | None = Field(
-        default=None, description="b, for a wanted speed, [N m s/rad]; 0 if left out."
-    )
-    load_torque: Torque | None = Field(default=None, description="τ_L, for a wanted speed, [N m]; 0 if left out.")
+    torque_constant: MachineConstant | None = optional("k_t, for a wanted speed, [N m/A].")
+    back_emf_constant: MachineConstant | None = optional("k_e, for a wanted speed, [V s/rad]; k_t if left out.")
+    viscous_friction: Friction | None = optional("b, for a wanted speed, [N m s/rad]; 0 if left out.")
+    load_torque: Torque | None = optional("τ_L, for a wanted speed, [N m]; 0 if left out.")
 
 
 class PwmAnswer(Answer):
@@ -67,15 +62,6 @@ class PwmAnswer(Answer):
     warnings: Warnings
 
 
-EXAMPLE_PWM: dict[str, Any] = {
-    "supply_voltage": 24.0,
-    "frequency": 20_000.0,
-    "duty": 0.35,
-    "resistance": 1.2,
-    "inductance": 2e-3,
-}
-
-
 ENDPOINT = Endpoint(
     name="pulse_width_modulation",
     path="v1/course/pwm",
@@ -90,5 +76,11 @@ ENDPOINT = Endpoint(
     negative average needs an H-bridge, and `direction` is -1. The ripple V_s D (1 - D) / (L f) leaves out the
     resistance; with R and L the current's extremes are exact, in the steady state, with a constant back-EMF.
     """,
-    example=EXAMPLE_PWM,
+    example={
+        "supply_voltage": 24.0,
+        "frequency": 20_000.0,
+        "duty": 0.35,
+        "resistance": 1.2,
+        "inductance": 2e-3,
+    },
 )

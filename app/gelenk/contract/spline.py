@@ -1,11 +1,11 @@
 """Cubic splines: request, answer, operation."""
 
 from math import pi
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer
+from gelenk.contract.common import Answer, optional
 from gelenk.contract.course_motion import Coordinates, MotionAnswer, SampledRequest, Time, Times, Waypoints
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Steps, Warnings
@@ -27,18 +27,13 @@ class SplineRequest(SampledRequest):
         "start; "
         "`assigned`: velocities and accelerations given, by two fictitious knots.",
     )
-    start_velocity: Coordinates | None = Field(
-        default=None, description="Of `clamped` or `assigned`; 0 if left out, [rad/s or m/s]."
-    )
-    end_velocity: Coordinates | None = Field(default=None, description="The same at the end, [rad/s or m/s].")
-    start_acceleration: Coordinates | None = Field(
-        default=None, description="Of `assigned`; 0 if left out, [rad/s² or m/s²]."
-    )
-    end_acceleration: Coordinates | None = Field(default=None, description="The same at the end, [rad/s² or m/s²].")
-    fictitious_times: Annotated[list[Time], Field(min_length=2, max_length=2)] | None = Field(
-        default=None,
-        description="Of `assigned`: when the fictitious knots are, one within the first and one within the last "
-        "segment, [s]; in their middles if left out, at the thirds of a single segment.",
+    start_velocity: Coordinates | None = optional("Of `clamped` or `assigned`; 0 if left out, [rad/s or m/s].")
+    end_velocity: Coordinates | None = optional("The same at the end, [rad/s or m/s].")
+    start_acceleration: Coordinates | None = optional("Of `assigned`; 0 if left out, [rad/s² or m/s²].")
+    end_acceleration: Coordinates | None = optional("The same at the end, [rad/s² or m/s²].")
+    fictitious_times: Annotated[list[Time], Field(min_length=2, max_length=2)] | None = optional(
+        "Of `assigned`: when the fictitious knots are, one within the first and one within the last "
+        "segment, [s]; in their middles if left out, at the thirds of a single segment."
     )
 
 
@@ -73,14 +68,6 @@ class SplineAnswer(MotionAnswer):
     warnings: Warnings
 
 
-EXAMPLE_SPLINE: dict[str, Any] = {
-    "times": [0.0, 2.0, 3.0, 5.0],
-    "waypoints": [0.0, 2.0 * pi, 0.5 * pi, pi],
-    "boundary": "clamped",
-    "samples": 6,
-}
-
-
 ENDPOINT = Endpoint(
     name="spline",
     path="v1/course/spline",
@@ -100,5 +87,10 @@ ENDPOINT = Endpoint(
     As a picture of the profiles with `Accept: image/svg+xml` or `image/png`.
     """,
     picture="Position, velocity, acceleration and jerk over time, with the limits.",
-    example=EXAMPLE_SPLINE,
+    example={
+        "times": [0.0, 2.0, 3.0, 5.0],
+        "waypoints": [0.0, 2.0 * pi, 0.5 * pi, pi],
+        "boundary": "clamped",
+        "samples": 6,
+    },
 )

@@ -1,10 +1,10 @@
 """Time laws: request, answer, operation."""
 
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import BeforeValidator, Field
 
-from gelenk.contract.common import Answer
+from gelenk.contract.common import Answer, optional
 from gelenk.contract.course_motion import (
     MAX_KNOTS,
     Coordinates,
@@ -38,25 +38,21 @@ class TimeLawRequest(SampledRequest):
         "`parabolic_blends`: straight segments through `waypoints` at `times`, rounded by `blend_time` or "
         "`limits.joint_acceleration`."
     )
-    start: Coordinates | None = Field(default=None, description="q at the start, [rad or m].")
-    target: Coordinates | None = Field(default=None, description="q at the end, [rad or m].")
-    start_velocity: Coordinates | None = Field(default=None, description="0 if left out, [rad/s or m/s].")
-    end_velocity: Coordinates | None = Field(default=None, description="0 if left out, [rad/s or m/s].")
-    start_acceleration: Coordinates | None = Field(
-        default=None, description="Of a quintic, a septic or 4-3-4; 0 if left out, [rad/s² or m/s²]."
+    start: Coordinates | None = optional("q at the start, [rad or m].")
+    target: Coordinates | None = optional("q at the end, [rad or m].")
+    start_velocity: Coordinates | None = optional("0 if left out, [rad/s or m/s].")
+    end_velocity: Coordinates | None = optional("0 if left out, [rad/s or m/s].")
+    start_acceleration: Coordinates | None = optional(
+        "Of a quintic, a septic or 4-3-4; 0 if left out, [rad/s² or m/s²]."
     )
-    end_acceleration: Coordinates | None = Field(default=None, description="The same at the end, [rad/s² or m/s²].")
-    start_jerk: Coordinates | None = Field(default=None, description="Of a septic; 0 if left out, [rad/s³ or m/s³].")
-    end_jerk: Coordinates | None = Field(default=None, description="The same at the end, [rad/s³ or m/s³].")
-    duration: Duration | None = Field(
-        default=None, description="T, [s]. Of a trapezoid: longer than the shortest; the shortest if left out."
-    )
-    waypoints: Waypoints | None = Field(
-        default=None, description="Positions at `times`, one row per point, [rad or m]."
-    )
-    times: Times | None = Field(default=None, description="Of the waypoints, increasing, [s].")
-    blend_time: BlendTimes | None = Field(
-        default=None, description="Duration of the blend at each waypoint, [s]; a single number applies to all of them."
+    end_acceleration: Coordinates | None = optional("The same at the end, [rad/s² or m/s²].")
+    start_jerk: Coordinates | None = optional("Of a septic; 0 if left out, [rad/s³ or m/s³].")
+    end_jerk: Coordinates | None = optional("The same at the end, [rad/s³ or m/s³].")
+    duration: Duration | None = optional("T, [s]. Of a trapezoid: longer than the shortest; the shortest if left out.")
+    waypoints: Waypoints | None = optional("Positions at `times`, one row per point, [rad or m].")
+    times: Times | None = optional("Of the waypoints, increasing, [s].")
+    blend_time: BlendTimes | None = optional(
+        "Duration of the blend at each waypoint, [s]; a single number applies to all of them."
     )
     may_reverse: bool = Field(
         default=False,
@@ -106,17 +102,6 @@ class TimeLawAnswer(MotionAnswer):
     warnings: Warnings
 
 
-EXAMPLE_TIME_LAW: dict[str, Any] = {
-    "law": "cubic",
-    "start": 0.2,
-    "target": 1.4,
-    "start_velocity": 0.5,
-    "end_velocity": -0.3,
-    "duration": 2.0,
-    "samples": 5,
-}
-
-
 ENDPOINT = Endpoint(
     name="time_law",
     path="v1/course/time-law",
@@ -139,5 +124,13 @@ ENDPOINT = Endpoint(
     As a picture of the profiles with `Accept: image/svg+xml` or `image/png`.
     """,
     picture="Position, velocity, acceleration and jerk over time, with the limits.",
-    example=EXAMPLE_TIME_LAW,
+    example={
+        "law": "cubic",
+        "start": 0.2,
+        "target": 1.4,
+        "start_velocity": 0.5,
+        "end_velocity": -0.3,
+        "duration": 2.0,
+        "samples": 5,
+    },
 )

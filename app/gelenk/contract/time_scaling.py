@@ -1,10 +1,10 @@
 """Uniform time scaling: request, answer, operation."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer
+from gelenk.contract.common import optional
 from gelenk.contract.course_motion import (
     Coordinates,
     Duration,
@@ -17,7 +17,7 @@ from gelenk.contract.course_motion import (
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Steps, Warnings
 from gelenk.trajectory.audit.words import PolynomialLaw
-from gelenk.trajectory.laws.time_scaling import Quantity
+from gelenk.trajectory.laws.time_scaling import Bound
 from gelenk.trajectory.motion.splines import Boundary
 
 
@@ -26,43 +26,25 @@ class TimeScalingRequest(SampledRequest):
 
     limits: MotionLimits = Field(description="Limits; at least one of them.")
     law: PolynomialLaw = Field(default="cubic", description="From rest to rest; of a motion by `displacement`.")
-    displacement: Coordinates | None = Field(default=None, description="Δq of each joint, [rad or m].")
-    duration: Duration | None = Field(default=None, description="T of this motion, [s].")
-    times: Times | None = Field(default=None, description="Of the waypoints, increasing, [s].")
-    waypoints: Waypoints | None = Field(
-        default=None, description="Positions, one row per time, [rad or m]. Alone, a cubic spline is laid through them."
+    displacement: Coordinates | None = optional("Δq of each joint, [rad or m].")
+    duration: Duration | None = optional("T of this motion, [s].")
+    times: Times | None = optional("Of the waypoints, increasing, [s].")
+    waypoints: Waypoints | None = optional(
+        "Positions, one row per time, [rad or m]. Alone, a cubic spline is laid through them."
     )
     boundary: Boundary = Field(
         default="not_a_knot", description="Of that spline; `clamped` and `assigned` are at rest at both ends."
     )
-    velocities: Waypoints | None = Field(
-        default=None, description="At the waypoints, instead of a spline: cubic pieces, [rad/s or m/s]."
-    )
-    accelerations: Waypoints | None = Field(
-        default=None, description="At the waypoints, beside `velocities`: quintic pieces, [rad/s² or m/s²]."
+    velocities: Waypoints | None = optional("At the waypoints, instead of a spline: cubic pieces, [rad/s or m/s].")
+    accelerations: Waypoints | None = optional(
+        "At the waypoints, beside `velocities`: quintic pieces, [rad/s² or m/s²]."
     )
     scaling: Literal["course", "unclipped"] = Field(
         default="course", description="The k that scales the motion in the answer: `course` never speeds up."
     )
-    factor: Annotated[float, Field(ge=1e-6, le=1e6)] | None = Field(
-        default=None,
-        description="A custom k for the motion in the answer, no unit; it need not respect the limits.",
+    factor: Annotated[float, Field(ge=1e-6, le=1e6)] | None = optional(
+        "A custom k for the motion in the answer, no unit; it need not respect the limits."
     )
-
-
-class BindingInfo(Answer):
-    """The joint that is nearest to its limit of a quantity, or furthest beyond it, in the given motion."""
-
-    quantity: Quantity = Field(description="Whose limit sets the duration.")
-    ratio: float = Field(description="Peak over limit, no unit.")
-    factor: float = Field(
-        description="The k that this quantity alone requires: the ratio of a velocity, the square root of that of an "
-        "acceleration, the cube root of that of a jerk; no unit."
-    )
-    joint: int = Field(description="Number of the joint, from 1; no unit.")
-    time: float = Field(description="Time of the peak, [s].")
-    peak: float = Field(description="Signed peak, [rad or m per s, s² or s³].")
-    limit: float = Field(description="The limit, in the unit of the peak.")
 
 
 class TimeScalingAnswer(MotionAnswer):
@@ -79,20 +61,11 @@ class TimeScalingAnswer(MotionAnswer):
     applied_factor: float = Field(description="The k of the motion in this answer, no unit.")
     k_vel: float | None = Field(description="max{1, …} of the velocity ratios, as in the notes; no unit.")
     k_acc: float | None = Field(description="max{1, …} of the acceleration ratios, as in the notes; no unit.")
-    bounds: list[BindingInfo] = Field(description="One per limited quantity.")
-    binding: BindingInfo = Field(description="The one that requires the largest k.")
+    bounds: list[Bound] = Field(description="One per limited quantity.")
+    binding: Bound = Field(description="The one that requires the largest k.")
     original_duration: float = Field(description="T of the motion as given, [s].")
     steps: Steps
     warnings: Warnings
-
-
-EXAMPLE_TIME_SCALING: dict[str, Any] = {
-    "displacement": [1.0, -2.0],
-    "duration": 1.0,
-    "law": "cubic",
-    "limits": {"joint_velocity": [1.0, 2.0], "joint_acceleration": [8.0, 8.0]},
-    "samples": 5,
-}
 
 
 ENDPOINT = Endpoint(
@@ -117,5 +90,11 @@ ENDPOINT = Endpoint(
     As a picture of the scaled profiles with `Accept: image/svg+xml` or `image/png`.
     """,
     picture="Position, velocity, acceleration and jerk over time, with the limits.",
-    example=EXAMPLE_TIME_SCALING,
+    example={
+        "displacement": [1.0, -2.0],
+        "duration": 1.0,
+        "law": "cubic",
+        "limits": {"joint_velocity": [1.0, 2.0], "joint_acceleration": [8.0, 8.0]},
+        "samples": 5,
+    },
 )

@@ -47,12 +47,7 @@ class PlannedMotion:
 
 
 def motion_outcome(call: _Request, plan: Callable[[_Request], PlannedMotion]) -> Outcome:
-    """Return a motion as JSON, or its profiles as a picture.
-
-    Args:
-        call: The request.
-        plan: Computes the motion of a request.
-    """
+    """Return the motion that `plan` computes of a request, as JSON, or its profiles as a picture."""
     return Outcome(lambda: _answer(call, plan(call)), picture=lambda kind: _picture(plan(call), kind))
 
 
@@ -156,36 +151,22 @@ def limit_warnings(found: PeaksByOrder, limits: ScalingLimits, on_others: str = 
 
 
 def limits_of(call: SampledRequest, joints: int) -> ScalingLimits:
-    """Return the limits of a request, one number per joint.
-
-    Raises:
-        InvalidField: A limit has neither one number nor one per joint.
-    """
-    given = call.limits
-    if given is None:
-        return ScalingLimits()
+    """Return the limits of a request, one number per joint; raises as `spread` does."""
+    given = call.limits or ()
     return ScalingLimits(
         *(None if values is None else spread(values, joints, f"limits.{name}") for name, values in given)
     )
 
 
 def spread(values: Sequence[float], count: int, field: str, of: str = "joints") -> Array:
-    """Return `count` numbers, from as many or from one for all.
-
-    Raises:
-        InvalidField: There is another count of numbers.
-    """
+    """Return `count` numbers, from as many or from one for all; raises InvalidField for another count."""
     if len(values) not in {1, count}:
         raise InvalidField(field, f"has {counted(len(values), 'number')} where there are {count} {of}")
     return np.broadcast_to(np.array(values), (count,))
 
 
 def row(values: Sequence[float] | None, joints: int, field: str) -> Array:
-    """Return one number per joint; zeros if none are given.
-
-    Raises:
-        InvalidField: There is another count of numbers.
-    """
+    """Return one number per joint, zeros if none are given; raises InvalidField for another count."""
     if values is None:
         return np.zeros(joints)
     if len(values) != joints:
@@ -194,11 +175,7 @@ def row(values: Sequence[float] | None, joints: int, field: str) -> Array:
 
 
 def table(rows: Sequence[Sequence[float]], field: str, count: int, joints: int | None = None) -> Array:
-    """Return rows of the same length as an array, one number per joint.
-
-    Raises:
-        InvalidField: Rows differ in length, or the count of rows or joints is wrong.
-    """
+    """Return rows, one number per joint, as an array; raises InvalidField for another count of rows or numbers."""
     if len(rows) != count:
         raise InvalidField(field, f"has {counted(len(rows), 'entry')} for {counted(count, 'time')}")
     width = len(rows[0]) if joints is None else joints
@@ -209,22 +186,14 @@ def table(rows: Sequence[Sequence[float]], field: str, count: int, joints: int |
 
 
 def needed(call: SampledRequest, fields: Sequence[str], why: str) -> None:
-    """Check that fields are given.
-
-    Raises:
-        InvalidField: A field is missing.
-    """
+    """Raise InvalidField if a field is missing."""
     for field in fields:
         if getattr(call, field) is None:
             raise InvalidField(field, f"is needed {why}")
 
 
 def unused(call: SampledRequest, fields: Sequence[str], why: str) -> None:
-    """Check that fields are not given.
-
-    Raises:
-        InvalidField: A field is given.
-    """
+    """Raise InvalidField if a field is given."""
     for field in fields:
         if field in call.model_fields_set and getattr(call, field) not in (None, False):
             raise InvalidField(field, why)

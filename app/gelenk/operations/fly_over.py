@@ -11,7 +11,6 @@ from gelenk.course.motion.fly_over_check import checked
 from gelenk.course.motion.fly_over_steps import fly_over_steps, fly_over_warnings
 from gelenk.errors import InvalidField
 from gelenk.operations.outcome import Outcome, PictureFormat
-from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _QUICK_SAMPLES = 500
@@ -27,61 +26,46 @@ def is_heavy(call: FlyOverRequest) -> bool:
     return (call.samples or 0) > _QUICK_SAMPLES
 
 
-def _planned(call: FlyOverRequest, given: Given, value: float) -> tuple[Blend, BlendedMotion | None]:
-    """Compute the blend, and the whole motion if requested."""
-    A, B, C = _points(call)
-    blend = blended(corner_of(A, B, C, call.speed_before, call.speed_after), given, value)
-    return blend, None if call.rest_acceleration is None else rest_to_rest(blend, call.rest_acceleration)
+def _planned(call: FlyOverRequest) -> tuple[Given, float, Blend, BlendedMotion | None, PiecewisePolynomial | None]:
+    """Return what determines the blend, its value, the blend, the whole motion if requested, and what moves at all."""
+    names: tuple[Given, ...] = get_args(Given)
+    given = [(name, value) for name in names if (value := getattr(call, name)) is not None]
+    if len(given) != 1:
+        last = given[-1][0] if given else "blend_time"
+        raise InvalidField(last, f"exactly one of {', '.join(names)} is given; here are {len(given)}")
+    for field in ("corner", "end"):
+        count = len(getattr(call, field))
+        if count != len(call.start):
+            raise InvalidField(field, f"has {count} coordinates and `start` {len(call.start)}")
+    A, B, C = np.array(call.start), np.array(call.corner), np.array(call.end)
+    blend = blended(corner_of(A, B, C, call.speed_before, call.speed_after), *given[0])
+    if call.rest_acceleration is None:
+        return *given[0], blend, None, blend.motion if blend.time > 0.0 else None
+    whole = rest_to_rest(blend, call.rest_acceleration)
+    return *given[0], blend, whole, whole.motion
 
 
 def _picture(call: FlyOverRequest, kind: PictureFormat) -> bytes:
     # Matplotlib takes a third of a second to load.
     from gelenk.plots.fly_over import fly_over_picture  # noqa: PLC0415
 
-    blend, whole = _planned(call, *_given(call))
+    _, _, blend, whole, motion = _planned(call)
     checked(blend, None if whole is None else whole.motion)
-    return fly_over_picture(blend, _motion(blend, whole), kind)
+    return fly_over_picture(blend, motion, kind)
 
 
 def _fly_over(call: FlyOverRequest) -> dict[str, Any]:
-    given, value = _given(call)
-    blend, whole = _planned(call, given, value)
-    motion = _motion(blend, whole)
+    given, value, blend, whole, motion = _planned(call)
     return {
         "given": given,
         "blend": _blend(blend),
-        "rest_to_rest": None if whole is None else _rest_to_rest(whole),
+        "rest_to_rest": whole and _rest_to_rest(whole),
         "motion": motion,
         "samples": None if motion is None or call.samples is None else _samples(motion, call.samples),
         "steps": fly_over_steps(blend, given, value, whole),
         "warnings": fly_over_warnings(blend),
         "certificate": checked(blend, None if whole is None else whole.motion),
     }
-
-
-def _given(call: FlyOverRequest) -> tuple[Given, float]:
-    """Return the quantity that determines the blend, and its value."""
-    names: tuple[Given, ...] = get_args(Given)
-    given = [(name, value) for name in names if (value := getattr(call, name)) is not None]
-    if len(given) != 1:
-        last = given[-1][0] if given else "blend_time"
-        raise InvalidField(last, f"exactly one of {', '.join(names)} is given; here are {len(given)}")
-    return given[0]
-
-
-def _points(call: FlyOverRequest) -> tuple[Array, Array, Array]:
-    for field in ("corner", "end"):
-        count = len(getattr(call, field))
-        if count != len(call.start):
-            raise InvalidField(field, f"has {count} coordinates and `start` {len(call.start)}")
-    return np.array(call.start), np.array(call.corner), np.array(call.end)
-
-
-def _motion(blend: Blend, whole: BlendedMotion | None) -> PiecewisePolynomial | None:
-    """Return the whole motion, or the blend alone; None if that takes no time."""
-    if whole is not None:
-        return whole.motion
-    return blend.motion if blend.time > 0.0 else None
 
 
 def _blend(blend: Blend) -> dict[str, Any]:

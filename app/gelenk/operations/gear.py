@@ -3,7 +3,7 @@
 from typing import Any
 
 from gelenk.contract.gear import GearRequest
-from gelenk.course.actuators.gear import Gear, back_driving_note, gear_steps, inertias, sides
+from gelenk.course.actuators.gear import back_driving, gear_steps, inertias, sides
 from gelenk.errors import InvalidField
 from gelenk.operations.outcome import json_only
 
@@ -17,9 +17,9 @@ def run(call: GearRequest) -> dict[str, Any]:
     if (call.motor_inertia is None) != (call.load_inertia is None):
         missing = "motor_inertia" if call.motor_inertia is None else "load_inertia"
         raise InvalidField(missing, "is needed beside the other inertia")
-    gear = Gear(call.ratio, call.efficiency)
+    gear = (call.ratio, call.efficiency)
     motor, load, flow = sides(
-        gear, call.motor_angular_velocity, call.load_angular_velocity, call.motor_torque, call.load_torque
+        *gear, call.motor_angular_velocity, call.load_angular_velocity, call.motor_torque, call.load_torque
     )
     inertia = None
     if call.motor_inertia is not None and call.load_inertia is not None:
@@ -30,10 +30,6 @@ def run(call: GearRequest) -> dict[str, Any]:
         "power_loss": None if motor.power is None or load.power is None else motor.power - load.power,
         "power_flow": flow,
         "inertia": inertia,
-        "back_driving": {
-            "efficiency": None if gear.is_self_locking else gear.back_driving_efficiency,
-            "self_locking": gear.is_self_locking,
-            "note": back_driving_note(gear),
-        },
-        "steps": gear_steps(gear, motor, load, flow, inertia),
+        "back_driving": back_driving(call.efficiency),
+        "steps": gear_steps(*gear, motor, load, flow, inertia),
     }

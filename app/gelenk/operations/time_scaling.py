@@ -1,8 +1,5 @@
 """POST /v1/course/time-scaling: the factor of time with which a motion keeps its limits."""
 
-from dataclasses import asdict
-from typing import Any
-
 import numpy as np
 
 from gelenk.contract.time_scaling import TimeScalingRequest
@@ -23,7 +20,7 @@ from gelenk.operations.course_motion import (
 from gelenk.operations.outcome import Outcome
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.laws import POLYNOMIALS
-from gelenk.trajectory.laws.time_scaling import Bound, Scaling, uniform_scaling
+from gelenk.trajectory.laws.time_scaling import Scaling, uniform_scaling
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline, through_samples
 from gelenk.trajectory.motion.time_laws import between
@@ -56,8 +53,8 @@ def _plan(call: TimeScalingRequest) -> PlannedMotion:
         "applied_factor": factor,
         "k_vel": max(1.0, ratios["velocity"]) if "velocity" in ratios else None,
         "k_acc": max(1.0, ratios["acceleration"]) if "acceleration" in ratios else None,
-        "bounds": [_bound(bound) for bound in scaling.bounds],
-        "binding": _bound(scaling.binding),
+        "bounds": scaling.bounds,
+        "binding": scaling.binding,
         "original_duration": motion.duration,
         "steps": scaling_steps(scaling, motion.duration),
         "warnings": [*limit_warnings(peaks, limits), *_warnings(motion, scaling)],
@@ -102,10 +99,6 @@ def _factor(call: TimeScalingRequest, scaling: Scaling) -> float:
     if scaling.factor is None:
         raise InvalidField("scaling", "nothing moves: no k lets it just reach a limit")
     return scaling.factor
-
-
-def _bound(bound: Bound) -> dict[str, Any]:
-    return {**asdict(bound), "joint": bound.joint + 1}
 
 
 def _warnings(motion: PiecewisePolynomial, scaling: Scaling) -> list[str]:

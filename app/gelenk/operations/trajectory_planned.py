@@ -1,5 +1,6 @@
 """A planned trajectory and its answer, as a whole or in parts."""
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -8,7 +9,7 @@ import numpy as np
 import orjson
 
 from gelenk.contract.trajectory_request import TrajectoryRequest
-from gelenk.errors import TooLarge
+from gelenk.errors import InvalidField, TooLarge
 from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.kinematics.simd.kernels import chain_poses
@@ -17,7 +18,6 @@ from gelenk.operations.pose_arrays import pose_list
 from gelenk.operations.rows import json_list, json_rows
 from gelenk.operations.trajectory_limits import limit_notes
 from gelenk.operations.trajectory_request import SourcedProblem, parse, shortest_duration
-from gelenk.operations.trajectory_samples import check_samples, sample_times
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
@@ -25,6 +25,8 @@ from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.plan import plan
 from gelenk.trajectory.problem.problem import SegmentLimits, Trajectory
 
+_NEARLY = 1e-6
+"""Fraction of a period that would be too short a time between the last two samples."""
 _NUMBERS_A_POSE = 16
 _LONGER, _LONG_SECONDS = 100.0, 60.0
 """Hardly any motion lasts longer than this many times its least duration, plus this many seconds."""
@@ -50,17 +52,22 @@ class TrajectorySizeLimits:
     numbers: int
 
     def check(self, call: TrajectoryRequest, chain: Chain, duration: float) -> None:
-        """Refuse a motion with too many samples.
-
-        Args:
-            call: Request with the sample period.
-            chain: Chain of the motion.
-            duration: Duration of the motion, or a lower bound of it, [s].
+        """Refuse a motion whose duration, or a lower bound of it, [s], makes too many samples.
 
         Raises:
             InvalidField: There are too many; the message gives an allowed period.
         """
-        check_samples(duration, call.sample_period, self._most(call, chain))
+        period, most = call.sample_period, self._most(call, chain)
+        if duration / period <= 2.0 * most and sample_count(duration, period) <= most:
+            return
+        count = duration / period + 1.0
+        # Rounded up, so that the period in the message is long enough.
+        allowed = math.ceil(duration / (most - 1) * 1e6) / 1e6
+        raise InvalidField(
+            "sample_period",
+            f"{period:g} s makes {count:.0f} samples of {duration:.6g} s; at most {most} are "
+            f"allowed, every {allowed:.6f} s",
+        )
 
     def may_be_exceeded(self, call: TrajectoryRequest, chain: Chain, shortest: float) -> bool:
         """Check whether a motion that takes at least `shortest`, [s], may last so long that it has too many samples."""
@@ -69,6 +76,18 @@ class TrajectorySizeLimits:
     def _most(self, call: TrajectoryRequest, chain: Chain) -> int:
         numbers = 1 + 3 * len(chain) + _NUMBERS_A_POSE * call.tip_poses
         return min(self.samples, max(2, self.numbers // numbers))
+
+
+def sample_times(duration: float, period: float) -> Array:
+    """Return every multiple of a period before the end, and the end, [s]; for a duration of zero only 0."""
+    count, rate = np.arange(sample_count(duration, period) - 1), round(1.0 / period)
+    # 3 · 0.05 is not the double that is nearest to 0.15; 3 / 20 is.
+    return np.append(count / rate if rate * period == 1.0 else count * period, duration)
+
+
+def sample_count(duration: float, period: float) -> int:
+    """Return the number of samples."""
+    return max(0, math.ceil(duration / period - _NEARLY)) + 1
 
 
 def checked(robot: RobotModel, call: TrajectoryRequest, bounds: TrajectorySizeLimits) -> tuple[Chain, SourcedProblem]:

@@ -105,9 +105,9 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedL
         stated_jerk=np.where(stated, bounds.limits.jerk, np.inf) if stated.any() else None,
     )
     match segment:
-        case JointSegment(target=Pose() as pose):
-            return replace(part, pose=_matrix(pose, f"{place}.target"))
         case JointSegment():
+            if isinstance(segment.target, Pose):
+                return replace(part, pose=_matrix(segment.target, f"{place}.target"))
             return replace(part, configuration=_within(chain, segment.target, f"{place}.target"))
         case LineSegment():
             _check_blend(call.segments, index)
@@ -128,11 +128,7 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedL
 
 
 def _law(call: TrajectoryRequest, index: int) -> Law:
-    """Return the law of a segment; with `slow_down`, only `time_optimal` suits a path of the tip.
-
-    Raises:
-        InvalidField: The request names another law, and does not allow a fallback.
-    """
+    """Return the law of a segment; with `slow_down`, only `time_optimal` suits a path of the tip."""
     segment = call.segments[index]
     law = segment.law or call.law
     if law == "time_optimal" or call.near_singularity != "slow_down" or not _is_tip_path(segment):

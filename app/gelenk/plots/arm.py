@@ -1,7 +1,5 @@
 """An arm as a line through its joints."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from gelenk.robot.arrays import Array, Flags
@@ -9,28 +7,14 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.poses import transform
 
 
-@dataclass(frozen=True, slots=True)
-class ArmLine:
-    """Points of a chain at a configuration, in its base frame.
-
-    Attributes:
-        points: Base, one point on the axis of each of the chain's m joints, and tip; shape (m + 2, 3), [m].
-        slides: Whether each joint is prismatic; shape (m,).
-    """
-
-    points: Array
-    slides: Flags
-
-    @property
-    def tip(self) -> Array:
-        """Position of the tip, the last point; shape (3,), [m]."""
-        return np.asarray(self.points[-1])
-
-
-def arm_line(chain: Chain, q: Array) -> ArmLine:
+def arm_line(chain: Chain, q: Array) -> tuple[Array, Flags]:
     """Return the line from base to tip at a configuration of shape (n,), including mimic joints.
 
     The point of a prismatic joint moves with its carriage.
+
+    Returns:
+        Base, one point on the axis of each of the chain's m joints, and tip, in the base frame, shape (m + 2, 3), [m];
+        and whether each joint is prismatic, shape (m,).
     """
     flat = chain.flat
     T = np.eye(4)
@@ -38,14 +22,11 @@ def arm_line(chain: Chain, q: Array) -> ArmLine:
     for placement, (slides, variable), (multiplier, offset) in zip(
         flat.placements[:-1], flat.joints.tolist(), flat.drives, strict=True
     ):
-        T = (
-            T
-            @ transform(placement[9:], placement[:9].reshape(3, 3))
-            @ _motion(slides, multiplier * q[variable] + offset)
-        )
+        T = T @ transform(placement[9:], placement[:9].reshape(3, 3))
+        T = T @ _motion(slides, multiplier * q[variable] + offset)
         points.append(T[:3, 3])
     T = T @ transform(flat.placements[-1, 9:], flat.placements[-1, :9].reshape(3, 3))
-    return ArmLine(np.array([*points, T[:3, 3]]), flat.joints[:, 0] == 1)
+    return np.array([*points, T[:3, 3]]), flat.joints[:, 0] == 1
 
 
 def _motion(slides: int, value: float) -> Array:

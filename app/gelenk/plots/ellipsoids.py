@@ -14,19 +14,8 @@ from matplotlib.figure import Figure
 
 from gelenk.kinematics.ellipsoids.limited_motion import LimitedMotion
 from gelenk.kinematics.ellipsoids.manipulability import Ellipsoids, is_within_task, space_of, transmission_ratios
-from gelenk.plots.arm import ArmLine, arm_line
-from gelenk.plots.figure import (
-    FORCE,
-    INK,
-    LINE,
-    LINK,
-    VELOCITY,
-    PictureFormat,
-    as_bytes,
-    metric_axes,
-    new_figure,
-    plain,
-)
+from gelenk.plots import figure as style
+from gelenk.plots.arm import arm_line
 from gelenk.plots.legend import LegendRow, configuration_lines, legend, legend_height, write_head, write_legend
 from gelenk.plots.shadows import (
     DASHED,
@@ -38,7 +27,7 @@ from gelenk.plots.shadows import (
     draw_outline,
     draw_quantity,
 )
-from gelenk.robot.arrays import Array
+from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain
 
 View: TypeAlias = tuple[Array, str, str]
@@ -76,14 +65,16 @@ class Scene:
     """Everything that is drawn.
 
     Attributes:
-        arm: Line of the arm.
+        points: Base, a point on each joint, and tip; shape (m + 2, 3), [m].
+        slides: Whether each joint is prismatic; shape (m,).
         extent: Size of the arm, [m].
         quantities: Ellipsoids at the tip.
         outlines: Polytopes at the tip.
         arrows: Directions at the tip.
     """
 
-    arm: ArmLine
+    points: Array
+    slides: Flags
     extent: float
     quantities: tuple[Quantity, ...]
     outlines: tuple[Outline, ...]
@@ -101,7 +92,7 @@ def manipulability_picture(
     chain: Chain,
     q: Array,
     translation: Ellipsoids | None,
-    kind: PictureFormat,
+    kind: style.PictureFormat,
     asked: Overlay = NOTHING_MORE,
 ) -> bytes:
     """Draw the arm with its ellipsoids.
@@ -115,31 +106,24 @@ def manipulability_picture(
         kind: Format of the returned bytes.
         asked: What to show in addition.
     """
-    arm = arm_line(chain, q)
-    extent = max(float(np.ptp(arm.points, axis=0).max()), float(np.linalg.norm(arm.points[-1])), 1e-3)
+    points, slides = arm_line(chain, q)
+    extent = max(float(np.ptp(points, axis=0).max()), float(np.linalg.norm(points[-1])), 1e-3)
     quantities = () if translation is None else _quantities(chain, translation, extent)
     outlines = () if translation is None or asked.limited is None else _outlines(translation, asked.limited, extent)
     plane = _plane(chain, translation)
     arrows = _arrows(translation, quantities, asked)
-    scene = Scene(arm, extent, quantities, outlines, arrows)
+    scene = Scene(points, slides, extent, quantities, outlines, arrows)
     entries = legend(quantities, outlines, arrows, translation)
-    title = f"{plain(name)}: {plain(chain.base_frame)} → {plain(chain.tip_frame)}"
-    figure = (
-        _in_projections(scene, title, chain, q, entries)
-        if plane is None
-        else _in_plane(scene, plane, title, chain, q, entries)
-    )
-    return as_bytes(figure, kind)
+    title = f"{style.plain(name)}: {style.plain(chain.base_frame)} → {style.plain(chain.tip_frame)}"
+    captions = (title, chain, q, entries)
+    figure = _in_projections(scene, *captions) if plane is None else _in_plane(scene, plane, *captions)
+    return style.as_bytes(figure, kind)
 
 
 def _plane(chain: Chain, translation: Ellipsoids | None) -> Array | None:
     """Return two unit vectors of the picture's plane, that of all motion or else of the task; shape (2, 3), or None."""
-    space = space_of(chain, (0, 1, 2))
-    if space.is_plane:
-        return space.spread(space.basis.T)
-    if translation is not None and translation.space.is_plane:
-        return translation.space.spread(translation.space.basis.T)
-    return None
+    spaces = [space_of(chain, (0, 1, 2)), *([] if translation is None else [translation.space])]
+    return next((space.spread(space.basis.T) for space in spaces if space.is_plane), None)
 
 
 def _units(chain: Chain) -> tuple[str, str]:
@@ -158,20 +142,18 @@ def _quantities(chain: Chain, translation: Ellipsoids, extent: float) -> tuple[Q
     velocity, force = _units(chain)
     inverses = np.divide(1.0, sigmas, out=np.full_like(sigmas, np.inf), where=sigmas > 0.0)
     return (
-        Quantity("Velocity", f"m/s per {velocity}", VELOCITY, SOLID, axes, sigmas, _scale(sigmas, extent)),
-        Quantity("Force", f"N per {force}", FORCE, DASHED, axes, inverses, _scale(inverses, extent)),
+        Quantity("Velocity", f"m/s per {velocity}", style.VELOCITY, SOLID, axes, sigmas, _scale(sigmas, extent)),
+        Quantity("Force", f"N per {force}", style.FORCE, DASHED, axes, inverses, _scale(inverses, extent)),
     )
 
 
 def _outlines(translation: Ellipsoids, limited: LimitedMotion, extent: float) -> tuple[Outline, ...]:
     found = []
-    for name, unit, color, numbers, vertices in (
-        ("Velocity", "m/s", VELOCITY, limited.velocities, limited.velocity_vertices),
-        ("Force", "N", FORCE, limited.forces, limited.force_vertices),
+    for name, unit, color, limit, numbers, vertices in (
+        ("Velocity", "m/s", style.VELOCITY, "a velocity", limited.velocities, limited.velocity_vertices),
+        ("Force", "N", style.FORCE, "an effort", limited.forces, limited.force_vertices),
     ):
-        missing = f"not every joint has {'a velocity' if name == 'Velocity' else 'an effort'} limit"
-        if numbers is not None:
-            missing = "unbounded"
+        missing = f"not every joint has {limit} limit" if numbers is None else "unbounded"
         scale = 1.0 if vertices is None else _scale(np.linalg.norm(vertices, axis=1), extent)
         corners = None if vertices is None else translation.space.spread(vertices)
         found.append(Outline(name, unit, color, corners, scale, missing))
@@ -191,13 +173,10 @@ def _arrows(translation: Ellipsoids | None, quantities: Sequence[Quantity], aske
         if not inside[i]:
             arrows.append(Arrow(i + 1, direction, (), words + "not in the task"))
             continue
-        values = [float(ratio) for ratio in ratios[:, i]]
+        values = ratios[:, i].tolist()
         texts = [f"{value:.4g}" if np.isfinite(value) else "unbounded" for value in values]
-        ends = tuple(
-            (quantity.color, value * quantity.scale)
-            for quantity, value in zip(quantities, values, strict=True)
-            if np.isfinite(value)
-        )
+        reached = zip(quantities, values, strict=True)
+        ends = tuple((one.color, value * one.scale) for one, value in reached if np.isfinite(value))
         arrows.append(Arrow(i + 1, direction, ends, f"{words}v {texts[0]}, F {texts[1]}"))
     return tuple(arrows)
 
@@ -215,16 +194,17 @@ def _scale(sizes: Array, extent: float) -> float:
 def _in_plane(scene: Scene, plane: Array, title: str, chain: Chain, q: Array, entries: Sequence[LegendRow]) -> Figure:
     width = 6.4
     lines = configuration_lines(chain, q, width)
-    top, bottom = _TITLE_HEIGHT + len(lines) * LINE, _LABELS_HEIGHT + legend_height(entries)
+    top, bottom = _TITLE_HEIGHT + len(lines) * style.LINE, _LABELS_HEIGHT + legend_height(entries)
     height = top + _AXES_HEIGHT + bottom
-    figure = new_figure(width, height)
+    figure = style.new_figure(width, height)
     axes = figure.add_axes((0.13, bottom / height, _AXES_WIDTH / width, _AXES_HEIGHT / height))
-    view = (plane, f"{_axis_name(plane[0], 1)} / m", f"{_axis_name(plane[1], 2)} / m")
+    view = (plane, f"{style.axis_name(plane[0], 1)} / m", f"{style.axis_name(plane[1], 2)} / m")
     halves = [np.abs(plane) @ half for half in scene.halves]
-    middle, half = _box(scene.arm.points @ plane.T, halves, scene.extent)
+    middle, half = _box(scene.points @ plane.T, halves, scene.extent)
     _draw(axes, view, scene)
     # Widen the narrower range, so that the axes fill their space.
-    _look_at(axes, middle, np.maximum(half, half[::-1] * _shape(axes) ** np.array([1.0, -1.0])))
+    across, upwards = axes.bbox.size
+    style.look_at(axes, middle, np.maximum(half, half[::-1] * (across / upwards) ** np.array([1.0, -1.0])))
     write_head(figure, title, lines)
     write_legend(figure, (0.06, (bottom - _LABELS_HEIGHT) / height), entries)
     return figure
@@ -234,26 +214,18 @@ def _in_projections(scene: Scene, title: str, chain: Chain, q: Array, entries: S
     """Draw front and side views above, and the top view below the front, all on one scale."""
     width, side = 9.0, 3.6
     lines = configuration_lines(chain, q, width)
-    height = _TITLE_HEIGHT + len(lines) * LINE + 2.0 * (side + _LABELS_HEIGHT)
-    figure = new_figure(width, height)
+    height = _TITLE_HEIGHT + len(lines) * style.LINE + 2.0 * (side + _LABELS_HEIGHT)
+    figure = style.new_figure(width, height)
     names, e = ("x / m", "y / m", "z / m"), np.eye(3)
-    middle, half = _box(scene.arm.points, scene.halves, scene.extent)
+    middle, half = _box(scene.points, scene.halves, scene.extent)
     upper = side + 2.0 * _LABELS_HEIGHT
     for (i, j), left, bottom in (((0, 2), 0.72, upper), ((1, 2), 5.13, upper), ((0, 1), 0.72, _LABELS_HEIGHT)):
         axes = figure.add_axes((left / width, bottom / height, side / width, side / height))
         _draw(axes, (e[[i, j]], names[i], names[j]), scene)
-        _look_at(axes, middle[[i, j]], np.full(2, half.max()))
+        style.look_at(axes, middle[[i, j]], np.full(2, half.max()))
     write_head(figure, title, lines)
     write_legend(figure, (5.13 / width, (side + 0.35) / height), entries)
     return figure
-
-
-def _axis_name(direction: Array, number: int) -> str:
-    """Return x, y or z if the direction is one of these, else a numbered name."""
-    for name, unit in zip("xyz", np.eye(3), strict=True):
-        if np.abs(direction - unit).max() < 1e-9:
-            return name
-    return f"in-plane direction {number}"
 
 
 def _box(points: Array, halves: Sequence[Array], extent: float) -> tuple[Array, Array]:
@@ -263,37 +235,26 @@ def _box(points: Array, halves: Sequence[Array], extent: float) -> tuple[Array, 
     return (lower + upper) / 2.0, (upper - lower) / 2.0 + _MARGIN * extent
 
 
-def _shape(axes: Axes) -> float:
-    """Return the ratio of width to height."""
-    width, height = axes.bbox.size
-    return float(width / height)
-
-
-def _look_at(axes: Axes, middle: Array, half: Array) -> None:
-    axes.set_xlim(middle[0] - half[0], middle[0] + half[0])
-    axes.set_ylim(middle[1] - half[1], middle[1] + half[1])
-
-
 def _draw(axes: Axes, view: View, scene: Scene) -> None:
     plane, x_label, y_label = view
-    metric_axes(axes, x_label, y_label)
-    points = scene.arm.points @ plane.T
+    style.metric_axes(axes, x_label, y_label)
+    points = scene.points @ plane.T
     tip = points[-1]
     for quantity in scene.quantities:
         draw_quantity(axes, plane, tip, quantity, scene.extent)
     for outline in scene.outlines:
         draw_outline(axes, plane, tip, outline)
-    _draw_arm(axes, points, scene.arm)
+    _draw_arm(axes, points, scene.slides)
     for arrow in scene.arrows:
         draw_arrow(axes, plane, tip, arrow, _ARROW * scene.extent)
 
 
-def _draw_arm(axes: Axes, points: Array, arm: ArmLine) -> None:
+def _draw_arm(axes: Axes, points: Array, slides: Flags) -> None:
     caps: dict[str, Any] = {"solid_capstyle": "round", "solid_joinstyle": "round"}
-    axes.plot(points[:, 0], points[:, 1], color=LINK, linewidth=5.0, zorder=2, **caps)
-    axes.plot(*points[0], marker="s", markersize=11, color=INK, zorder=2.5)
-    edge: dict[str, Any] = {"color": "white", "markeredgecolor": INK, "markeredgewidth": 1.4, "zorder": 3}
-    for slides, marker, size in ((False, "o", 8.0), (True, "s", 7.5)):
-        some = points[1:-1][arm.slides == slides]
+    axes.plot(points[:, 0], points[:, 1], color=style.LINK, linewidth=5.0, zorder=2, **caps)
+    axes.plot(*points[0], marker="s", markersize=11, color=style.INK, zorder=2.5)
+    edge: dict[str, Any] = {"color": "white", "markeredgecolor": style.INK, "markeredgewidth": 1.4, "zorder": 3}
+    for rows, marker, size in ((~slides, "o", 8.0), (slides, "s", 7.5)):
+        some = points[1:-1][rows]
         axes.plot(some[:, 0], some[:, 1], marker, markersize=size, **edge)
-    axes.plot(*points[-1], marker="o", markersize=5.0, color=INK, zorder=5)
+    axes.plot(*points[-1], marker="o", markersize=5.0, color=style.INK, zorder=5)

@@ -10,11 +10,14 @@ from io import BytesIO
 from typing import Final, Literal, TypeAlias
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
+
+from gelenk.robot.arrays import Array
 
 PictureFormat: TypeAlias = Literal["svg", "png"]
 
@@ -68,15 +71,35 @@ def font(size: float = TEXT, *, bold: bool = False) -> FontProperties:
 def metric_axes(axes: Axes, x_label: str, y_label: str) -> None:
     """Style axes of lengths in metres: equal scales, a light grid below everything, labels."""
     axes.set_aspect("equal", adjustable="box")
+    light_axes(axes, x_label, y_label)
+
+
+def light_axes(axes: Axes, x_label: str | None, y_label: str, *, size: float = TEXT) -> None:
+    """Style axes: a light grid below everything, labels; numbers of a font size, [pt], below only with a label."""
     axes.set_axisbelow(True)
     axes.grid(color=RULE, linewidth=0.6)
     for side, spine in axes.spines.items():
         spine.set_visible(side in {"left", "bottom"})
         spine.set_color(QUIET)
         spine.set_linewidth(0.8)
-    axes.tick_params(colors=QUIET, labelsize=TEXT, length=3, width=0.8)
-    axes.set_xlabel(x_label, fontproperties=font(), color=INK)
+    axes.tick_params(colors=QUIET, labelsize=size, length=3, width=0.8, labelbottom=x_label is not None)
+    if x_label is not None:
+        axes.set_xlabel(x_label, fontproperties=font(), color=INK)
     axes.set_ylabel(y_label, fontproperties=font(), color=INK)
+
+
+def look_at(axes: Axes, middle: Array, half: Array) -> None:
+    """Show a rectangle, given by its centre and half size; shape (2,) each."""
+    axes.set_xlim(middle[0] - half[0], middle[0] + half[0])
+    axes.set_ylim(middle[1] - half[1], middle[1] + half[1])
+
+
+def axis_name(direction: Array, number: int) -> str:
+    """Return x, y or z if a unit vector (3,) is one of these, else a numbered name."""
+    for name, unit in zip("xyz", np.eye(3), strict=True):
+        if np.abs(direction - unit).max() < 1e-9:
+            return name
+    return f"in-plane direction {number}"
 
 
 def write(figure: Figure, x: float, y: float, lines: Sequence[str], *, size: float = TEXT, color: str = INK) -> None:

@@ -6,19 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from gelenk.course.motion.fly_over import Blend
-from gelenk.plots.figure import (
-    FORCE,
-    INK,
-    LINK,
-    TITLE,
-    VELOCITY,
-    PictureFormat,
-    as_bytes,
-    font,
-    metric_axes,
-    new_figure,
-    write,
-)
+from gelenk.plots import figure as style
 from gelenk.plots.profiles import curve, time_axes
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
@@ -29,7 +17,7 @@ _LEAST = 0.25
 """Least ratio of the shorter to the longer side of the path's picture, because a straight path is flat."""
 
 
-def fly_over_picture(blend: Blend, motion: PiecewisePolynomial | None, kind: PictureFormat) -> bytes:
+def fly_over_picture(blend: Blend, motion: PiecewisePolynomial | None, kind: style.PictureFormat) -> bytes:
     """Draw a fly-over.
 
     Args:
@@ -37,14 +25,14 @@ def fly_over_picture(blend: Blend, motion: PiecewisePolynomial | None, kind: Pic
         motion: The whole motion, or that of the blend, k coordinates, [m]; None if it takes no time.
         kind: Format of the returned bytes.
     """
-    figure = new_figure(6.4, 8.0)
+    figure = style.new_figure(6.4, 8.0)
     title = f"Fly-over in {blend.time:.4g} s: d₁ = {blend.distance_before:.4g} m, d₂ = {blend.distance_after:.4g} m"
-    write(figure, 0.06, 0.98, [title], size=TITLE)
+    style.write(figure, 0.06, 0.98, [title], size=style.TITLE)
     axes = figure.add_axes((0.13, 0.45, 0.83, 0.48))
     _draw_way(axes, blend)
     for bottom, order, label, color in (
-        (0.25, 1, "speed / (m/s)", VELOCITY),
-        (0.07, 2, "acceleration / (m/s²)", FORCE),
+        (0.25, 1, "speed / (m/s)", style.VELOCITY),
+        (0.07, 2, "acceleration / (m/s²)", style.FORCE),
     ):
         part = figure.add_axes((0.13, bottom, 0.83, 0.13))
         time_axes(part, label, is_last=order == 2)
@@ -53,7 +41,7 @@ def fly_over_picture(blend: Blend, motion: PiecewisePolynomial | None, kind: Pic
             part.plot(times, np.linalg.norm(values, axis=1), color=color, linewidth=1.5)
             part.set_xlim(motion.breaks[0], motion.breaks[-1])
             part.set_ylim(bottom=0.0)
-    return as_bytes(figure, kind)
+    return style.as_bytes(figure, kind)
 
 
 def _draw_way(axes: Axes, blend: Blend) -> None:
@@ -63,19 +51,21 @@ def _draw_way(axes: Axes, blend: Blend) -> None:
         plane(point[None])[0] for point in (corner.start, corner.corner, corner.end, blend.entry, blend.exit)
     )
     is_flat = len(corner.start) == 2
-    metric_axes(axes, "x / m" if is_flat else "along AB / m", "y / m" if is_flat else "across / m")
+    style.metric_axes(axes, "x / m" if is_flat else "along AB / m", "y / m" if is_flat else "across / m")
     legs = np.array([A, B, C])
-    axes.plot(*legs.T, color=LINK, linewidth=1.2, linestyle=(0.0, (4.0, 3.0)))
+    axes.plot(*legs.T, color=style.LINK, linewidth=1.2, linestyle=(0.0, (4.0, 3.0)))
     times = np.linspace(0.0, blend.time, _POINTS)
     parabola = plane(times[:, None] ** np.arange(3) @ blend.coefficients)
-    solid: dict[str, Any] = {"color": VELOCITY, "linewidth": 2.0, "solid_capstyle": "round"}
+    solid: dict[str, Any] = {"color": style.VELOCITY, "linewidth": 2.0, "solid_capstyle": "round"}
     axes.plot(*np.concatenate((A[None], parabola, C[None])).T, **solid)
     for name, point in (("A", A), ("B", B), ("C", C), ("A'", entry), ("C'", exit_)):
         is_end = name in {"A'", "C'"}
-        axes.plot(*point, "o", markersize=5.0, color="white" if is_end else INK, markeredgecolor=INK, zorder=4)
+        axes.plot(
+            *point, "o", markersize=5.0, color="white" if is_end else style.INK, markeredgecolor=style.INK, zorder=4
+        )
         # If the path turns back, the two ends of the blend coincide.
         offset = (6.0, -14.0) if name == "C'" else (6.0, 6.0)
-        axes.annotate(name, point, offset, textcoords="offset points", fontproperties=font(), color=INK)
+        axes.annotate(name, point, offset, textcoords="offset points", fontproperties=style.font(), color=style.INK)
     _frame(axes, np.concatenate((legs, parabola)))
 
 
@@ -96,6 +86,4 @@ def _frame(axes: Axes, points: Array) -> None:
     low, high = points.min(axis=0), points.max(axis=0)
     size = float((high - low).max())
     half = np.maximum(0.5 * (high - low), 0.5 * _LEAST * size) + _MARGIN * size
-    middle = 0.5 * (low + high)
-    axes.set_xlim(middle[0] - half[0], middle[0] + half[0])
-    axes.set_ylim(middle[1] - half[1], middle[1] + half[1])
+    style.look_at(axes, 0.5 * (low + high), half)

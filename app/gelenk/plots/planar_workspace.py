@@ -9,21 +9,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Circle, Patch, Rectangle
 
 from gelenk.course.planar import Interval, PlanarWorkspace, orientations, posture, share
-from gelenk.plots.figure import (
-    FORCE,
-    INK,
-    LINE,
-    LINK,
-    TITLE,
-    VELOCITY,
-    PictureFormat,
-    as_bytes,
-    metric_axes,
-    new_figure,
-    write,
-)
+from gelenk.plots import figure as style
 
-_PRIMARY, _SECONDARY = VELOCITY, FORCE
+_PRIMARY, _SECONDARY = style.VELOCITY, style.FORCE
 _MARGIN = 1.08
 _LINE = 1e-9
 """Width up to which a ring is drawn as a circle, as a fraction of its radius."""
@@ -31,7 +19,7 @@ _SMALLEST = 1e-6
 """Least half width of the pictured area without its margin, [m]."""
 
 
-def planar_workspace_picture(arm: PlanarWorkspace, point: Sequence[float] | None, kind: PictureFormat) -> bytes:
+def planar_workspace_picture(arm: PlanarWorkspace, point: Sequence[float] | None, kind: style.PictureFormat) -> bytes:
     """Draw the two workspaces of a planar arm.
 
     Args:
@@ -39,21 +27,20 @@ def planar_workspace_picture(arm: PlanarWorkspace, point: Sequence[float] | None
         point: x and y of a point, [m]; the arm is drawn with its tip there if it can reach it.
         kind: Format of the returned bytes.
     """
-    figure = new_figure(6.4, 7.6)
+    figure = style.new_figure(6.4, 7.6)
     axes = figure.add_axes((0.13, 0.19, 0.83, 0.73))
-    metric_axes(axes, "x / m", "y / m")
+    style.metric_axes(axes, "x / m", "y / m")
     half = _MARGIN * max(sum(arm.links), _SMALLEST, *(abs(value) for value in point or ()))
-    axes.set_xlim(-half, half)
-    axes.set_ylim(-half, half)
+    style.look_at(axes, np.zeros(2), np.full(2, half))
     _draw_rings(axes, arm.primary, _PRIMARY, 0.12, 2.0)
     _draw_rings(axes, arm.secondary, _SECONDARY, 0.28, 2.1)
-    axes.plot(0.0, 0.0, marker="s", markersize=11, color=INK, zorder=3.5)
+    axes.plot(0.0, 0.0, marker="s", markersize=11, color=style.INK, zorder=3.5)
     if point is not None:
         _draw_arm(axes, arm, point)
     lengths = ", ".join(f"{length:.4g}" for length in arm.links)
-    write(figure, 0.06, 0.975, [f"Planar arm with links of {lengths} m"], size=TITLE)
+    style.write(figure, 0.06, 0.975, [f"Planar arm with links of {lengths} m"], size=style.TITLE)
     _write_legend(figure, arm, point)
-    return as_bytes(figure, kind)
+    return style.as_bytes(figure, kind)
 
 
 def _draw_rings(axes: Axes, rings: Sequence[Interval], color: str, strength: float, order: float) -> None:
@@ -76,14 +63,14 @@ def _draw_arm(axes: Axes, arm: PlanarWorkspace, point: Sequence[float]) -> None:
     if found:
         points = posture(arm, point[0], point[1], float(np.mean(found[0])))
         caps: dict[str, Any] = {"solid_capstyle": "round", "solid_joinstyle": "round"}
-        axes.plot(points[:, 0], points[:, 1], color=LINK, linewidth=5.0, zorder=3, **caps)
-        edge: dict[str, Any] = {"color": "white", "markeredgecolor": INK, "markeredgewidth": 1.4}
+        axes.plot(points[:, 0], points[:, 1], color=style.LINK, linewidth=5.0, zorder=3, **caps)
+        edge: dict[str, Any] = {"color": "white", "markeredgecolor": style.INK, "markeredgewidth": 1.4}
         axes.plot(points[1:-1, 0], points[1:-1, 1], "o", markersize=8.0, zorder=4, **edge)
-    axes.plot(*point, marker="o", markersize=5.0, color=INK, zorder=5)
+    axes.plot(*point, marker="o", markersize=5.0, color=style.INK, zorder=5)
 
 
 def _write_legend(figure: Figure, arm: PlanarWorkspace, point: Sequence[float] | None) -> None:
-    line, left, top = LINE / figure.get_figheight(), 0.13, 0.115
+    line, left, top = style.LINE / figure.get_figheight(), 0.13, 0.115
     swatch = 0.3 / figure.get_figwidth()
     for name, rings, color, strength in (
         ("WS₁, at least one orientation", arm.primary, _PRIMARY, 0.12),
@@ -92,10 +79,12 @@ def _write_legend(figure: Figure, arm: PlanarWorkspace, point: Sequence[float] |
         patch: Patch = Rectangle((left, top - 0.75 * line), swatch, 0.6 * line, facecolor=(color, strength))
         patch.set(edgecolor=color, linewidth=1.2, transform=figure.transFigure)
         figure.add_artist(patch)
-        write(figure, left + 1.4 * swatch, top, [f"{name}: {' and '.join(map(_words, rings)) or 'nowhere'}"])
+        style.write(figure, left + 1.4 * swatch, top, [f"{name}: {' and '.join(map(_words, rings)) or 'nowhere'}"])
         top -= 1.15 * line
     if point is not None:
-        write(figure, left + 1.4 * swatch, top, [f"At ({point[0]:.4g}, {point[1]:.4g}) m: {_reached(arm, point)}"])
+        style.write(
+            figure, left + 1.4 * swatch, top, [f"At ({point[0]:.4g}, {point[1]:.4g}) m: {_reached(arm, point)}"]
+        )
 
 
 def _reached(arm: PlanarWorkspace, point: Sequence[float]) -> str:

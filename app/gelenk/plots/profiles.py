@@ -9,20 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from gelenk.plots.figure import (
-    INK,
-    LINE,
-    LINK,
-    QUIET,
-    RULE,
-    TITLE,
-    PictureFormat,
-    as_bytes,
-    font,
-    new_figure,
-    plain,
-    write,
-)
+from gelenk.plots import figure as style
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
@@ -74,7 +61,7 @@ class ProfileLines:
     spans: Sequence[Span] = ()
 
 
-def profiles_picture(title: str, motion: PiecewisePolynomial, lines: ProfileLines, kind: PictureFormat) -> bytes:
+def profiles_picture(title: str, motion: PiecewisePolynomial, lines: ProfileLines, kind: style.PictureFormat) -> bytes:
     """Draw the profiles of a motion.
 
     Args:
@@ -85,10 +72,10 @@ def profiles_picture(title: str, motion: PiecewisePolynomial, lines: ProfileLine
     """
     joints = motion.coefficients.shape[2]
     rows = -(-joints // _A_ROW) if joints > 1 else 0
-    height = 8.0 + rows * LINE
-    figure = new_figure(7.2, height)
-    write(figure, 0.03, 1.0 - 0.14 / height, [plain(title)], size=TITLE)
-    top, bottom = 1.0 - (0.55 + rows * LINE) / height, 0.5 / height
+    height = 8.0 + rows * style.LINE
+    figure = style.new_figure(7.2, height)
+    style.write(figure, 0.03, 1.0 - 0.14 / height, [style.plain(title)], size=style.TITLE)
+    top, bottom = 1.0 - (0.55 + rows * style.LINE) / height, 0.5 / height
     step = (top - bottom) / 4.0
     for order, name in enumerate(("position", "velocity", "acceleration", "jerk")):
         axes = figure.add_axes((0.14, top - (order + 1) * step + 0.012, 0.825, step - 0.024))
@@ -102,7 +89,7 @@ def profiles_picture(title: str, motion: PiecewisePolynomial, lines: ProfileLine
         _divide(axes, lines.spans, is_named=order == 0)
     if joints > 1:
         _legend(figure, lines.names, height)
-    return as_bytes(figure, kind)
+    return style.as_bytes(figure, kind)
 
 
 def _look(joint: int) -> tuple[str, tuple[float, ...]]:
@@ -112,17 +99,8 @@ def _look(joint: int) -> tuple[str, tuple[float, ...]]:
 
 def time_axes(axes: Axes, label: str, *, is_last: bool) -> None:
     """Style the axes of a quantity over time; only the last of several stacked panels has a label for the time."""
-    axes.set_axisbelow(True)
-    axes.grid(color=RULE, linewidth=0.6)
-    for side, spine in axes.spines.items():
-        spine.set_visible(side in {"left", "bottom"})
-        spine.set_color(QUIET)
-        spine.set_linewidth(0.8)
-    axes.tick_params(colors=QUIET, labelsize=8.0, length=3, width=0.8, labelbottom=is_last)
-    axes.set_ylabel(label, fontproperties=font(), color=INK)
+    style.light_axes(axes, "t / s" if is_last else None, label, size=8.0)
     axes.yaxis.set_label_coords(-0.09, 0.5)
-    if is_last:
-        axes.set_xlabel("t / s", fontproperties=font(), color=INK)
 
 
 def curve(motion: PiecewisePolynomial) -> tuple[Array, Array]:
@@ -150,26 +128,26 @@ def _draw(axes: Axes, motion: PiecewisePolynomial) -> None:
 
 def _limit(axes: Axes, lines: ProfileLines, which: int) -> None:
     """Draw the limits of all joints in both directions, with one line for joints that share a limit."""
-    if not lines.spans:
-        limit = lines.limits[which]
-        if limit is not None:
-            for bound, color in _bounds(limit[None]):
-                for side in (bound, -bound):
-                    axes.axhline(float(side[0]), color=color, linewidth=1.0, linestyle=_LIMIT_DASHES, zorder=2)
-        return
-    # NaN between two spans leaves a gap in the line.
-    times = np.array([(span.start, span.end, np.nan) for span in lines.spans]).ravel()
-    limits = np.repeat([span.limits[which] for span in lines.spans], 3, axis=0)
-    for bound, color in _bounds(limits):
-        for side in (bound, -bound):
-            axes.plot(times, side, color=color, linewidth=1.0, linestyle=_LIMIT_DASHES, zorder=2)
+    look: dict[str, Any] = {"linewidth": 1.0, "linestyle": _LIMIT_DASHES, "zorder": 2}
+    limit = lines.limits[which]
+    if lines.spans:
+        # NaN between two spans leaves a gap in the line.
+        times = np.array([(span.start, span.end, np.nan) for span in lines.spans]).ravel()
+        limits = np.repeat([span.limits[which] for span in lines.spans], 3, axis=0)
+        for bound, color in _bounds(limits):
+            for side in (bound, -bound):
+                axes.plot(times, side, color=color, **look)
+    elif limit is not None:
+        for bound, color in _bounds(limit[None]):
+            for height in (float(bound[0]), -float(bound[0])):
+                axes.axhline(height, color=color, **look)
 
 
 def _bounds(limits: Array) -> list[tuple[Array, str]]:
     """Return each distinct limit over time, and its colour; shared limits are grey; shape (K, n) → (K,) each."""
     found, joints, counts = np.unique(limits, axis=1, return_index=True, return_counts=True)
     return [
-        (found[:, k], _look(int(joints[k]))[0] if counts[k] == 1 and limits.shape[1] > 1 else QUIET)
+        (found[:, k], _look(int(joints[k]))[0] if counts[k] == 1 and limits.shape[1] > 1 else style.QUIET)
         for k in range(found.shape[1])
     ]
 
@@ -178,16 +156,16 @@ def _divide(axes: Axes, spans: Sequence[Span], *, is_named: bool) -> None:
     """Mark where one part ends and the next begins, and write each part's name above it if there is room."""
     whole = spans[-1].end - spans[0].start if spans else 0.0
     for span in spans[1:]:
-        axes.axvline(span.start, color=LINK, linewidth=1.2, zorder=1)
+        axes.axvline(span.start, color=style.LINK, linewidth=1.2, zorder=1)
     for span in spans if is_named else ():
         if span.end - span.start > _ROOM * len(span.label) * whole:
             axes.text(
                 0.5 * (span.start + span.end),
                 1.02,
-                plain(span.label),
+                style.plain(span.label),
                 transform=axes.get_xaxis_transform(),
-                fontproperties=font(8.0),
-                color=QUIET,
+                fontproperties=style.font(8.0),
+                color=style.QUIET,
                 ha="center",
                 va="bottom",
                 parse_math=False,
@@ -215,7 +193,7 @@ def _frame(axes: Axes, motion: PiecewisePolynomial) -> None:
         axes.set_xlim(start, end)
     if len(motion.breaks) <= _FEW_PIECES:
         for time in motion.breaks[1:-1]:
-            axes.axvline(float(time), color=RULE, linewidth=1.0, zorder=1)
+            axes.axvline(float(time), color=style.RULE, linewidth=1.0, zorder=1)
     axes.margins(y=_MARGIN)
     low, high = axes.dataLim.intervaly
     if high - low == 0.0:
@@ -226,10 +204,10 @@ def _frame(axes: Axes, motion: PiecewisePolynomial) -> None:
 def _legend(figure: Figure, names: Sequence[str], height: float) -> None:
     top = 1.0 - 0.42 / height
     for j, name in enumerate(names):
-        x, y = 0.14 + 0.22 * (j % _A_ROW), top - (j // _A_ROW) * LINE / height
+        x, y = 0.14 + 0.22 * (j % _A_ROW), top - (j // _A_ROW) * style.LINE / height
         color, dashes = _look(j)
         swatch = Line2D([x, x + 0.03], [y - 0.075 / height] * 2, color=color, linewidth=1.5, dashes=dashes)
         swatch.set(transform=figure.transFigure)
         figure.add_artist(swatch)
-        shown = plain(name)
-        write(figure, x + 0.037, y, [shown if len(shown) <= 18 else shown[:17] + "…"])
+        shown = style.plain(name)
+        style.write(figure, x + 0.037, y, [shown if len(shown) <= 18 else shown[:17] + "…"])

@@ -13,20 +13,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from gelenk.plots.figure import (
-    INK,
-    LINE,
-    QUIET,
-    TEXT,
-    TITLE,
-    PictureFormat,
-    as_bytes,
-    font,
-    metric_axes,
-    new_figure,
-    plain,
-    write,
-)
+from gelenk.plots import figure as style
 from gelenk.robot.arrays import Array
 
 View: TypeAlias = tuple[Array, Array, str, str]
@@ -70,18 +57,13 @@ class Picture:
     cell: float
 
     @property
-    def is_cloud(self) -> bool:
-        """Whether the rows are samples, not voxels."""
-        return "measure" in self.columns
-
-    @property
     def element(self) -> float:
         """Edge length of a picture element, [m]: one or more voxels, or so that most cover several samples."""
         longest = float(np.ptp(self.rows[:, :3], axis=0).max()) if len(self.rows) else 1.0
         if _is_one_place(self.rows[:, :3]):
             lower, upper = _corners(self.rows[:, :3])
             return float((upper - lower).max()) / _FEWEST_ELEMENTS
-        if not self.is_cloud:
+        if "measure" not in self.columns:  # voxels, not samples
             return self.cell * max(1.0, float(np.ceil(longest / (self.cell * _MOST_VOXELS))))
         count = np.clip(np.sqrt(len(self.rows)) / 2.0, _FEWEST_ELEMENTS, _MOST_ELEMENTS)
         return longest / float(count)
@@ -108,55 +90,47 @@ class Picture:
         return self.dimensions == 2
 
 
-def picture_bytes(picture: Picture, kind: PictureFormat) -> bytes:
+def picture_bytes(picture: Picture, kind: style.PictureFormat) -> bytes:
     """Draw a workspace: in its plane if it is flat, else from the front, the side and above."""
     values = picture.values
     largest = float(values.max(initial=0.0))
     ends = Normalize(0.0, 1.0 if picture.columns[-1] == "dexterity" else largest or 1.0)
     figure = _in_its_plane(picture, ends) if picture.is_flat else _in_projections(picture, ends)
     base_frame, tip_frame = picture.ends
-    robot, chain = f"Workspace of {plain(picture.robot)}", f"{plain(base_frame)} → {plain(tip_frame)}"
+    robot, chain = f"Workspace of {style.plain(picture.robot)}", f"{style.plain(base_frame)} → {style.plain(tip_frame)}"
     if len(robot) + len(chain) < _TITLE_LENGTH:
-        write(figure, 0.06, 0.975, [f"{robot}: {chain}"], size=TITLE)
+        style.write(figure, 0.06, 0.975, [f"{robot}: {chain}"], size=style.TITLE)
     else:
-        write(figure, 0.06, 0.99, [robot, chain], size=TITLE)
-    return as_bytes(figure, kind)
+        style.write(figure, 0.06, 0.99, [robot, chain], size=style.TITLE)
+    return style.as_bytes(figure, kind)
 
 
 def _in_its_plane(picture: Picture, ends: Normalize) -> Figure:
-    figure = new_figure(7.0, 8.6)
+    figure = style.new_figure(7.0, 8.6)
     right, up = picture.axes[:, 0], picture.axes[:, 1]
     axes = figure.add_axes((0.11, 0.26, 0.84, 0.68))
-    _draw(axes, picture, (right, up, _axis_name(right, 1), _axis_name(up, 2)), ends)
+    _draw(axes, picture, (right, up, style.axis_name(right, 1), style.axis_name(up, 2)), ends)
     _colour_bar(figure, (0.11, 0.155, 0.84, 0.014), picture, ends)
-    write(figure, 0.11, 0.115, picture.notes, color=QUIET)
+    style.write(figure, 0.11, 0.115, picture.notes, color=style.QUIET)
     return figure
 
 
 def _in_projections(picture: Picture, ends: Normalize) -> Figure:
     """Draw front and side views above, and the top view below the front, all on one scale."""
-    figure = new_figure(9.0, 9.0)
+    figure = style.new_figure(9.0, 9.0)
     e, names = np.eye(3), ("x", "y", "z")
     places = {(0, 2): (0.08, 0.54, 0.40, 0.39), (1, 2): (0.57, 0.54, 0.40, 0.39), (0, 1): (0.08, 0.06, 0.40, 0.39)}
     for (i, j), place in places.items():
         _draw(figure.add_axes(place), picture, (e[i], e[j], names[i], names[j]), ends)
     _colour_bar(figure, (0.57, 0.38, 0.40, 0.014), picture, ends)
-    write(figure, 0.57, 0.38 - 2.2 * LINE / 9.0, picture.notes, color=QUIET)
+    style.write(figure, 0.57, 0.38 - 2.2 * style.LINE / 9.0, picture.notes, color=style.QUIET)
     return figure
-
-
-def _axis_name(direction: Array, number: int) -> str:
-    """Return x, y or z if the direction is one of these, else a numbered name."""
-    for name, unit in zip("xyz", np.eye(3), strict=True):
-        if np.abs(direction - unit).max() < 1e-9:
-            return name
-    return f"in-plane direction {number}"
 
 
 def _draw(axes: Axes, picture: Picture, view: View, ends: Normalize) -> None:
     """Draw a view on a square around the centre, which has the same size in every view."""
     right, up, right_name, up_name = view
-    metric_axes(axes, f"{right_name} / m", f"{up_name} / m")
+    style.metric_axes(axes, f"{right_name} / m", f"{up_name} / m")
     points = np.asarray(picture.rows[:, :3])
     middle, half = _box(points, picture.element)
     places, centre = points @ np.column_stack((right, up)), np.array((right @ middle, up @ middle))
@@ -168,10 +142,9 @@ def _draw(axes: Axes, picture: Picture, view: View, ends: Normalize) -> None:
     lower = zero + (first - 0.5) * picture.element
     extent = (lower[0], lower[0] + count * picture.element, lower[1], lower[1] + count * picture.element)
     axes.imshow(image, cmap=_COLORS, norm=ends, extent=extent, origin="lower", interpolation="nearest", zorder=2)
-    axes.set_xlim(centre[0] - half, centre[0] + half)
-    axes.set_ylim(centre[1] - half, centre[1] + half)
+    style.look_at(axes, centre, np.full(2, half))
     axes.locator_params(nbins=6)
-    axes.plot(0.0, 0.0, marker="+", markersize=10, color=INK, markeredgewidth=1.4, zorder=3)
+    axes.plot(0.0, 0.0, marker="+", markersize=10, color=style.INK, markeredgewidth=1.4, zorder=3)
 
 
 def _box(points: Array, element: float) -> tuple[Array, float]:
@@ -225,5 +198,5 @@ def _colour_bar(figure: Figure, place: tuple[float, float, float, float], pictur
     axes = figure.add_axes(place)
     bar = figure.colorbar(ScalarMappable(ends, _COLORS), cax=axes, orientation="horizontal")
     bar.outline.set_visible(False)
-    axes.tick_params(colors=QUIET, labelsize=TEXT, length=3, width=0.8)
-    axes.set_title(picture.label, fontproperties=font(), color=INK, loc="left", pad=6.0)
+    axes.tick_params(colors=style.QUIET, labelsize=style.TEXT, length=3, width=0.8)
+    axes.set_title(picture.label, fontproperties=style.font(), color=style.INK, loc="left", pad=6.0)

@@ -180,13 +180,13 @@ def _comparison(
 
 
 def _demands(segment: Segment, start: Array, end: Array, task: Task) -> Demands:
-    promise = promised(segment)
+    continuous, keeps_jerk = promised(segment)
     return Demands(
         JointLimits(*segment.limits.joints),
         segment.limits.tip,
         (start, end),
         task=task,
-        continuous=promise.continuous,
-        keeps_jerk=promise.has_bounded_jerk,
+        continuous=continuous,
+        keeps_jerk=keeps_jerk,
         stated_jerk=segment.stated_jerk,
     )

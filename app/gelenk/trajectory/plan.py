@@ -6,6 +6,7 @@ why it ends. A motion that fails its audit is never returned.
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import accumulate
 
 import numpy as np
 
@@ -30,7 +31,7 @@ _SAME_DURATION = 1e-9
 _LIMITS = {"velocity", "acceleration", "jerk", "tip"}
 _ROUNDING, _MARGIN = 1e-5, 1e-12
 """Relative excess over a limit that counts as rounding, and the extra margin when a motion is slowed down to it."""
-_TOLD = 4
+_MOST_REASONS = 4
 """Largest number of reasons that a refusal lists."""
 _MOMENT = 1e-9
 """Duration that stands for zero in an audit, [s]."""
@@ -53,22 +54,19 @@ def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Traject
     parts = [_with_stated_jerk(part, problem) for part in _parts(robot, chain, problem)]
     factor, share, failure = _factor(parts, problem), parts[-1].share, parts[-1].failure
     parts, audits = _judged(robot, chain, [part.slowed(factor) for part in parts])
-    starts = np.concatenate(([0.0], np.cumsum([part.motion.duration for part in parts])))
-    moving = [
-        (part, float(start)) for part, start in zip(parts, starts[:-1], strict=True) if part.motion.duration > 0.0
-    ]
-    motion = joined([part.motion for part, _ in moving]) if moving else standing(problem.start)
+    starts = list(accumulate((part.motion.duration for part in parts), initial=0.0))
+    moving = [i for i, part in enumerate(parts) if part.motion.duration > 0.0]
     if moving:
-        judgement = whole_audit(chain, motion, audits, [start for _, start in moving])
+        motion = joined([parts[i].motion for i in moving])
+        judgement = whole_audit(chain, motion, audits, [starts[i] for i in moving])
     else:  # An audit needs pieces that take time.
+        motion = standing(problem.start)
         judgement = audit(robot, chain, standing(problem.start, _MOMENT), Demands())
     refuse_failed(judgement)
     return Trajectory(
         motion,
         tuple(
-            report.retimed(start=float(start))
-            for part, start in zip(parts, starts[:-1], strict=True)
-            for report in part.reports
+            report.retimed(start=start) for part, start in zip(parts, starts, strict=False) for report in part.reports
         ),
         1.0 if failure is None else (failure.segment + share) / len(problem.segments),
         None if failure is None else replace(failure, time=motion.duration),
@@ -94,11 +92,7 @@ def _parts(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> list[
 
 
 def _grouped(segments: tuple[Segment, ...]) -> Iterator[tuple[int, tuple[Segment, ...]]]:
-    """Yield single segments and groups of blended lines, each with the index of its first segment.
-
-    Raises:
-        InvalidField: A segment cannot be blended into the next one; see `_refuse_unblendable`.
-    """
+    """Yield single segments and groups of blended lines, each with the index of its first segment."""
     first = 0
     for i, segment in enumerate(segments):
         if is_blended(segment):
@@ -209,4 +203,4 @@ def refuse_failed(judgement: Audit) -> None:
         AuditFailed: The motion failed.
     """
     if not judgement.passed:
-        raise AuditFailed("; ".join(reason.detail for reason in judgement.reasons[:_TOLD]))
+        raise AuditFailed("; ".join(reason.detail for reason in judgement.reasons[:_MOST_REASONS]))

@@ -106,17 +106,9 @@ def operating_point(motor: Motor, voltage: float, load_torque: float) -> Operati
     electrical, shaft = voltage * current, load_torque * omega
     regime = _regime(voltage, omega, electrical, shaft)
     efficiency = _efficiency(regime, electrical, shaft) if _constants_are_one(motor) else None
-    return OperatingPoint(
-        omega,
-        current,
-        motor.torque_constant * current,
-        electrical,
-        shaft,
-        motor.resistance * current**2,
-        motor.viscous_friction * omega**2,
-        efficiency,
-        regime,
-    )
+    copper, friction = motor.resistance * current**2, motor.viscous_friction * omega**2
+    torque = motor.torque_constant * current
+    return OperatingPoint(omega, current, torque, electrical, shaft, copper, friction, efficiency, regime)
 
 
 def balance(motor: Motor, voltage: float, load_torque: float, point: OperatingPoint) -> tuple[float, float]:
@@ -183,14 +175,8 @@ def torque_speed_line(motor: Motor, voltage: float) -> TorqueSpeedLine:
     """Compute the torque-speed line at a voltage, [V]."""
     free = motor.torque_constant * voltage / motor.stiffness
     stall = motor.torque_constant * voltage / motor.resistance
-    return TorqueSpeedLine(
-        free,
-        motor.viscous_friction * voltage / motor.stiffness,
-        stall,
-        voltage / motor.resistance,
-        -motor.resistance / motor.stiffness,
-        0.25 * free * stall,
-    )
+    slope, idle = -motor.resistance / motor.stiffness, motor.viscous_friction * voltage / motor.stiffness
+    return TorqueSpeedLine(free, idle, stall, voltage / motor.resistance, slope, 0.25 * free * stall)
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,26 +16,35 @@ PowerFlow: TypeAlias = Literal["motor_to_load", "load_to_motor", "none"]
 
 
 @dataclass(frozen=True, slots=True)
-class Gear:
-    """A gear between motor and load.
+class BackDriving(Result):
+    """What happens when the load drives.
 
     Attributes:
-        ratio: N = ω_motor / ω_load > 0.
-        efficiency: η in (0, 1], when driven from the motor.
+        efficiency: 2 - 1/η, no unit; null where the gear locks itself.
+        self_locking: Whether no load can turn the motor: η ≤ 1/2.
+        note: An explanation in one sentence.
     """
 
-    ratio: float
-    efficiency: float
+    efficiency: float | None
+    self_locking: bool
+    note: str
 
-    @property
-    def back_driving_efficiency(self) -> float:
-        """Efficiency when the load drives, 2 - 1/η; at or below zero the load cannot turn the motor."""
-        return 2.0 - 1.0 / self.efficiency
 
-    @property
-    def is_self_locking(self) -> bool:
-        """Whether no load, however large, can turn the motor."""
-        return self.back_driving_efficiency <= 0.0
+def back_driving(efficiency: float) -> BackDriving:
+    """Return what happens when the load drives a gear of efficiency η in (0, 1]."""
+    back = 2.0 - 1.0 / efficiency
+    note = (
+        f"the load can drive the motor: its efficiency is then {back:.4g}, if the losses are friction in proportion to "
+        "what is transmitted"
+    )
+    if efficiency == 1.0:
+        note = "without losses the load drives the motor as well as the motor the load"
+    if back <= 0.0:
+        note = (
+            "the gear locks itself: driven from the load its friction is more than what is transmitted, so the load "
+            "cannot turn the motor, and lowering a load takes motor torque in the direction of motion"
+        )
+    return BackDriving(None if back <= 0.0 else back, back <= 0.0, note)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +63,8 @@ class GearSide(Result):
 
 
 def sides(
-    gear: Gear,
+    ratio: float,
+    efficiency: float,
     motor_velocity: float | None,
     load_velocity: float | None,
     motor_torque: float | None,
@@ -62,20 +72,21 @@ def sides(
 ) -> tuple[GearSide, GearSide, PowerFlow]:
     """Compute motor, load and the driving side from one speed and one torque, each given at either side, or omitted.
 
-    The load torque is None where the motor brakes a self-locking gear, which holds any load.
+    The load torque is None where the motor brakes a self-locking gear, which holds any load. The ratio is N > 0, the
+    efficiency η in (0, 1] when the motor drives; speeds in [rad/s], torques in [N m].
     """
     if motor_velocity is None and load_velocity is not None:
-        motor_velocity = gear.ratio * load_velocity
+        motor_velocity = ratio * load_velocity
     elif motor_velocity is not None:
-        load_velocity = motor_velocity / gear.ratio
+        load_velocity = motor_velocity / ratio
     flow = _power_flow(motor_velocity, motor_torque if motor_torque is not None else load_torque)
-    factor = gear.ratio * gear.efficiency
+    factor = ratio * efficiency
     if flow == "load_to_motor":
-        back = gear.back_driving_efficiency
+        back = 2.0 - 1.0 / efficiency
         if motor_torque is not None:
-            load_torque = None if gear.is_self_locking else gear.ratio * motor_torque / back
+            load_torque = None if back <= 0.0 else ratio * motor_torque / back
         elif load_torque is not None:
-            motor_torque = back * load_torque / gear.ratio
+            motor_torque = back * load_torque / ratio
     elif motor_torque is not None:
         load_torque = factor * motor_torque
     elif load_torque is not None:
@@ -126,26 +137,16 @@ def inertias(ratio: float, motor_inertia: float, load_inertia: float) -> Reflect
     return ReflectedInertias(motor_inertia + load, motor + load_inertia, load, motor, optimal, share)
 
 
-def back_driving_note(gear: Gear) -> str:
-    """Describe what happens when the load drives the gear."""
-    if gear.is_self_locking:
-        return (
-            "the gear locks itself: driven from the load its friction is more than what is transmitted, so the load "
-            "cannot turn the motor, and lowering a load takes motor torque in the direction of motion"
-        )
-    if gear.efficiency == 1.0:
-        return "without losses the load drives the motor as well as the motor the load"
-    return (
-        f"the load can drive the motor: its efficiency is then {gear.back_driving_efficiency:.4g}, if the losses "
-        "are friction in proportion to what is transmitted"
-    )
-
-
 def gear_steps(
-    gear: Gear, motor: GearSide, load: GearSide, flow: PowerFlow, inertia: ReflectedInertias | None
+    ratio: float,
+    efficiency: float,
+    motor: GearSide,
+    load: GearSide,
+    flow: PowerFlow,
+    inertia: ReflectedInertias | None,
 ) -> tuple[Step, ...]:
     """Return the worked solution of speeds, torques and inertias."""
-    N, eta = tex(gear.ratio), tex(gear.efficiency)
+    N, eta = tex(ratio), tex(efficiency)
     steps = []
     if motor.angular_velocity is not None and load.angular_velocity is not None:
         divided = rf"\frac{{{tex(motor.angular_velocity)}}}{{{N}}} = {tex(load.angular_velocity, 'rad/s')}"
@@ -155,7 +156,7 @@ def gear_steps(
         symbol, value = r"\eta", eta
         text = "The gear multiplies the torque by its ratio, less what friction takes."
         if flow == "load_to_motor":
-            symbol, value = r"\left(2 - \tfrac{1}{\eta}\right)^{-1}", f"({tex(gear.back_driving_efficiency)})^{{-1}}"
+            symbol, value = r"\left(2 - \tfrac{1}{\eta}\right)^{-1}", f"({tex(2.0 - 1.0 / efficiency)})^{{-1}}"
             text = "The load drives: now friction helps the motor to hold it."
         product = rf"{value} \cdot {N} \cdot {tex_factor(motor.torque)}"
         steps.append(step("Torques", text, rf"\tau_L = {symbol}\,N\,\tau_m = {product} = {tex(load.torque, 'N m')}"))

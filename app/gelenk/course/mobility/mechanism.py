@@ -8,6 +8,7 @@ node still needs are added and marked, because forgetting them is the most commo
 from collections import Counter
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 
 from gelenk.course.mobility.pairs import FREEDOMS, KINDS, Order, PairGeometry, Space, allowed_kinds
@@ -18,7 +19,6 @@ from gelenk.robot.result import Result
 
 FLOATING = "floating"
 """URDF's name for a joint that removes no freedom: not a pair, and c = 0."""
-_KIND_OF_JOINT = {"continuous": "revolute"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,13 +67,7 @@ class Pair(Result):
 
 @dataclass(frozen=True, slots=True)
 class Node:
-    """A joint where links meet.
-
-    Attributes:
-        joint: Name of the joint.
-        links: Names of the links.
-        kind: Kind of the missing pairs there; if None, that of the other pairs, or revolute.
-    """
+    """A joint where links meet, and the kind of the missing pairs there; if None, that of the others, or revolute."""
 
     joint: str
     links: tuple[str, ...]
@@ -117,7 +111,7 @@ class IdleSpin(Result):
     joints: list[str]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Mechanism:
     """Links joined by pairs.
 
@@ -126,22 +120,29 @@ class Mechanism:
         links: Names of the links.
         ground: Index of the link at rest.
         pairs: Pairs after splitting.
-        ends: Indices of the two links of each pair.
         geometries: Position and axes of each pair, if known.
         splits: Joints of more than two links.
         couplings: Number of joints that follow another one, each a further constraint.
-        topology: Graph of links and pairs.
     """
 
     space: Space
     links: tuple[str, ...]
     ground: int
     pairs: tuple[Pair, ...]
-    ends: tuple[Edge, ...]
     geometries: tuple[PairGeometry | None, ...]
-    splits: tuple[JointSplit, ...]
-    couplings: int
-    topology: Topology
+    splits: tuple[JointSplit, ...] = ()
+    couplings: int = 0
+
+    @cached_property
+    def ends(self) -> tuple[Edge, ...]:
+        """Indices of the two links of each pair."""
+        index = {name: i for i, name in enumerate(self.links)}
+        return tuple((index[pair.link_a], index[pair.link_b]) for pair in self.pairs)
+
+    @cached_property
+    def topology(self) -> Topology:
+        """Graph of links and pairs."""
+        return topology(len(self.links), self.ends)
 
     def idle_spins(self) -> list[IdleSpin]:
         """Find the parts that spherical joints at exactly two points hold, so that each may spin idly.
@@ -175,8 +176,8 @@ def mechanism(
     pairs = [_pair(space, known, one, f"pairs/{i}") for i, one in enumerate(given)]
     _refuse_repeated([pair.name for pair in pairs], "pairs", "is used for more than one pair")
     pairs, splits = _split(space, known, pairs, nodes)
-    geometries = [*(one.geometry for one in given), *(None for _ in pairs[len(given) :])]
-    return _mechanism(space, links, ground, pairs, geometries, splits)
+    geometries = (*(one.geometry for one in given), *(None for _ in pairs[len(given) :]))
+    return Mechanism(space, tuple(links), ground, tuple(pairs), geometries, tuple(splits))
 
 
 def mechanism_of_tree(description: Description) -> Mechanism:
@@ -188,36 +189,19 @@ def mechanism_of_tree(description: Description) -> Mechanism:
             free = FREEDOMS["spatial"]
             pairs.append(Pair(joint.name, joint.parent, joint.child, FLOATING, None, 0, free, None, False))
         else:
-            kind = _KIND_OF_JOINT.get(joint.type, joint.type)
+            kind = "revolute" if joint.type == "continuous" else joint.type
             pairs.append(_of_kind("spatial", joint.name, kind, (joint.parent, joint.child)))
     couplings = sum(joint.mimic is not None for joint in description.joints)
-    return _mechanism("spatial", links, links.index(description.root), pairs, [None] * len(pairs), (), couplings)
-
-
-def _mechanism(
-    space: Space,
-    links: Sequence[str],
-    ground: int,
-    pairs: Sequence[Pair],
-    geometries: Sequence[PairGeometry | None],
-    splits: Sequence[JointSplit],
-    couplings: int = 0,
-) -> Mechanism:
-    index = {name: i for i, name in enumerate(links)}
-    ends = tuple((index[pair.link_a], index[pair.link_b]) for pair in pairs)
-    graph = topology(len(links), ends)
-    return Mechanism(
-        space, tuple(links), ground, tuple(pairs), ends, tuple(geometries), tuple(splits), couplings, graph
-    )
+    ground, unknown = links.index(description.root), (None,) * len(pairs)
+    return Mechanism("spatial", tuple(links), ground, tuple(pairs), unknown, couplings=couplings)
 
 
 def check_kind(space: Space, kind: str, field: str) -> None:
     """Refuse a kind of pair that a space does not have."""
     if KINDS[kind].constraints(space) is None:
         where = "the plane (λ = 3)" if space == "planar" else "space (λ = 6)"
-        raise InvalidField(
-            field, f"there is no {quoted(kind)} pair in {where}; allowed: {', '.join(allowed_kinds(space))}"
-        )
+        allowed = ", ".join(allowed_kinds(space))
+        raise InvalidField(field, f"there is no {quoted(kind)} pair in {where}; allowed: {allowed}")
 
 
 def _of_kind(

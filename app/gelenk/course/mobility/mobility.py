@@ -22,6 +22,8 @@ from gelenk.errors import CertificationFailed, InvalidField, counted, listed, qu
 from gelenk.robot.result import Result
 
 Verdict: TypeAlias = Literal["mechanism", "structure", "overconstrained"]
+NodeCount: TypeAlias = tuple[str, int, str | None]
+"""A joint, the number of links that meet there, and the kind of its pairs if that is not the others'."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,15 +41,6 @@ class PairCount(Result):
     order: Order | None
     count: int
     constraints: int
-
-
-@dataclass(frozen=True, slots=True)
-class NodeCount:
-    """A joint where a number of links meet, in a mechanism given by counts alone."""
-
-    joint: str
-    links: int
-    kind: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,27 +107,25 @@ def tally_of_counts(space: Space, links: int, counts: Mapping[str, int], nodes: 
         check_kind(space, kind, f"pairs/{kind}")
     totals, joints = Counter(counts), Counter[str]()
     common = next((kind for kind, count in counts.items() if count), "revolute") if len(counts) == 1 else "revolute"
-    for i, node in enumerate(nodes):
-        kind = node.kind or common
+    splits = []
+    for i, (joint, meeting, own) in enumerate(nodes):
+        kind = own or common
         check_kind(space, kind, f"coincident/{i}/type")
         joints[kind] += 1
         if joints[kind] > counts.get(kind, 0):
             reason = f"`pairs` counts {counted(counts.get(kind, 0), f'{kind} joint')}, which must include this joint"
             raise InvalidField(f"coincident/{i}", reason)
-        if node.links > links:
-            raise InvalidField(f"coincident/{i}/links", f"{node.links} links meet where there are {links}")
-        totals[kind] += node.links - 2
-    splits = tuple(
-        joint_split(space, node.joint, node.links, node.links - 2, node.kind or common)
-        for node in nodes
-        if node.links > 2
-    )
+        if meeting > links:
+            raise InvalidField(f"coincident/{i}/links", f"{meeting} links meet where there are {links}")
+        totals[kind] += meeting - 2
+        if meeting > 2:
+            splits.append(joint_split(space, joint, meeting, meeting - 2, kind))
     kinds = (
         PairCount(kind, KINDS[kind].order, count, KINDS[kind].constraints(space) or 0)
         for kind, count in totals.items()
         if count
     )
-    return Tally(space, links, tuple(kinds), splits)
+    return Tally(space, links, tuple(kinds), tuple(splits))
 
 
 def verdict(mobility: int) -> Verdict:

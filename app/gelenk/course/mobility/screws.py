@@ -157,11 +157,7 @@ def _complete(found: Mechanism, pair: Pair, number: int) -> PairGeometry:
 
 
 def _refuse_out_of_plane(complete: Sequence[PairGeometry], size: float) -> None:
-    """Refuse points at different heights, and slots, guides and normals that lead out of the x y plane.
-
-    Raises:
-        InvalidField: The first of them.
-    """
+    """Refuse points at different heights, and slots, guides and normals that lead out of the x y plane."""
     heights = [geometry.point[2] for geometry in complete if geometry.point is not None]
     for number, geometry in enumerate(complete):
         if geometry.point is not None and abs(geometry.point[2] - heights[0]) > _DIRECTIONS * size:

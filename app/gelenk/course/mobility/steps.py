@@ -20,13 +20,7 @@ _CHAINS = {
 
 
 def steps(counted: Tally, found: Mechanism | None, stands: PostureMobility | None = None) -> list[Step]:
-    """Return the worked solution from the links to the verdict.
-
-    Args:
-        counted: The numbers in the formula.
-        found: The mechanism, if more than its numbers is known.
-        stands: Its mobility at the given posture, if known.
-    """
+    """Return the worked solution from the links to the verdict; the arguments are those of `warnings`."""
     total = counted.mobility if stands is None else stands.mobility
     idle = 0 if found is None else len(found.idle_spins())
     left = total - idle

@@ -63,16 +63,21 @@ def rest_to_rest(blend: Blend, acceleration: float) -> BlendedMotion:
             blend is too short, compared with the whole motion, to resolve the times of its ends.
     """
     corner = blend.corner
-    ramps = corner.speed_before / acceleration, corner.speed_after / acceleration
-    coasts = _coasts(blend, acceleration)
-    durations = ramps[0], coasts[0], blend.time, coasts[1], ramps[1]
-    names: tuple[PhaseName, ...] = ("accelerate", "coast_before", "blend", "coast_after", "decelerate")
-    phases = tuple(Phase(name, duration) for name, duration in zip(names, durations, strict=True))
-    stopping = leg_duration(corner.length_before, corner.speed_before, acceleration) + leg_duration(
-        corner.length_after, corner.speed_after, acceleration
+    v1, v2 = corner.speed_before, corner.speed_after
+    before = _coast("speed_before", v1, corner.length_before, blend.distance_before, acceleration)
+    after = _coast("speed_after", v2, corner.length_after, blend.distance_after, acceleration)
+    phases = (
+        Phase("accelerate", v1 / acceleration),
+        Phase("coast_before", before),
+        Phase("blend", blend.time),
+        Phase("coast_after", after),
+        Phase("decelerate", v2 / acceleration),
     )
+    stopping = leg_duration(corner.length_before, v1, acceleration)
+    stopping += leg_duration(corner.length_after, v2, acceleration)
     _refuse_unresolved(blend, acceleration, phases)
-    return BlendedMotion(blend, phases, _motion(blend, acceleration, phases), sum(durations), stopping)
+    duration = sum(phase.duration for phase in phases)
+    return BlendedMotion(blend, phases, _motion(blend, acceleration, phases), duration, stopping)
 
 
 def leg_duration(length: float, speed: float, acceleration: float) -> float:
@@ -87,26 +92,21 @@ def leg_duration(length: float, speed: float, acceleration: float) -> float:
     return length / speed + speed / acceleration
 
 
-def _coasts(blend: Blend, acceleration: float) -> tuple[float, float]:
-    """Return how long each leg coasts at its speed between ramp and blend, [s]."""
-    corner, coasts = blend.corner, []
-    for speed, length, taken, field, leg in (
-        (corner.speed_before, corner.length_before, blend.distance_before, "speed_before", "AB"),
-        (corner.speed_after, corner.length_after, blend.distance_after, "speed_after", "BC"),
-    ):
-        if speed == 0.0:
-            raise InvalidField(field, f"must be more than 0 in a motion from A to C, which covers all of {leg}")
-        ramp = 0.5 * speed * speed / acceleration
-        left = length - taken - ramp
-        if left < -_ROUNDING * length:
-            raise InvalidField(
-                field,
-                f"{speed:g} m/s takes a ramp of {ramp:g} m at {acceleration:g} m/s², the blend takes {taken:g} m, and "
-                f"{leg} is {length:g} m long: the two overlap; lower the speed or the size of the blend, or raise the "
-                "acceleration",
-            )
-        coasts.append(max(left, 0.0) / speed)
-    return coasts[0], coasts[1]
+def _coast(field: str, speed: float, length: float, taken: float, acceleration: float) -> float:
+    """Return how long a leg coasts at its speed between its ramp and the blend, which takes a part of it, [s]."""
+    leg = "AB" if field == "speed_before" else "BC"
+    if speed == 0.0:
+        raise InvalidField(field, f"must be more than 0 in a motion from A to C, which covers all of {leg}")
+    ramp = 0.5 * speed * speed / acceleration
+    left = length - taken - ramp
+    if left < -_ROUNDING * length:
+        raise InvalidField(
+            field,
+            f"{speed:g} m/s takes a ramp of {ramp:g} m at {acceleration:g} m/s², the blend takes {taken:g} m, and "
+            f"{leg} is {length:g} m long: the two overlap; lower the speed or the size of the blend, or raise the "
+            "acceleration",
+        )
+    return max(left, 0.0) / speed
 
 
 def _refuse_unresolved(blend: Blend, acceleration: float, phases: tuple[Phase, ...]) -> None:

@@ -75,9 +75,8 @@ def certified(motion: PiecewisePolynomial, promise: MotionClaims) -> MotionCerti
     """
     if motion.duration == 0.0:
         error = float(np.abs(motion.coefficients[0, 0] - promise.points).max(initial=0.0))
-        found = MotionCertificate(
-            0.0, error / max(1.0, float(np.abs(promise.points).max())), promise.continuity, 0.0, 0.0, 0
-        )
+        size = max(1.0, float(np.abs(promise.points).max()))
+        found = MotionCertificate(0.0, error / size, promise.continuity, 0.0, 0.0, 0)
     else:
         found = _compared(motion, promise)
     for quantity, error in (

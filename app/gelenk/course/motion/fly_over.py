@@ -26,7 +26,6 @@ STRAIGHT = 1e-9
 """Angle between the legs, or to a reversal, below which there is no corner, [rad]."""
 _ROUNDING = 1e-12
 """Share by which a blend may exceed a leg, to allow for rounding if it just fits."""
-_BISECTIONS = 200
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,11 +104,7 @@ class Blend:
 
     @property
     def motion(self) -> PiecewisePolynomial:
-        """Motion from A' to C'.
-
-        Raises:
-            ValueError: It has no duration.
-        """
+        """Motion from A' to C'; raises ValueError if it takes no time."""
         if self.time == 0.0:
             raise ValueError("a blend of zero time is not a motion")
         return PiecewisePolynomial(np.array([0.0, self.time]), self.coefficients[None])
@@ -117,13 +112,6 @@ class Blend:
 
 def corner_of(start: Array, corner: Array, end: Array, speed_before: float, speed_after: float) -> Corner:
     """Return the path A-B-C with the lengths and directions of its legs.
-
-    Args:
-        start: A; shape (k,), [m].
-        corner: B; shape (k,), [m].
-        end: C; shape (k,), [m].
-        speed_before: v₁ ≥ 0, [m/s].
-        speed_after: v₂ ≥ 0, [m/s]; v₁ and v₂ must not both be 0.
 
     Raises:
         InvalidField: Two successive points coincide, or both speeds are zero.
@@ -153,12 +141,10 @@ def blended(corner: Corner, given: Given, value: float) -> Blend:
         InvalidField: The blend would begin before A or end after C, or the given distance is on a leg whose speed
             is 0.
     """
-    time = _time(corner, given, value)
-    longest = corner.longest_blend_time
+    time, longest = _time(corner, given, value), corner.longest_blend_time
     if time > longest * (1.0 + _ROUNDING):
         raise InvalidField(given, _too_long(corner, given, time, longest))
     before, after = 0.5 * corner.speed_before * time, 0.5 * corner.speed_after * time
-    acceleration = corner.velocity_change / time if time > 0.0 else np.zeros_like(corner.corner)
     share = _closest_share(corner)
     return Blend(
         corner,
@@ -167,7 +153,7 @@ def blended(corner: Corner, given: Given, value: float) -> Blend:
         after,
         corner.corner - before * corner.direction_before,
         corner.corner + after * corner.direction_after,
-        acceleration,
+        corner.velocity_change / time if time > 0.0 else np.zeros_like(corner.corner),
         _distance_at(corner, time, share),
         share * time,
     )
@@ -179,28 +165,26 @@ def _time(corner: Corner, given: Given, value: float) -> float:
         return value
     if given == "max_acceleration":
         return math.hypot(*corner.velocity_change) / value
-    if given == "radius":
-        return 2.0 * value / max(corner.speed_before, corner.speed_after)
-    speed = corner.speed_before if given == "distance_before" else corner.speed_after
+    speeds = {"distance_before": corner.speed_before, "distance_after": corner.speed_after}
+    speed = speeds.get(given, max(speeds.values()))
     if speed == 0.0:
-        raise InvalidField(
-            given, "cannot determine the blend, because the speed on this leg is 0: give another quantity"
-        )
+        reason = "cannot determine the blend, because the speed on this leg is 0: give another quantity"
+        raise InvalidField(given, reason)
     return 2.0 * value / speed
 
 
 def _too_long(corner: Corner, given: Given, time: float, longest: float) -> str:
     """Describe which leg is too short, and what would fit."""
-    before, after = 0.5 * corner.speed_before * time, 0.5 * corner.speed_after * time
+    v1, v2 = corner.speed_before, corner.speed_after
+    before, after = 0.5 * v1 * time, 0.5 * v2 * time
+    what = f"the blend would end {after:g} m after B, and BC is {corner.length_after:g} m long"
     if before / corner.length_before >= after / corner.length_after:
         what = f"the blend would begin {before:g} m before B, and AB is {corner.length_before:g} m long"
-    else:
-        what = f"the blend would end {after:g} m after B, and BC is {corner.length_after:g} m long"
     limits = {
         "blend_time": f"at most {longest:g} s",
-        "distance_before": f"at most {0.5 * corner.speed_before * longest:g} m",
-        "distance_after": f"at most {0.5 * corner.speed_after * longest:g} m",
-        "radius": f"at most {0.5 * max(corner.speed_before, corner.speed_after) * longest:g} m",
+        "distance_before": f"at most {0.5 * v1 * longest:g} m",
+        "distance_after": f"at most {0.5 * v2 * longest:g} m",
+        "radius": f"at most {0.5 * max(v1, v2) * longest:g} m",
         "max_acceleration": f"at least {math.hypot(*corner.velocity_change) / longest:g} m/s²",
     }
     return f"{what}; allowed: {limits[given]}"
@@ -214,17 +198,16 @@ def _closest_share(corner: Corner) -> float:
     parabola encloses is convex, and B lies outside it.
     """
     v1, v2 = corner.speed_before, corner.speed_after
-    scale = max(v1, v2)
-    v1, v2, cosine = v1 / scale, v2 / scale, math.cos(corner.angle)
+    if 0.0 in {v1, v2}:
+        return 0.0 if v1 == 0.0 else 1.0
+    scale, cosine = max(v1, v2), math.cos(corner.angle)
+    v1, v2 = v1 / scale, v2 / scale
     low, high = 0.0, 1.0
-    for _ in range(_BISECTIONS):
-        middle = 0.5 * (low + high)
-        if middle in {low, high}:
-            break
+    while (middle := 0.5 * (low + high)) not in {low, high}:
         rest = 1.0 - middle
         slope = v2 * v2 * middle**3 - v1 * v1 * rest**3 - v1 * v2 * cosine * middle * rest * (rest - middle)
         low, high = (middle, high) if slope < 0.0 else (low, middle)
-    return 0.0 if v1 == 0.0 else 1.0 if v2 == 0.0 else 0.5 * (low + high)
+    return middle
 
 
 def _distance_at(corner: Corner, time: float, share: float) -> float:

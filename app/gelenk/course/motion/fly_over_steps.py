@@ -17,14 +17,7 @@ _TEXTS: dict[Given, str] = {
 
 
 def fly_over_steps(blend: Blend, given: Given, value: float, whole: BlendedMotion | None) -> tuple[Step, ...]:
-    """Return the worked solution.
-
-    Args:
-        blend: The blend that was found.
-        given: The quantity that determined it.
-        value: Value of that quantity.
-        whole: The motion around it, if requested.
-    """
+    """Return the worked solution of a blend that a value determined, and of the whole motion if requested."""
     corner = blend.corner
     directions = step(
         "Directions of the legs",

@@ -37,7 +37,7 @@ def scaling_steps(scaling: Scaling, duration: float) -> tuple[Step, ...]:
 
 def _ratio_step(bound: Bound) -> Step:
     symbol, limit, name = _SYMBOLS[bound.quantity]
-    j = bound.joint + 1
+    j = bound.joint
     return step(
         bound.quantity.capitalize(),
         f"The largest ratio of a peak to its limit: joint {j}, at {bound.time:.10g} s.",

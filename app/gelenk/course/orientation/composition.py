@@ -19,12 +19,8 @@ About: TypeAlias = Literal["moving", "fixed"]
 _ROUNDING = 1e-12
 
 
-@dataclass(frozen=True, slots=True)
-class FrameMotion:
-    """A further motion: a homogeneous transform (4, 4), about the moving or the fixed axes."""
-
-    transform: Array
-    about: About
+FrameMotion: TypeAlias = tuple[Array, About]
+"""A further motion: a homogeneous transform (4, 4), about the moving or the fixed axes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,14 +54,14 @@ def composed(first: Array, further: Sequence[FrameMotion], points: Array) -> Com
         CertificationFailed: Two independent computations of a number differ.
     """
     transforms = [first]
-    for motion in further:
+    for motion, about in further:
         T = transforms[-1]
-        transforms.append(T @ motion.transform if motion.about == "moving" else motion.transform @ T)
+        transforms.append(T @ motion if about == "moving" else motion @ T)
     T = transforms[-1]
     back = inverse(T)
     moved = points @ T[:3, :3].T + T[:3, 3]
     one_by_one = _one_by_one(first, further, points)
-    lengths = (np.abs(one[:3, 3]).max() for one in (first, T, back, *(motion.transform for motion in further)))
+    lengths = (np.abs(one[:3, 3]).max() for one in (first, T, back, *(motion for motion, _ in further)))
     extent = max(1.0, float(np.abs(points).max(initial=0.0)), *map(float, lengths))
     inverse_error = float(np.abs(T @ back - np.eye(4)).max()) / extent
     point_error = float(np.abs(moved - one_by_one).max(initial=0.0)) / extent
@@ -77,8 +73,7 @@ def composed(first: Array, further: Sequence[FrameMotion], points: Array) -> Com
 
 def _one_by_one(first: Array, further: Sequence[FrameMotion], points: Array) -> Array:
     """Apply each motion to the points in turn, from the innermost outwards, without multiplying matrices."""
-    inner = [motion.transform for motion in further if motion.about == "moving"]
-    outer = [motion.transform for motion in further if motion.about == "fixed"]
+    inner, outer = ([T for T, about in further if about == axes] for axes in ("moving", "fixed"))
     for T in (*reversed(inner), first, *outer):
         points = points @ T[:3, :3].T + T[:3, 3]
     return points

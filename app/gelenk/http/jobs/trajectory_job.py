@@ -1,7 +1,8 @@
 """Trajectories as a job: planned and audited, then sampled in parts."""
 
+import itertools
 from collections.abc import Iterator
-from functools import lru_cache, partial
+from functools import lru_cache
 from pathlib import Path
 from typing import IO, TypeAlias
 
@@ -30,7 +31,7 @@ _PART = 8192
 """Samples per part."""
 _PLAN, _STAGE, _DRAWING = "plan", "samples", "picture"
 _PLANNED, _SAMPLED, _DRAWN = 0.5, 0.9, 0.95
-_PICTURES: tuple[tuple[str, PictureFormat], ...] = ((SVG, "svg"), (PNG, "png"))
+_PICTURES: tuple[PictureFormat, ...] = ("svg", "png")
 _GAP = b"\0"
 """Encloses the name of a field whose entries come from the parts; no JSON contains it."""
 
@@ -59,16 +60,12 @@ def _work(limits: Limits, folder: Path) -> Work:
         run.map(_PLAN, planned_part, lambda _: job, 1, (0.0, _PLANNED))
         (head,) = run.parts.of(_PLAN, 1)
         values = unpacked(head)
-        frame, names, told = (values[name].tobytes() for name in ("frame", "columns", "headers"))
+        frame, names = (values[name].tobytes() for name in ("frame", "columns"))
         rows, width = values["shape"].tolist()
-        count, headers = -(-rows // _PART), orjson.loads(told)
+        count, headers = -(-rows // _PART), orjson.loads(values["headers"].tobytes())
         run.map(_STAGE, sampled_part, lambda k: (job, k), count, (_PLANNED, _SAMPLED), _PART)
-        run.map(_DRAWING, drawn_part, lambda k: (job, _PICTURES[k][1]), len(_PICTURES), (_SAMPLED, _DRAWN))
-        pictures = run.parts.of(_DRAWING, len(_PICTURES))
-        drawn: Files = {
-            RESULTS[media_type]: partial(_write, picture)
-            for (media_type, _), picture in zip(_PICTURES, pictures, strict=True)
-        }
+        run.map(_DRAWING, drawn_part, lambda k: (job, _PICTURES[k]), len(_PICTURES), (_SAMPLED, _DRAWN))
+        svg, png = run.parts.of(_DRAWING, len(_PICTURES))
 
         def column(name: str) -> Iterator[bytes]:
             return (unpacked(part)[name].tobytes() for part in run.parts.of(_STAGE, count))
@@ -86,15 +83,12 @@ def _work(limits: Limits, folder: Path) -> Work:
                 else:
                     _write_list(target, column(piece.decode()))
 
-        def write_csv(target: IO[bytes]) -> None:
-            target.write(names)
-            target.writelines(column("csv"))
-
         return {
             RESULTS[JSON]: write_json,
             RESULTS[NPY]: write_npy,
-            RESULTS[CSV]: write_csv,
-            **drawn,
+            RESULTS[CSV]: lambda target: target.writelines(itertools.chain((names,), column("csv"))),
+            RESULTS[SVG]: lambda target: target.write(svg),
+            RESULTS[PNG]: lambda target: target.write(png),
             HEADERS: lambda target: target.write(headers_file({NPY: headers, CSV: headers})),
         }
 
@@ -107,10 +101,6 @@ def _write_list(target: IO[bytes], lists: Iterator[bytes]) -> None:
     for i, entries in enumerate(lists):
         target.write((b"," if i else b"") + entries[1:-1])
     target.write(b"]")
-
-
-def _write(content: bytes, target: IO[bytes]) -> None:
-    target.write(content)
 
 
 @lru_cache(maxsize=1)

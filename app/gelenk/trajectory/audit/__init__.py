@@ -1,5 +1,5 @@
 """Checks of a motion, with code that shares nothing with the planners.
 
 - `audit`: the verdict. `pieces`: joints; `tip`: the tip; both also between samples, by `peaks`.
-- `demands`: the requirements. `words`: names that a motion's request and answer may contain.
+- `demands`: the requirements. `result`, and the names in `words`: what a motion's answer contains.
 """

@@ -291,8 +291,7 @@ def _worst(values: Array, times: Array, names: tuple[str, ...], bounds: Array | 
 def _ratios(sizes: Array, bounds: Array) -> Array:
     """Divide sizes by limits; where the limit is 0, a size of 0 gives 0 and any other gives infinity."""
     beyond = np.where(sizes > 0.0, np.inf, 0.0)
-    ratios: Array = np.divide(sizes, bounds, out=beyond, where=bounds > 0.0)
-    return ratios
+    return np.divide(sizes, bounds, out=beyond, where=bounds > 0.0)
 
 
 def _scale(peaks: dict[str, Peak], quantity: str) -> float:

@@ -88,9 +88,8 @@ class Pieces:
         return values / self.widths[piece, None] ** order
 
     def times(self, piece: Indices, tau: Array) -> Array:
-        """When that is, [s]."""
-        times: Array = self.starts[piece] + tau * self.widths[piece]
-        return times
+        """Return the times at τ of some pieces, [s]."""
+        return self.starts[piece] + tau * self.widths[piece]
 
 
 def pieces_of(motion: PiecewisePolynomial) -> Pieces:

@@ -142,8 +142,7 @@ def _rounding(pieces: Pieces) -> Array:
     """Return the rounding of each of `QUANTITIES`, for a tip that hardly moves while the joints do."""
     velocity, acceleration = (float(np.abs(pieces.on(_ENDS, order)).max(initial=0.0)) for order in (1, 2))
     rates = np.repeat([velocity, max(acceleration, velocity**2), 1.0], 2)
-    rounding: Array = _ROUNDING * rates
-    return rounding
+    return _ROUNDING * rates
 
 
 def _tip_motion(chain: Chain, qs: Array, velocities: Array, accelerations: Array, Js: Array) -> list[Array]:
@@ -159,9 +158,7 @@ def _tip_motion(chain: Chain, qs: Array, velocities: Array, accelerations: Array
 
 
 def _times(Js: Array, rates: Array) -> Array:
-    """Multiply matrices by vectors; shapes (N, 6, n) and (N, n) → (N, 6)."""
-    products: Array = np.einsum("nij,nj->ni", Js, rates)
-    return products
+    return cast(Array, np.einsum("nij,nj->ni", Js, rates))
 
 
 def _deviations(poses: Poses, wanted: Poses, task: Task) -> list[Array]:
@@ -181,15 +178,15 @@ def _between(
     quantities: Callable[[Indices, Array], Array],
     least: Array,
 ) -> list[tuple[float, int, float]]:
-    """Find the largest value of each column, also between samples.
+    """Find the largest value of each of Q columns, also between samples.
 
     Args:
-        places: Places of the samples, increasing in each piece; shape (N,).
+        places: Places of the N samples, increasing in each piece.
         values: Values there; shape (N, Q).
         inner: Samples with neighbours in their piece.
-        piece: Piece of each sample; shape (N,).
+        piece: Piece of each sample.
         quantities: Returns the values in a piece at a place; shape (M,) each → (M, Q).
-        least: Differences that do not matter; shape (Q,).
+        least: Differences that do not matter, for each column.
 
     Returns:
         For each column the value, the sample it is next to, and its place.
@@ -200,8 +197,7 @@ def _between(
 
     def values_at(tried: Array) -> Array:
         found = quantities(np.repeat(piece[rows], tried.shape[1]), tried.ravel())
-        values_there: Array = found.reshape(*tried.shape, -1)[each, :, columns]
-        return values_there
+        return found.reshape(*tried.shape, -1)[each, :, columns]
 
     near = rows[:, None] + np.arange(-1, 2)
     peaks, where = highest(values_at, places[near], values[near, columns[:, None]], exact[columns])

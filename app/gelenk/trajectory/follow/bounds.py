@@ -80,13 +80,8 @@ def threshold_crossing(
 ) -> tuple[Crossing | None, float]:
     """Find the first place in a piece at which σ falls below the threshold, and the largest σ so far.
 
-    If the path began below the threshold, σ must grow instead until it is above.
-
-    Args:
-        field: Field of joint rates.
-        piece: A piece of the joint path.
-        best: The largest σ before the piece.
-        stretch: The breaks of the path before and after.
+    If the path began below the threshold, σ must grow instead until it is above; `best` is the largest σ before the
+    piece. The path has no break between the two ends of `stretch`.
     """
     threshold = field.threshold
     taus, sigmas = _resolved(field, piece, _floor(threshold, best), stretch)
@@ -128,15 +123,8 @@ def _resolved(field: RateField, piece: Piece, floor: float, stretch: tuple[float
 def located(
     field: RateField, piece: Piece, crossing: Crossing, stretch: tuple[float, float]
 ) -> tuple[Piece | None, Crossing]:
-    """Locate a violation more exactly; return the part of the piece before it (None if empty) and the crossing.
-
-    Args:
-        field: Field of joint rates.
-        piece: The piece that contains the violation.
-        crossing: The violation as bracketed on the quintic.
-        stretch: The breaks of the path before and after.
-    """
-    good, bad, kept = piece.a.s, crossing.bad, None
+    """Locate a violation in a piece more exactly; return the part of the piece before it (None if empty) too."""
+    good, bad, end = piece.a.s, crossing.bad, None
     kind, joint = crossing.kind, crossing.joint
     room, lack = _margin(field, piece.a, crossing.floor), -np.inf
     closest = _CLOSEST * piece.width
@@ -147,16 +135,16 @@ def located(
         knot = knot_within(field, piece, middle, stretch)
         margin = -np.inf if knot is None else _margin(field, knot, crossing.floor)
         if knot is not None and margin >= 0.0:
-            good, kept, room, lack = middle, knot, margin, 0.5 * lack
+            good, end, room, lack = middle, knot, margin, 0.5 * lack
             continue
         joint = None if knot is None else _outside(field, knot)
         kind = "lost" if knot is None else "threshold" if joint is None else "joint_limit"
         bad, lack, room = middle, margin, 0.5 * room
     found = Crossing(good, bad, kind, joint, crossing.floor)
-    if kept is None:
+    if end is None:
         return None, found
-    at = field.samples(piece.a.s + (kept.s - piece.a.s) * INNER, *stretch)
-    return piece_between(field, piece.a, kept, at), found
+    at = field.samples(piece.a.s + (end.s - piece.a.s) * INNER, *stretch)
+    return piece_between(field, piece.a, end, at), found
 
 
 def _between(good: float, bad: float, room: float, lack: float, closest: float) -> float:

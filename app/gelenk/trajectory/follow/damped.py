@@ -14,9 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from gelenk.errors import InvalidField
-from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array, Flags
-from gelenk.robot.poses import Poses
 from gelenk.trajectory.follow.bounds import Crossing, limit_crossing
 from gelenk.trajectory.follow.integrate import MOST_KNOTS, Trace
 from gelenk.trajectory.follow.rate_field import SHARE, Knot, RateField, beside, derivative_along
@@ -77,12 +75,7 @@ class Damped:
 
 
 def damped(exact: RateField, start: Array, since: float) -> Trace:
-    """Follow the damped path from a configuration to a joint limit or to the end of the path.
-
-    Args:
-        exact: The field without damping.
-        start: First configuration; shape (n,).
-        since: Place on the path where it begins, [m or rad].
+    """Follow the damped path from a configuration at place `since` to a joint limit or to the end of the path.
 
     Raises:
         InvalidField: It takes too many knots.
@@ -99,7 +92,7 @@ def damped(exact: RateField, start: Array, since: float) -> Trace:
                     f"leaving the path and returning to it takes more than {MOST_KNOTS} knots: allow a larger tolerance"
                 )
                 raise InvalidField("path_tolerance", reason)
-            crossing = limit_crossing(exact, piece) if exact.limited else None
+            crossing = limit_crossing(exact, piece)
             if crossing is not None:
                 trace.ending, trace.crossing = "joint_limit", crossing
                 cut_short(exact, trace, piece, (crossing.good - piece.a.s) / piece.width)
@@ -112,19 +105,17 @@ def damped(exact: RateField, start: Array, since: float) -> Trace:
 def _leave_out_what_never_returns(exact: RateField, trace: Trace) -> None:
     """End the path where the tip leaves its tolerances for good, if it does."""
     ends = np.array([piece.b.q for piece in trace.pieces])
-    at = exact.path.at(np.array([piece.b.s for piece in trace.pieces]))
-    errors = exact.task.errors(at.poses, Poses(*chain_poses(exact.chain.flat, ends)))
+    errors = exact.errors(exact.path.at(np.array([piece.b.s for piece in trace.pieces])), ends)
     good: Flags = np.all(errors.T - np.array(exact.tolerances) <= 0.0, axis=1)
     if good[-1]:
         return
-    kept = int(np.flatnonzero(good)[-1]) + 1 if good.any() else 0
-    piece = trace.pieces[kept]
-    trace.pieces = trace.pieces[:kept]
+    last = int(np.flatnonzero(good)[-1]) + 1 if good.any() else 0
+    piece, trace.pieces = trace.pieces[last], trace.pieces[:last]
     low, high = 0.0, 1.0
     for _ in range(_SEARCH):
         tau = 0.5 * (low + high)
-        pose = Poses(*chain_poses(exact.chain.flat, piece.at(np.array([tau]))))
-        error = exact.task.errors(exact.path.at(np.array([piece.a.s + tau * piece.width])).poses, pose)[:, 0]
+        at = exact.path.at(np.array([piece.a.s + tau * piece.width]))
+        error = exact.errors(at, piece.at(np.array([tau])))[:, 0]
         low, high = (tau, high) if (error <= exact.tolerances).all() else (low, tau)
     place = piece.a.s + low * piece.width
     trace.ending, trace.crossing = "lost", Crossing(place, place, "lost")
@@ -173,8 +164,8 @@ def _piece(field: Damped, a: Knot, b: Knot, stretch: tuple[float, float]) -> tup
     at, qs = exact.samples(a.s + h * INNER, *stretch), rates_of(INNER, 0, data)
     velocities, sigmas = field.velocities(at, qs)
     off = float(np.abs(rates_of(INNER, 1, data) / h - velocities).max())
-    errors = exact.task.errors(at.poses, Poses(*chain_poses(exact.chain.flat, qs)))
-    return Piece(a, b, data, np.concatenate(([a.sigma], sigmas, [b.sigma])), errors.max(axis=1), 0.0), off
+    deviations = exact.errors(at, qs).max(axis=1)
+    return Piece(a, b, data, np.concatenate(([a.sigma], sigmas, [b.sigma])), deviations, 0.0), off
 
 
 def _rosenbrock(field: Damped, a: Knot, h: float, stretch: tuple[float, float]) -> tuple[Array, float]:

@@ -6,6 +6,7 @@ exact configuration is taken.
 """
 
 import math
+from typing import cast
 
 import numpy as np
 
@@ -14,8 +15,8 @@ from gelenk.trajectory.audit.result import PathError
 from gelenk.trajectory.follow.bounds import SLACK
 from gelenk.trajectory.follow.rate_field import RateField
 from gelenk.trajectory.follow.rows import row_derivatives, task_rows
-from gelenk.trajectory.motion.composition import RATES_KNOWN, derivatives
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut
+from gelenk.trajectory.motion.composition import RATES_KNOWN
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut, derivatives
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.timing import Timed
@@ -111,20 +112,20 @@ def _divided(field: RateField, positions: PiecewisePolynomial, parts: Indices) -
     new = share > 0.0
     starts[:, new] = _exact(field, breaks[:-1][new], *starts[:, new])[0]
     ends = np.roll(starts, -1, axis=1)
-    ends[:, np.append(~new[1:], True)] = np.stack(derivatives(positions.coefficients, widths[:, None])[:3])
+    ends[:, np.append(~new[1:], True)] = np.stack(derivatives(positions.coefficients, widths[:, None], 2))
     lengths = np.diff(breaks)
     coefficients = hermite_pieces(starts, ends, lengths)
     hull = bernstein(coefficients * lengths[:, None, None] ** np.arange(coefficients.shape[1])[:, None])
     beyond = (hull < field.chain.lower - SLACK) | (hull > field.chain.upper + SLACK)
-    kept = np.isin(piece, piece[beyond.any(axis=(1, 2))])
-    coefficients[kept] = own[kept]
+    unchanged = np.isin(piece, piece[beyond.any(axis=(1, 2))])
+    coefficients[unchanged] = own[unchanged]
     return PiecewisePolynomial(breaks, coefficients)
 
 
 def _exact(field: RateField, s: Array, q: Array, first: Array, second: Array) -> tuple[Array, Flags]:
     """Return q, q', q'' of the exact path next to given ones, (3, N, n), and whether found; if not, the given ones."""
     chain, task, at = field.chain, field.task, field.path.at(s)
-    rows, exact, step = task_rows(chain, task, at, q), q, np.zeros_like(q)
+    rows, exact = task_rows(chain, task, at, q), q
     inverses = _inverses(rows.jacobians)
     for _ in range(_STEPS):
         step = _times(inverses, rows.errors)
@@ -139,10 +140,8 @@ def _exact(field: RateField, s: Array, q: Array, first: Array, second: Array) ->
 
 
 def _inverses(matrices: Array) -> Array:
-    inverses: Array = np.asarray(np.linalg.pinv(matrices, rcond=_RANK), dtype=np.float64)
-    return inverses
+    return cast(Array, np.linalg.pinv(matrices, rcond=_RANK))
 
 
 def _times(matrices: Array, vectors: Array) -> Array:
-    products: Array = (matrices @ vectors[:, :, None])[:, :, 0]
-    return products
+    return (matrices @ vectors[:, :, None])[:, :, 0]

@@ -73,7 +73,7 @@ def traced(
 
     Args:
         field: Field of joint rates.
-        start: First configuration; shape (n,).
+        start: Configuration at place `since`; shape (n,).
         since: Place on the path where it begins, [m or rad].
         until_above: σ above which tracing stops. If finite, a path about to be lost is also given up once its end can
             be extrapolated (`_end_of_branch`), instead of being traced to the last nanometre.

@@ -12,6 +12,7 @@ from typing import TypeAlias
 import numpy as np
 
 from gelenk.ik.search.task import Task
+from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.notations import rotations_from_vectors
@@ -102,22 +103,27 @@ class RateField:
         """Sample the path between two of its breaks; at the end the derivatives are those before the break."""
         return self.path.at(np.minimum(np.maximum(s, begin), end - 8.0 * np.spacing(end)))
 
+    def errors(self, at: PathSamples, qs: Array) -> Array:
+        """Return the distances [m] and angles [rad] of configurations from the path; shape (2, N)."""
+        return self.task.errors(at.poses, Poses(*chain_poses(self.chain.flat, qs)))
+
     def velocities(self, at: PathSamples, qs: Array) -> tuple[Array, Array]:
         """Return the field's rates q', shape (N, n), and the smallest singular value, shape (N,)."""
-        rows = task_rows(self.chain, self.task, at, qs)
+        dqs, (_, sigmas, _) = self._rates(task_rows(self.chain, self.task, at, qs), qs)
+        return dqs, sigmas[:, -1]
+
+    def _rates(self, rows: CountedRows, qs: Array) -> tuple[Array, tuple[Array, Array, Array]]:
+        """Return the field's rates q', shape (N, n), and the singular value decompositions of J."""
         left, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
         dqs = _applied(left, sigmas, right, rows.rates)
         if self.push > 0.0:
             dqs = dqs + self._pushed(right, rows.rates, qs)
-        return dqs, sigmas[:, -1]
+        return dqs, (left, sigmas, right)
 
     def knot(self, s: float, at: PathSamples, q: Array, rows: CountedRows | None = None) -> Knot:
         """Return the knot at a configuration on the path; `at` is one sample, `rows` its task rows if known."""
         rows = task_rows(self.chain, self.task, at, q[None]) if rows is None else rows
-        left, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
-        dq = _applied(left, sigmas, right, rows.rates)
-        if self.push > 0.0:
-            dq = dq + self._pushed(right, rows.rates, q[None])
+        dq, (left, sigmas, right) = self._rates(rows, q[None])
         dJ, dxi = row_derivatives(self.chain, self.task, at, q[None], dq)
         if self.push > 0.0:
             ddq = derivative_along(self.velocities, at, q, dq[0], float(sigmas[0, -1]))
@@ -189,8 +195,7 @@ def _step(rows: CountedRows) -> Array:
 def _applied(left: Array, sigmas: Array, right: Array, bs: Array) -> Array:
     """Return J⁺b from singular value decompositions of J; shape (N, n)."""
     gains = _gains(sigmas)
-    result: Array = ((gains[:, :, None] * (left.transpose(0, 2, 1) @ bs[:, :, None])).transpose(0, 2, 1) @ right)[:, 0]
-    return result
+    return ((gains[:, :, None] * (left.transpose(0, 2, 1) @ bs[:, :, None])).transpose(0, 2, 1) @ right)[:, 0]
 
 
 def _gains(sigmas: Array) -> Array:
@@ -223,8 +228,7 @@ def derivative_along(velocities: Velocities, at: PathSamples, q: Array, dq: Arra
         float(np.abs(dq).max()), float(np.abs(at.first[:, 3:]).max()), 1e-300
     )
     places = PLACES * step
-    result: Array = STENCIL @ velocities(beside(at, places), q + places[:, None] * dq)[0] / step
-    return result
+    return STENCIL @ velocities(beside(at, places), q + places[:, None] * dq)[0] / step
 
 
 def beside(at: PathSamples, places: Array) -> PathSamples:

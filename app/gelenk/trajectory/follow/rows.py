@@ -15,7 +15,7 @@ from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.trajectory.paths.paths import PathSamples
-from gelenk.trajectory.paths.so3 import skew
+from gelenk.trajectory.paths.rotation_splines import skew
 
 _SMALL = 0.1
 """Angle below which a series is used, [rad]."""

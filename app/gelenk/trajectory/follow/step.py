@@ -9,9 +9,7 @@ from math import comb, perm
 
 import numpy as np
 
-from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array
-from gelenk.robot.poses import Poses
 from gelenk.trajectory.follow.rate_field import SHARE, Knot, RateField, taken
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.paths.paths import PathSamples
@@ -74,8 +72,7 @@ class Piece:
 
 def rates_of(taus: Array, order: int, data: Array) -> Array:
     """Return a derivative by τ of a quintic at places from 0 to 1; shape (N, n)."""
-    result: Array = _basis(taus, order) @ data
-    return result
+    return _basis(taus, order) @ data
 
 
 def end_conditions(a: Knot, b: Knot) -> Array:
@@ -85,14 +82,7 @@ def end_conditions(a: Knot, b: Knot) -> Array:
 
 
 def attempt(field: RateField, a: Knot, s: float, stretch: tuple[float, float]) -> Piece | None:
-    """Return the piece from a knot to a place, whatever its errors; None if no exact knot is found there.
-
-    Args:
-        field: Field of joint rates.
-        a: First knot of the piece.
-        s: Place where it ends, [m or rad].
-        stretch: The breaks of the path before and after.
-    """
+    """Return the piece from a knot to a place in the same stretch, whatever its errors; None without an exact knot."""
     at = field.samples(np.append(a.s + (s - a.s) * INNER, s), *stretch)
     b = next_knot(field, a, s, taken(at, slice(-1, None)))
     return None if b is None else piece_between(field, a, b, taken(at, slice(0, -1)))
@@ -105,8 +95,7 @@ def piece_between(field: RateField, a: Knot, b: Knot, at: PathSamples) -> Piece:
     velocities, sigmas = field.velocities(at, qs)
     fastest = max(float(np.abs(velocities).max()), float(np.abs(data[[1, 4]]).max()) / h, 1e-300)
     rate_ratio = float(np.abs(_RATES @ data / h - velocities).max()) / (RATE_TOLERANCE * fastest + 20.0 * a.offset / h)
-    errors = field.task.errors(at.poses, Poses(*chain_poses(field.chain.flat, qs)))
-    deviations = errors.max(axis=1)
+    deviations = field.errors(at, qs).max(axis=1)
     ratio = max(rate_ratio, float((deviations / (SHARE * np.array(field.tolerances) + 10.0 * a.offset)).max()))
     return Piece(a, b, data, np.concatenate(([a.sigma], sigmas, [b.sigma])), deviations, ratio)
 

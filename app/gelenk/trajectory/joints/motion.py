@@ -88,7 +88,7 @@ def point_to_point_motion(
         motion = _along_line(start, steps, law, limits)
         if law == "jerk_limited":
             motion = _beside_line(start, target, limits, motion)
-    return motion if duration is None else lasting(motion, duration, kept_limits(law, limits))
+    return motion if duration is None else lasting(motion, duration, law, limits)
 
 
 def kept_limits(law: Law, limits: SegmentLimits) -> ScalingLimits:
@@ -96,23 +96,18 @@ def kept_limits(law: Law, limits: SegmentLimits) -> ScalingLimits:
     return ScalingLimits(limits.velocity, limits.acceleration, limits.jerk if LAWS[law].keeps_jerk else None)
 
 
-def lasting(motion: PiecewisePolynomial, duration: float, limits: ScalingLimits) -> PiecewisePolynomial:
-    """Slow a motion down to a given duration.
-
-    Args:
-        motion: The fastest one of its kind, from time 0 on.
-        duration: T, [s].
-        limits: Limits that it keeps, named in the error if the duration is too short.
+def lasting(motion: PiecewisePolynomial, duration: float, law: Law, limits: SegmentLimits) -> PiecewisePolynomial:
+    """Slow the fastest motion with a law down to a given duration, [s].
 
     Raises:
-        InvalidField: The duration is too short.
+        InvalidField: The duration is too short; the error names the limit that binds.
     """
     least = motion.duration
     if duration < least * (1.0 - ROUNDING):
-        bound = uniform_scaling(motion, limits).binding
+        bound = uniform_scaling(motion, kept_limits(law, limits)).binding
         raise InvalidField(
             "duration",
-            f"must be at least {least:.10g} s, when joint {bound.joint + 1} reaches its limit of {bound.quantity}",
+            f"must be at least {least:.10g} s, when joint {bound.joint} reaches its limit of {bound.quantity}",
         )
     return motion.lasting(duration)
 
@@ -121,15 +116,7 @@ def compared_point_to_point(start: Array, target: Array, law: Law, limits: Segme
     """Compare a uniformly scaled law with the fastest motion along the same path; all zero if nothing moves.
 
     The trapezoid has its own path. Its slowest joint is already as fast as its limits allow, so nothing can be gained.
-
-    Args:
-        start: Shape (n,), [rad or m].
-        target: Shape (n,), [rad or m].
-        law: Time law.
-        limits: Of the joints; jerk limits only matter for laws that keep them.
-
-    Raises:
-        InvalidField: As for `point_to_point_motion`.
+    Arguments and errors are those of `point_to_point_motion`.
     """
     motion = point_to_point_motion(start, target, law, limits)
     if motion.duration == 0.0:
@@ -139,24 +126,14 @@ def compared_point_to_point(start: Array, target: Array, law: Law, limits: Segme
 
 
 def timings(uniform: PiecewisePolynomial, limits: SegmentLimits, optimal: float) -> Timings:
-    """Return the timings of a motion, with the factors that it would need if it lasted 1 s.
-
-    Args:
-        uniform: The motion with its law, scaled.
-        limits: Of the joints.
-        optimal: Duration of the fastest motion along the same path, [s].
-    """
+    """Compare a motion by a scaled law with the fastest one along its path, which lasts `optimal`, [s]."""
     in_a_second = uniform.scaled(1.0 / uniform.duration)
     bounds = uniform_scaling(in_a_second, ScalingLimits(limits.velocity, limits.acceleration)).bounds
     return Timings(uniform.duration, bounds[0].ratio, bounds[1].ratio, optimal)
 
 
 def check_duration(duration: float | None) -> None:
-    """Check that a duration is a usable number.
-
-    Raises:
-        InvalidField: It is not.
-    """
+    """Refuse a duration, [s], that is not a usable number, with `InvalidField`."""
     if duration is not None and not 0.0 < duration <= LARGEST:
         raise InvalidField("duration", f"must be greater than 0 s and at most {LARGEST:g} s")
 
@@ -208,7 +185,7 @@ def _trapezoid(start: Array, steps: Array, limits: SegmentLimits, duration: floa
         motion = point_to_point(start, _in_long_time(tasks, duration), duration).motion
         return PiecewisePolynomial(np.append(motion.breaks[:-1], duration), motion.coefficients)
     motion = point_to_point(start, tasks).motion
-    return motion if duration is None else lasting(motion, duration, kept_limits("trapezoidal", limits))
+    return motion if duration is None else lasting(motion, duration, "trapezoidal", limits)
 
 
 def _in_long_time(tasks: Sequence[JointMove], duration: float) -> list[JointMove]:

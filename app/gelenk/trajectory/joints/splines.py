@@ -15,7 +15,6 @@ ends.
 """
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -59,12 +58,7 @@ class JointSpline:
 
     @classmethod
     def of(cls, start: Array, segment: Segment, chain: Chain) -> "JointSpline":
-        """Return the spline of a segment with `configurations`.
-
-        Args:
-            start: The first knot; shape (n,), [rad or m].
-            segment: The segment.
-            chain: The moving chain.
+        """Return the spline of a segment with `configurations`, from a start of shape (n,), [rad or m].
 
         Raises:
             InvalidField: There is no such spline, its times are impossible, or a waypoint is outside limits.
@@ -94,13 +88,13 @@ class JointSpline:
             motion = self._fastest()
             if segment.duration is None:
                 return motion
-            return lasting(motion, segment.duration, kept_limits(segment.law, segment.limits))
+            return lasting(motion, segment.duration, segment.law, segment.limits)
         scaling = self._scaling_at_times()
         if scaling.course_factor > 1.0 + ROUNDING:
             bound = scaling.binding
             raise InvalidField(
                 "times",
-                f"joint {bound.joint + 1} reaches {bound.ratio:.6g} times its limit of {bound.quantity} at "
+                f"joint {bound.joint} reaches {bound.ratio:.6g} times its limit of {bound.quantity} at "
                 f"{bound.time:.6g} s: to keep the limits, multiply all times by {scaling.course_factor:.10g}",
             )
         return self.path
@@ -162,27 +156,20 @@ class JointSpline:
         return timed(geometry_of(None, self.path, limits), law).motion
 
 
-class SmoothnessClass(NamedTuple):
-    """Smoothness of a motion.
+def promised(segment: Segment) -> tuple[int, bool]:
+    """Return how smooth the motion of a joint segment is, for a spline or from point to point.
 
-    Attributes:
-        continuous: Order up to which derivatives of the joints do not jump within it.
-        has_bounded_jerk: Whether acceleration jumps neither within it nor at its ends, and jerk is limited.
+    Returns:
+        The order up to which its derivatives do not jump within it; whether acceleration jumps neither within it nor at
+        its ends, and jerk is limited.
     """
-
-    continuous: int
-    has_bounded_jerk: bool
-
-
-def promised(segment: Segment) -> SmoothnessClass:
-    """Return how smooth the motion of a joint segment is, for a spline or from point to point."""
     law = LAWS[segment.law]
     if segment.blends:
-        return SmoothnessClass(1, False)
+        return 1, False
     if segment.times is not None:
-        return SmoothnessClass(2, law.keeps_jerk and segment.boundary == "assigned")
+        return 2, law.keeps_jerk and segment.boundary == "assigned"
     is_scaled = segment.configurations is not None and law.scales_splines and segment.boundary in _AT_REST
-    return SmoothnessClass(2 if law.keeps_jerk or is_scaled else 1, law.keeps_jerk)
+    return 2 if law.keeps_jerk or is_scaled else 1, law.keeps_jerk
 
 
 def _check_law_of_times(segment: Segment) -> None:

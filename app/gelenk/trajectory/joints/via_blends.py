@@ -96,13 +96,7 @@ def _stretched(lengths: Array, steps: Array, limits: SegmentLimits) -> Array:
 
 
 def _loads(lengths: Array, steps: Array, limits: SegmentLimits) -> Array:
-    """Return the largest ratio of each step's blend times to its duration and of its rates to their limits; (N - 1,).
-
-    Args:
-        lengths: Durations of the steps; shape (N - 1,), [s].
-        steps: Δq; shape (N - 1, n), [rad or m].
-        limits: Joint limits.
-    """
+    """Return the largest ratio of each step's blend times to its duration or of its rates to limits; shape (N - 1,)."""
     h, sides = lengths[:, None], np.zeros((len(lengths), 1))
     sides[0] += 1.0
     sides[-1] += 1.0

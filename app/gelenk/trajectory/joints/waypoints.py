@@ -83,15 +83,9 @@ def _check_times(times: Array, count: int) -> None:
 
 
 def check_within(chain: Chain, configurations: Array, field: str) -> None:
-    """Check that configurations are within the joint limits.
+    """Refuse configurations, (m, n), [rad or m], of which one is outside the joint limits, with `InvalidField`.
 
-    Args:
-        chain: Chain with the joint limits.
-        configurations: Shape (m, n), [rad or m].
-        field: Field that has them, with `{}` in place of an index.
-
-    Raises:
-        InvalidField: One is outside; the first one is named.
+    The field names the first one: an index takes the place of `{}`.
     """
     outside = np.argwhere(~((configurations >= chain.lower - WITHIN) & (configurations <= chain.upper + WITHIN)))
     if len(outside) == 0:
@@ -105,11 +99,7 @@ def check_within(chain: Chain, configurations: Array, field: str) -> None:
 
 
 def check_closed(positions: Array, boundary: Boundary) -> None:
-    """Check that a periodic spline ends where it starts.
-
-    Raises:
-        InvalidField: It does not.
-    """
+    """Refuse a periodic spline that does not end where it starts, with `InvalidField`."""
     gaps = np.abs(positions[-1] - positions[0])
     if boundary != "periodic" or gaps.max(initial=0.0) <= CLOSED * max(1.0, float(np.abs(positions).max())):
         return

@@ -48,9 +48,9 @@ def planned(caps: Array) -> PiecewisePolynomial:
     jerking, even, coast = np.where(found > _SHORTEST * total, found, [[_SHORTEST * total], [0.0], [0.0]])
     widths = np.hstack((jerking, even, jerking, coast, jerking, even, jerking))
     states = [np.delete(column[0, ::2], 4) for column in _states((jerking, even, coast), 2)]
-    kept = widths > 0.0
-    rows = np.column_stack(states)[kept] / np.array([1.0, 1.0, 2.0, 6.0])
-    return PiecewisePolynomial(np.concatenate(([0.0], np.cumsum(widths[kept]))), rows[:, :, None])
+    lasts = widths > 0.0
+    rows = np.column_stack(states)[lasts] / np.array([1.0, 1.0, 2.0, 6.0])
+    return PiecewisePolynomial(np.concatenate(([0.0], np.cumsum(widths[lasts]))), rows[:, :, None])
 
 
 def profiles(caps: Array, count: int) -> tuple[Array, Array, Array, Array]:

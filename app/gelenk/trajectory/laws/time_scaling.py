@@ -12,6 +12,7 @@ import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
+from gelenk.robot.result import Result
 from gelenk.trajectory.motion.extremes import Peaks, peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
@@ -47,17 +48,18 @@ class ScalingLimits:
 
 
 @dataclass(frozen=True, slots=True)
-class Bound:
-    """The joint nearest to its limit of a quantity, or furthest beyond it.
+class Bound(Result):
+    """The joint that is nearest to its limit of a quantity, or furthest beyond it, in the given motion.
 
     Attributes:
-        quantity: Limited quantity.
-        ratio: Ratio of the joint's peak to its limit.
-        factor: k that this quantity alone requires: the ratio, its square root or its cube root.
-        joint: Index of the joint, from 0.
-        time: Time of the peak in the unscaled motion, [s].
-        peak: Signed value of the peak.
-        limit: Limit of this joint.
+        quantity: Whose limit sets the duration.
+        ratio: Peak over limit, no unit.
+        factor: The k that this quantity alone requires: the ratio of a velocity, the square root of that of an
+            acceleration, the cube root of that of a jerk; no unit.
+        joint: Number of the joint, from 1; no unit.
+        time: Time of the peak, [s].
+        peak: Signed peak, [rad or m per s, s² or s³].
+        limit: The limit, in the unit of the peak.
     """
 
     quantity: Quantity
@@ -87,11 +89,7 @@ class Scaling:
 
 
 def check_limits(limits: Iterable[Array]) -> None:
-    """Check that limits of velocity, acceleration and so on, of shape (n,) each, are usable numbers.
-
-    Raises:
-        InvalidField: A limit is not.
-    """
+    """Refuse limits of velocity, acceleration and so on, (n,) each, that are not usable, with `InvalidField`."""
     for quantity, values in zip(QUANTITIES, limits, strict=False):
         wrong = ~((values >= SMALLEST) & (values <= LARGEST))
         if wrong.any():
@@ -125,5 +123,5 @@ def _bound(quantity: Quantity, order: int, found: Peaks, limit: Array) -> Bound:
     # Among joints whose ratios differ only by rounding, take the first.
     j = int(np.argmax(ratios >= ratio * (1.0 - 1e-12)))
     return Bound(
-        quantity, ratio, ratio ** (1.0 / order), j, float(found.times[j]), float(found.values[j]), float(limit[j])
+        quantity, ratio, ratio ** (1.0 / order), j + 1, float(found.times[j]), float(found.values[j]), float(limit[j])
     )

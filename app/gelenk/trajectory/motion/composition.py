@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.robot.arrays import Array, Indices
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, composed, cut
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, composed, cut, derivatives
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 
 _EXACT_DEGREE = 10
@@ -104,18 +104,6 @@ def in_time(joints: PiecewisePolynomial, law: PiecewisePolynomial) -> PiecewiseP
         breaks = np.append(np.repeat(breaks[:-1], parts) + shares * np.repeat(np.diff(breaks), parts), breaks[-1])
     coefficients[:, 0] += exact.starts
     return PiecewisePolynomial(breaks, coefficients)
-
-
-def derivatives(c: Array, local: Array) -> tuple[Array, Array, Array, Array]:
-    """Evaluate polynomials, lowest power first, and three derivatives by Horner's scheme; (M, d + 1, n), (M, 1)."""
-    value = c[:, -1] + 0.0 * local
-    first = second = third = np.zeros_like(value)
-    for k in range(c.shape[1] - 2, -1, -1):
-        third = third * local + second
-        second = second * local + first
-        first = first * local + value
-        value = value * local + c[:, k]
-    return value, first, 2.0 * second, 6.0 * third
 
 
 def times_at(law: PiecewisePolynomial, s: Array) -> Array:

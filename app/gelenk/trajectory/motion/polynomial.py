@@ -6,7 +6,7 @@ code that plays, samples, scales or audits a motion needs to handle no other.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import comb
+from math import comb, factorial
 
 import numpy as np
 
@@ -40,30 +40,18 @@ class PiecewisePolynomial:
 
     def at(self, times: Array) -> Array:
         """Return values of shape (N, n) at times of shape (N,), [s]; at an inner break, the later piece counts."""
-        local, c = self._pieces_at(times)
-        values = c[:, -1] + 0.0 * local
-        for k in range(c.shape[1] - 2, -1, -1):
-            values = values * local + c[:, k]
-        result: Array = values
-        return result
+        return derivatives(*self._pieces_at(times), 0)[0]
 
-    def rates_at(self, times: Array) -> tuple[Array, Array, Array]:
+    def rates_at(self, times: Array) -> list[Array]:
         """Return values and first and second derivatives at times of shape (N,), [s]; shape (N, n) each."""
-        local, c = self._pieces_at(times)
-        value = c[:, -1] + 0.0 * local
-        first = second = np.zeros_like(value)
-        for k in range(c.shape[1] - 2, -1, -1):
-            second = second * local + first
-            first = first * local + value
-            value = value * local + c[:, k]
-        return value, first, 2.0 * second
+        return derivatives(*self._pieces_at(times), 2)
 
     def _pieces_at(self, times: Array) -> tuple[Array, Array]:
-        """Return times since the start of each time's piece, shape (N, 1), and coefficients; only one row if M = 1."""
+        """Return coefficients, only one row if M = 1, and times since the start of each time's piece, shape (N, 1)."""
         if len(self.coefficients) == 1:
-            return (times - self.breaks[0])[:, None], self.coefficients
+            return self.coefficients, (times - self.breaks[0])[:, None]
         i = np.searchsorted(self.breaks[1:-1], times, side="right")
-        return (times - self.breaks[i])[:, None], self.coefficients[i]
+        return self.coefficients[i], (times - self.breaks[i])[:, None]
 
     def scaled(self, factor: float) -> "PiecewisePolynomial":
         """Return the same path in `factor` times the time: velocities scale by 1/factor, accelerations by 1/factor²."""
@@ -89,6 +77,26 @@ def joined(parts: Sequence[PiecewisePolynomial]) -> PiecewisePolynomial:
         breaks.append(breaks[-1][-1] + part.breaks[1:] - part.breaks[0])
         rows.append(np.pad(part.coefficients, ((0, 0), (0, degree - part.coefficients.shape[1]), (0, 0))))
     return PiecewisePolynomial(np.concatenate(breaks), np.concatenate(rows))
+
+
+def derivatives(c: Array, local: Array, order: int = 3) -> list[Array]:
+    """Evaluate polynomials and their derivatives by Horner's scheme.
+
+    Args:
+        c: Coefficients, lowest power first; shape (M, d + 1, n).
+        local: Where to evaluate each; shape (M, 1).
+        order: Order of the highest derivative.
+
+    Returns:
+        Values, first derivatives and so on; shape (M, n) each.
+    """
+    value = c[:, -1] + 0.0 * local
+    found = [value, *[np.zeros_like(value)] * order]
+    for k in range(c.shape[1] - 2, -1, -1):
+        for i in range(order, 0, -1):
+            found[i] = found[i] * local + found[i - 1]
+        found[0] = found[0] * local + c[:, k]
+    return [*found[:2], *(factorial(i) * found[i] for i in range(2, order + 1))]
 
 
 def cut(path: PiecewisePolynomial, nodes: Array) -> Array:

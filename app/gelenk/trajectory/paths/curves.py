@@ -5,7 +5,7 @@ A curve gives its position p(s), its unit tangent dp/ds, and d²p/ds², whose le
 
 import math
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TypeAlias
 
 import numpy as np
 
@@ -14,17 +14,6 @@ from gelenk.robot.arrays import Array
 
 COLLINEAR = 1e-6
 """Sine of the angle at the via point, or at either end, below which three points count as collinear."""
-
-
-class Curve(Protocol):
-    """A curve in space."""
-
-    @property
-    def length(self) -> float:
-        """Total arc length, [m]."""
-
-    def at(self, s: Array) -> tuple[Array, Array, Array]:
-        """Return position [m], unit tangent and d²p/ds² [1/m] at arc lengths [m]; shape (N,) → three of (N, 3)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +34,7 @@ class Line:
         return math.dist(self.start, self.end)
 
     def at(self, s: Array) -> tuple[Array, Array, Array]:
-        """See `Curve`."""
+        """Return position [m], unit tangent and d²p/ds² [1/m] at arc lengths [m]; shape (N,) → three of (N, 3)."""
         length = self.length
         direction = (self.end - self.start) / length if length > 0.0 else np.zeros(3)
         still = np.zeros((len(s), 3))
@@ -81,19 +70,17 @@ class Arc:
         return self.radius * self.angle
 
     def at(self, s: Array) -> tuple[Array, Array, Array]:
-        """See `Curve`."""
+        """See `Line`."""
         cosines, sines = np.cos(s / self.radius)[:, None], np.sin(s / self.radius)[:, None]
         outwards = cosines * self.x + sines * self.y
         return self.centre + self.radius * outwards, cosines * self.y - sines * self.x, -outwards / self.radius
 
 
-def arc_through(start: Array, via: Array, end: Array) -> Arc:
-    """Return the arc from a start through a via point to an end.
+Curve: TypeAlias = Line | Arc
 
-    Args:
-        start: Shape (3,), [m].
-        via: Shape (3,), [m].
-        end: Shape (3,), [m].
+
+def arc_through(start: Array, via: Array, end: Array) -> Arc:
+    """Return the arc from a start through a via point to an end; shape (3,) each, [m].
 
     Raises:
         InvalidField: Two of the points coincide, or all three lie on a line.
@@ -119,10 +106,5 @@ def arc_through(start: Array, via: Array, end: Array) -> Arc:
     x = start - centre
     x /= math.hypot(*x)
     y = np.cross(normal, x)
-    via_angle, angle = (_angle(point - centre, x, y) for point in (via, end))
+    via_angle, angle = (math.atan2(arm @ y, arm @ x) % (2.0 * math.pi) for arm in (via - centre, end - centre))
     return Arc(centre, x, y, radius, angle, via_angle)
-
-
-def _angle(arm: Array, x: Array, y: Array) -> float:
-    """Return the angle on the circle of a point relative to the centre, in [0, 2π), [rad]."""
-    return math.atan2(arm @ y, arm @ x) % (2.0 * math.pi)

@@ -35,13 +35,6 @@ class OrientationPath(Protocol):
         """Return R, ω_x and dω_x/dx at N values of x; shapes (N, 3, 3), (N, 3), (N, 3), [rad]."""
 
 
-class Turn(OrientationPath, Protocol):
-    """A path from one orientation to another at a constant rate of its angle or of its Euler angles."""
-
-    def part(self, begin: float, finish: float) -> "Turn":
-        """Return the part between two values of x as a turn of its own."""
-
-
 @dataclass(frozen=True, slots=True)
 class AxisAnglePath:
     """A turn about one axis, R(x) = R_i Rot(r, x θ).
@@ -63,7 +56,7 @@ class AxisAnglePath:
         return rotations, still + self.angle * (self.start @ self.axis), still
 
     def part(self, begin: float, finish: float) -> "AxisAnglePath":
-        """See `Turn`."""
+        """Return the part between two values of x as a turn of its own."""
         return AxisAnglePath(self.at(np.array([begin]))[0][0], self.axis, (finish - begin) * self.angle)
 
 

@@ -7,7 +7,7 @@ With a time law s(t): q̇ = q' ṡ, q̈ = q' s̈ + q'' ṡ², q⃛ = q' s⃛ + 3
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Final, TypeAlias
+from typing import Final, TypeAlias, cast
 
 import numpy as np
 
@@ -15,8 +15,7 @@ from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
 from gelenk.trajectory.audit.demands import TipLimits, Zone
-from gelenk.trajectory.motion.composition import derivatives
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut, derivatives
 from gelenk.trajectory.paths.paths import Path
 from gelenk.trajectory.problem.problem import SegmentLimits
 
@@ -40,8 +39,6 @@ JOINTS: Final = 3
 ACCELERATION: Final = 2
 """Index of the linear acceleration among the tip's quantities."""
 
-_INSIDE = 1e-9
-"""Distance inside a piece at which a path that may jump is examined for its ends, as a fraction of the piece."""
 _SAME = 1e-9
 _CORNER = 1e-7
 """Jump of q', as a fraction of the largest |q'|, that requires a stop; the same as in `time_optimal`."""
@@ -93,15 +90,13 @@ class LimitedPath:
     Attributes:
         joints: q(s), whose breaks include those of the tip's path.
         limits: Limits on the whole path.
-        path: Path of the tip, if there is one.
-        tip_motion: Function from the joints' motion to the tip's; None to use the motion along `path`.
+        tip_motion: Function from the joints' motion to the tip's; None if the tip has no limits.
         zones: Parts of the path on which the tip has its own limits; each begins and ends at a break.
         corners: s at the beginning and the end of each blend of lines, which are breaks too.
     """
 
     joints: PiecewisePolynomial
     limits: SegmentLimits
-    path: Path | None
     tip_motion: TipMotion | None
     zones: tuple[Zone, ...] = ()
     corners: tuple[tuple[float, float], ...] = ()
@@ -121,9 +116,9 @@ class LimitedPath:
 
     @property
     def limits_tip(self) -> bool:
-        """Whether the tip has a limit and its motion is known."""
-        known = self.path is not None or self.tip_motion is not None
-        return known and bool(np.isfinite(self.tip_bounds(np.arange(len(self.joints.breaks) - 1))).any())
+        """Whether the tip has a limit."""
+        bounds = self.tip_bounds(np.arange(len(self.joints.breaks) - 1))
+        return self.tip_motion is not None and bool(np.isfinite(bounds).any())
 
     def tip_bounds(self, piece: Indices) -> Array:
         """Return the tip's limits in given pieces, in the order of `QUANTITIES`; shape (N,) → (N, 4)."""
@@ -137,8 +132,7 @@ class LimitedPath:
     def piece_of(self, s: Array) -> Indices:
         """Return the index of the piece of q(s) at each place, the later one at a break; shape (N,)."""
         last = len(self.joints.breaks) - 2
-        found: Indices = np.clip(np.searchsorted(self.joints.breaks, s, side="right") - 1, 0, last)
-        return found
+        return np.clip(np.searchsorted(self.joints.breaks, s, side="right") - 1, 0, last)
 
     def at(self, piece: Indices, s: Array) -> Slopes:
         """Return the derivatives at places s; the pieces distinguish the two sides of a break; shape (N,) each."""
@@ -148,18 +142,10 @@ class LimitedPath:
         return Slopes(first, second, third, tip, self.tip_bounds(piece))
 
     def tip_at(self, piece: Indices, s: Array) -> Array:
-        """Return ξ_s and ξ_s', zero if the tip's motion is unknown; shape (2, N, 6)."""
-        if self.tip_motion is not None:
-            local = (s - self.joints.breaks[piece])[:, None]
-            return np.stack(self.tip_motion(*derivatives(self.joints.coefficients[piece], local)[:3]))
-        return np.zeros((2, len(s), 6)) if self.path is None else np.stack(self.along(self.path, piece, s))
-
-    def along(self, path: Path, piece: Indices, s: Array) -> tuple[Array, Array]:
-        """Return ξ_s and ξ_s' of a path, evaluated slightly inside a piece at its ends; shape (N, 6) each."""
-        begin, end = self.joints.breaks[piece], self.joints.breaks[piece + 1]
-        inside = _INSIDE * (end - begin)
-        samples = path.at(np.clip(s, begin + inside, end - inside))
-        return samples.first, samples.second
+        """Return ξ_s and ξ_s' of a tip with limits; shape (2, N, 6)."""
+        local = (s - self.joints.breaks[piece])[:, None]
+        motion = cast(TipMotion, self.tip_motion)
+        return np.stack(motion(*derivatives(self.joints.coefficients[piece], local, 2)))
 
     def samples(self, count: int, least: int) -> tuple[Indices, Array]:
         """Sample about `count` places in order, with at least `least` intervals and both ends of each piece.
@@ -178,8 +164,7 @@ class LimitedPath:
         """Return the values of s at which q'' jumps; shape (m,)."""
         (jumps, bend), (_, slope) = _jumps(self.joints, 2), _jumps(self.joints, 1)
         scale = max(bend, _BEND * slope / self.joints.duration)
-        found: Array = self.joints.breaks[1:-1][jumps > _BEND * scale]
-        return found
+        return self.joints.breaks[1:-1][jumps > _BEND * scale]
 
     def parts(self) -> tuple["LimitedPath", ...]:
         """Cut the path where q' jumps, because the motion has to stop there."""
@@ -209,7 +194,7 @@ def geometry_of(
     if len(extra):
         nodes = np.union1d(breaks, extra)
         joints = PiecewisePolynomial(nodes, cut(joints, nodes))
-    return LimitedPath(joints, limits, path, tip_motion, zones, corners)
+    return LimitedPath(joints, limits, tip_motion, zones, corners)
 
 
 def subdivided(lengths: Array, count: int, least: int) -> tuple[Indices, Indices, Indices]:
@@ -231,7 +216,7 @@ def ratios(slopes: Slopes, limits: SegmentLimits, speeds: Array, accelerations: 
     velocity = slopes.first * v
     acceleration = slopes.first * a + slopes.second * v**2
     jerk = slopes.first * j + slopes.second * (3.0 * v * a) + slopes.third * v**3
-    each = zip((velocity, acceleration, jerk), (limits.velocity, limits.acceleration, limits.jerk), strict=True)
+    each = zip((velocity, acceleration, jerk), limits.joints, strict=True)
     for column, (values, limit) in enumerate(each):
         found[:, column] = np.abs(values / limit).max(axis=1, initial=0.0)
     if slopes.tip is not None:

@@ -4,9 +4,7 @@ A path contains no timing. With a time law s(t), the tip's twist is ξ = ξ_s �
 (The lecture's formula for p̈ has the wrong factor at the first derivative: p̈ = d²p/ds² ṡ² + dp/ds s̈.) Position and
 orientation are planned separately, both as functions of s.
 
-- `line`, `circle`: the orientation advances in proportion to the distance travelled.
-- `blended_lines` (`spline_paths`): a polyline whose corners are replaced by parabolas.
-- `spline` (`spline_paths`): a smooth curve through any number of poses.
+`line`, `circle`: the orientation advances in proportion to the distance travelled. `spline_paths` has the others.
 """
 
 import math
@@ -106,12 +104,9 @@ class CurvePath:
 
 
 def line(start: Array, end: Array, orientation: OrientationPath | None = None) -> CurvePath:
-    """Return the straight line from pose to pose; a turn on the spot if only the orientations differ.
+    """Return the straight line between poses of shape (4, 4); a turn on the spot if only the orientations differ.
 
-    Args:
-        start: T_base_tip at the start; shape (4, 4).
-        end: T_base_tip at the end; shape (4, 4).
-        orientation: Path between the two orientations; by default about one axis.
+    The path between the two orientations is by default about one axis.
     """
     turn = axis_angle(start[:3, :3], end[:3, :3]) if orientation is None else orientation
     return CurvePath(Line(start[:3, 3].copy(), end[:3, 3].copy()), turn)
@@ -124,7 +119,7 @@ def circle(start: Array, via: Array, end: Array, orientation: OrientationLaw = "
         start: T_base_tip at the start; shape (4, 4).
         via: T_base_tip in between, whose orientation is reached together with its position; shape (4, 4).
         end: T_base_tip at the end; shape (4, 4).
-        orientation: See `through_orientations`.
+        orientation: Law of `through_orientations`.
 
     Raises:
         InvalidField: Two of the positions coincide, or all three lie on a line.

@@ -12,10 +12,11 @@ from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.demands import TipLimits, Zone
-from gelenk.trajectory.paths.orientation_paths import OrientationPath, Turn, axis_angle
+from gelenk.trajectory.paths.orientation_paths import axis_angle
 from gelenk.trajectory.paths.paths import POINT, Path, circle, line, refuse_reversal
-from gelenk.trajectory.paths.spline_paths import PolynomialPath, SplineBoundary, blended_lines, spline
+from gelenk.trajectory.paths.spline_paths import PolynomialPath, SplineBoundary, Turn, blended_lines, spline
 from gelenk.trajectory.paths.zyz_paths import zyz_turns
+from gelenk.trajectory.problem.parts import in_field
 from gelenk.trajectory.problem.problem import Segment
 
 
@@ -73,10 +74,8 @@ def path_through(start: Array, segments: Sequence[Segment], first: int) -> Segme
     """
     if len(segments) > 1:
         return _blended(start, segments, first)
-    try:
+    with in_field(f"segments.{first}"):
         path, notes = _single(start, segments[0])
-    except InvalidField as error:
-        raise InvalidField(f"segments.{first}.{error.field}", error.reason) from error
     return SegmentsPath(path, (path.extent,), notes=notes)
 
 
@@ -94,7 +93,7 @@ def _single(start: Array, segment: Segment) -> tuple[Path, tuple[str, ...]]:
         return spline(poses, boundary, segment.orientation), notes
     end = cast(Array, segment.pose)
     if segment.type == "line":
-        return line(start, end, _orientation(start, end, segment)), ()
+        return line(start, end, _turns(np.array([start[:3, :3], end[:3, :3]]), [segment], 0)[0]), ()
     return circle(start, cast(Array, segment.via), end, segment.orientation), ()
 
 
@@ -107,14 +106,6 @@ def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]
         )
         return "natural", (note,)
     return cast(SplineBoundary, segment.boundary), ()
-
-
-def _orientation(start: Array, end: Array, segment: Segment) -> OrientationPath:
-    """Return how a line turns from one pose to another."""
-    rotations = np.array([start[:3, :3], end[:3, :3]])
-    if segment.orientation == "axis_angle":
-        return axis_angle(*rotations)
-    return zyz_turns(rotations, [segment.orientation == "zyz_other"])[0]
 
 
 def _blended(start: Array, segments: Sequence[Segment], first: int) -> SegmentsPath:
@@ -147,11 +138,7 @@ def _zones(corners: Sequence[BlendedCorner], segments: Sequence[Segment], extent
 
 
 def _turns(rotations: Array, segments: Sequence[Segment], first: int) -> Sequence[Turn]:
-    """Return the turns from each orientation to the next; `zyz_other` changes the sign of θ.
-
-    Raises:
-        InvalidField: Some lines turn about an axis and others by ZYZ angles, which leaves no turn over the corner.
-    """
+    """Return the turns from each orientation to the next; `zyz_other` changes the sign of θ."""
     by_axis = [segment.orientation == "axis_angle" for segment in segments]
     if all(by_axis):
         return [axis_angle(*pair) for pair in pairwise(rotations)]

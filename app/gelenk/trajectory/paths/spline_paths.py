@@ -20,7 +20,7 @@ from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.paths.curves import Line
-from gelenk.trajectory.paths.orientation_paths import OrientationPath, Turn, axis_angle
+from gelenk.trajectory.paths.orientation_paths import AxisAnglePath, OrientationPath, axis_angle
 from gelenk.trajectory.paths.paths import (
     POINT,
     CurvePath,
@@ -32,9 +32,10 @@ from gelenk.trajectory.paths.paths import (
     refuse_reversal,
     through_orientations,
 )
-from gelenk.trajectory.paths.rotation_splines import rotation_corner
+from gelenk.trajectory.paths.rotation_splines import rotation_corner, sizes
 from gelenk.trajectory.paths.zyz_paths import ZyzPath, zyz_corner
 
+Turn: TypeAlias = AxisAnglePath | ZyzPath
 SplineBoundary: TypeAlias = Literal["natural", "not_a_knot", "periodic"]
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
@@ -89,16 +90,12 @@ class PolynomialPath:
         positions, first, second = self.position.rates_at(u)
         rotations, rates, changes = self.orientation.at(x)
         rates, changes = rates / width, changes / width**2
-        speeds = _sizes(first)[:, None]
+        speeds = sizes(first)[:, None]
         tangents = first / np.maximum(speeds, np.finfo(float).tiny)
         growth = np.einsum("ij,ij->i", tangents, second)[:, None]
         by_s = np.hstack((tangents, rates / speeds))
         bends = np.hstack((second - growth * tangents, changes - growth * rates / speeds)) / speeds**2
         return PathSamples(Poses(positions, rotations), by_s, bends)
-
-    @cached_property
-    def _velocity(self) -> PiecewisePolynomial:
-        return self.position.derivative()
 
     @cached_property
     def _table(self) -> tuple[Array, Array]:
@@ -118,18 +115,21 @@ class PolynomialPath:
         """Return the arc lengths between pairs of u that are close together; shape (N,), [m]."""
         half = 0.5 * (finish - begin)
         u = (begin + half)[:, None] + half[:, None] * _NODES
-        lengths: Array = half * (self._speeds(u.ravel()).reshape(u.shape) @ _WEIGHTS)
-        return lengths
+        return half * (self._speeds(u.ravel()).reshape(u.shape) @ _WEIGHTS)
+
+    @cached_property
+    def _velocity(self) -> PiecewisePolynomial:
+        return self.position.derivative()
 
     def _speeds(self, u: Array) -> Array:
-        return _sizes(self._velocity.at(u))
+        return sizes(self._velocity.at(u))
 
     @cached_property
     def _inverse(self) -> PiecewisePolynomial:
         """Approximation of u(s): quintics with its value and two derivatives at the edges of the panels."""
         edges, lengths = self._table
         _, first, second = self.position.rates_at(edges)
-        slopes = 1.0 / np.maximum(_sizes(first), np.finfo(float).tiny)
+        slopes = 1.0 / np.maximum(sizes(first), np.finfo(float).tiny)
         bends = -np.einsum("ij,ij->i", first, second) * slopes**4
         ends = np.stack((edges, slopes, bends))[:, :, None]
         return PiecewisePolynomial(lengths, hermite_pieces(ends[:, :-1], ends[:, 1:], np.diff(lengths)))
@@ -180,13 +180,13 @@ def spline(
     knots = np.concatenate(([0.0], np.cumsum(chords)))
     curve = cubic_spline(knots, waypoints.positions, boundary).motion
     path = PolynomialPath(curve, through_orientations(waypoints.rotations, knots / knots[-1], orientation))
-    _refuse_cusps(path)
+    speeds = path._speeds(path._table[0])
+    if speeds.min() <= _SLOWEST * speeds.mean():
+        raise InvalidField("waypoints", "the spline turns back on the spot at a waypoint, where it has no tangent")
     return path
 
 
-def blended_lines(
-    poses: Poses, radii: Sequence[float], field: str = "blend_radius", turns: Sequence[Turn] | None = None
-) -> PathSequence:
+def blended_lines(poses: Poses, radii: Sequence[float], turns: Sequence[Turn] | None = None) -> PathSequence:
     """Return a polyline through poses whose corners are replaced by parabolas.
 
     If its parameter advances at a constant rate, such a parabola is the fly-over with equal speeds. Position and
@@ -195,7 +195,6 @@ def blended_lines(
     Args:
         poses: At least two poses; successive ones differ in position.
         radii: Distance from each inner pose at which its parabola begins and ends, > 0, [m].
-        field: Request field that contains the radii, for refusals.
         turns: Turns from each pose to the next, each beginning where the previous one ends, all about axes or all by
             ZYZ angles; by default each about one axis.
 
@@ -211,10 +210,12 @@ def blended_lines(
     for i, leg in enumerate(legs):
         taken = cuts[i] + cuts[i + 1]
         if taken > leg.curve.length * (1.0 + 1e-12) or leg.curve.length <= POINT:
-            raise InvalidField(field, f"leg {i} is {leg.curve.length:g} m long, and its blends take {taken:g} m of it")
+            raise InvalidField(
+                "blend_radius", f"leg {i} is {leg.curve.length:g} m long, and its blends take {taken:g} m of it"
+            )
         if i > 0:
             a, b = (legs[k].curve.at(np.zeros(1))[1][0] for k in (i - 1, i))
-            refuse_reversal(a, b, field)
+            refuse_reversal(a, b, "blend_radius")
             parts.append(_corner(legs[i - 1 : i + 1], turns[i - 1 : i + 1], cuts[i]))
         begin, finish = cuts[i] / leg.curve.length, 1.0 - cuts[i + 1] / leg.curve.length
         if finish - begin > 1e-12:
@@ -238,23 +239,6 @@ def _turn_over(turns: Sequence[Turn], entry: float, leaving: float) -> Orientati
     """Return the turn over the corner of two turns, from x = `entry` on the first to x = `leaving` on the second."""
     before, after = turns
     if isinstance(before, ZyzPath) and isinstance(after, ZyzPath):
-        return zyz_corner(before.triple_at(entry), after.start, after.triple_at(leaving))
+        return zyz_corner(before.triple_at(entry), after.triple_at(0.0), after.triple_at(leaving))
     at_entry = before.at(np.array([entry]))[0][0]
     return rotation_corner(at_entry, *after.at(np.array([0.0, leaving]))[0])
-
-
-def _sizes(vectors: Array) -> Array:
-    sizes: Array = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
-    return sizes
-
-
-def _refuse_cusps(path: PolynomialPath) -> None:
-    """Refuse a spline with a cusp at the edge of a panel.
-
-    Raises:
-        InvalidField: There is a cusp.
-    """
-    edges = path._table[0]
-    speeds = path._speeds(edges)
-    if speeds.min() <= _SLOWEST * speeds.mean():
-        raise InvalidField("waypoints", "the spline turns back on the spot at a waypoint, where it has no tangent")

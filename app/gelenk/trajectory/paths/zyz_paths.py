@@ -26,38 +26,6 @@ _DEGENERATE = 1e-14
 
 @dataclass(frozen=True, slots=True)
 class ZyzPath:
-    """A path on which φ, θ and ψ change at constant rates in x.
-
-    Attributes:
-        start: (φ, θ, ψ) of R_i; shape (3,), [rad].
-        change: Change of the angles up to R_f; shape (3,), [rad].
-    """
-
-    start: Array
-    change: Array
-
-    @property
-    def angle(self) -> float:
-        """See `OrientationPath`; computed by `travelled`."""
-        return travelled(self)
-
-    def triple_at(self, x: float) -> Array:
-        """Return (φ, θ, ψ) at x; shape (3,), [rad]."""
-        triple: Array = self.start + x * self.change
-        return triple
-
-    def at(self, x: Array) -> tuple[Array, Array, Array]:
-        """See `OrientationPath`."""
-        still = np.zeros((len(x), 3))
-        return _motion(self.start + x[:, None] * self.change, still + self.change, still)
-
-    def part(self, begin: float, finish: float) -> "ZyzPath":
-        """See `Turn`."""
-        return ZyzPath(self.triple_at(begin), (finish - begin) * self.change)
-
-
-@dataclass(frozen=True, slots=True)
-class ZyzCurve:
     """A path on which φ, θ and ψ are piecewise polynomials of x.
 
     Attributes:
@@ -71,9 +39,18 @@ class ZyzCurve:
         """See `OrientationPath`."""
         return travelled(self, max(64, 8 * len(self.angles.coefficients)))
 
+    def triple_at(self, x: float) -> Array:
+        """Return (φ, θ, ψ) at x; shape (3,), [rad]."""
+        triple: Array = self.angles.at(np.array([x]))[0]
+        return triple
+
     def at(self, x: Array) -> tuple[Array, Array, Array]:
         """See `OrientationPath`."""
         return _motion(*self.angles.rates_at(x))
+
+    def part(self, begin: float, finish: float) -> "ZyzPath":
+        """Return the part of a turn between two values of x; its angles are linear in x."""
+        return _polynomial(self.triple_at(begin), (finish - begin) * self.angles.coefficients[0, 1])
 
 
 def zyz_turns(rotations: Array, flips: Sequence[bool]) -> list[ZyzPath]:
@@ -83,10 +60,10 @@ def zyz_turns(rotations: Array, flips: Sequence[bool]) -> list[ZyzPath]:
         rotations: Orientations; shape (M + 1, 3, 3).
         flips: Whether θ changes its sign, for each of the M turns.
     """
-    return [ZyzPath(first, last - first) for first, last in pairwise(zyz_triples(rotations, flips))]
+    return [_polynomial(first, last - first) for first, last in pairwise(zyz_triples(rotations, flips))]
 
 
-def zyz_spline(rotations: Array, knots: Array, flips: Sequence[bool]) -> ZyzCurve:
+def zyz_spline(rotations: Array, knots: Array, flips: Sequence[bool]) -> ZyzPath:
     """Return the natural cubic spline of the angles: C², and linear if there are only two orientations.
 
     Args:
@@ -94,21 +71,17 @@ def zyz_spline(rotations: Array, knots: Array, flips: Sequence[bool]) -> ZyzCurv
         knots: Values of x at the orientations, increasing from 0 to 1; shape (M + 1,).
         flips: Whether θ changes its sign, for each of the M intervals.
     """
-    return ZyzCurve(cubic_spline(np.asarray(knots, dtype=float), zyz_triples(rotations, flips), "natural").motion)
+    return ZyzPath(cubic_spline(np.asarray(knots, dtype=float), zyz_triples(rotations, flips), "natural").motion)
 
 
-def zyz_corner(entry: Array, corner: Array, leaving: Array) -> ZyzCurve:
+def zyz_corner(entry: Array, corner: Array, leaving: Array) -> ZyzPath:
     """Return the turn over a corner, a parabola in the angles: c + (1 - u)² (e - c) + u² (l - c).
 
-    As with the parabola of positions, its rates at both ends are those of the turns that it connects.
-
-    Args:
-        entry: e, the triple at A', where the blend begins; shape (3,), [rad].
-        corner: c, the triple at B, which is not reached; shape (3,), [rad].
-        leaving: l, the triple at C', where the blend ends; shape (3,), [rad].
+    As with the parabola of positions, its rates at both ends are those of the turns that it connects. The triples, of
+    shape (3,), [rad], are those at A', where the blend begins, at B, and at C', where it ends.
     """
     a, b = entry - corner, leaving - corner
-    return ZyzCurve(PiecewisePolynomial(np.array([0.0, 1.0]), np.array([[entry, -2.0 * a, a + b]])))
+    return _polynomial(entry, -2.0 * a, a + b)
 
 
 def zyz_triples(rotations: Array, flips: Sequence[bool]) -> Array:
@@ -121,17 +94,15 @@ def zyz_triples(rotations: Array, flips: Sequence[bool]) -> Array:
     triples = zyz_from_rotations(rotations)
     other = np.logical_xor.accumulate(np.array([False, *flips]))
     triples[other] = triples[other] * [1.0, -1.0, 1.0] + [math.pi, 0.0, math.pi]
-    _settle(triples, _degenerate(rotations))
+    _settle(triples, np.hypot(rotations[:, 0, 2], rotations[:, 1, 2]) <= _DEGENERATE)
     for before, triple in pairwise(triples):
         for i in (0, 2):
             triple[i] = before[i] + math.remainder(triple[i] - before[i], 2.0 * math.pi)
     return triples
 
 
-def _degenerate(rotations: Array) -> Flags:
-    """Return at which orientations only φ + ψ or φ - ψ is determined; shape (N,)."""
-    flat: Flags = np.hypot(rotations[:, 0, 2], rotations[:, 1, 2]) <= _DEGENERATE
-    return flat
+def _polynomial(*coefficients: Array) -> ZyzPath:
+    return ZyzPath(PiecewisePolynomial(np.array([0.0, 1.0]), np.array([coefficients])))
 
 
 def _settle(triples: Array, flat: Flags) -> None:
@@ -139,14 +110,10 @@ def _settle(triples: Array, flat: Flags) -> None:
     first = int(np.argmin(flat))
     for i in (*range(first - 1, -1, -1), *range(first + 1, len(triples))):
         if flat[i]:
-            _move_phi(triples[i], triples[i + 1 if i < first else i - 1][0])
-
-
-def _move_phi(triple: Array, phi: float) -> None:
-    """Change φ of a degenerate triple, keeping φ + ψ if θ = 0 and φ - ψ if θ = π."""
-    sign = 1.0 if math.cos(triple[1]) > 0.0 else -1.0
-    triple[2] += sign * (triple[0] - phi)
-    triple[0] = phi
+            phi, triple = triples[i + 1 if i < first else i - 1][0], triples[i]
+            # φ + ψ stays if θ = 0, φ - ψ if θ = π.
+            triple[2] += math.copysign(1.0, math.cos(triple[1])) * (triple[0] - phi)
+            triple[0] = phi
 
 
 def _motion(triples: Array, rates: Array, changes: Array) -> tuple[Array, Array, Array]:

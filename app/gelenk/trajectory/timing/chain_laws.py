@@ -12,8 +12,7 @@ import numpy as np
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.jerk_limited import jerk_limited
-from gelenk.trajectory.motion.composition import derivatives
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, derivatives, joined
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.paths.path_geometry import ORDERS, LimitedPath, Slopes, of_order, ratios
 
@@ -26,9 +25,9 @@ _CRUISES, _SLOWEST, _CAPS, _HALVINGS = 3, 32.0, 11, 4
 _STEP = 2.0
 """Largest factor by which the speeds at both ends are lowered in one round, if no law connects them."""
 _ROUNDS = 60
-_KEPT = 1e-6
+_EXCESS = 1e-6
 """Excess over a limit that a final uniform scaling removes."""
-_ENOUGH = 1.0 + _KEPT
+_ENOUGH = 1.0 + _EXCESS
 _NO_LENGTH = 1e-9
 """Least length of a line between two blends, in fractions of the path."""
 
@@ -69,9 +68,7 @@ class _Chain:
         """Return the law of a line between two speeds, not both zero, and the k that must still slow it down."""
         if self.count is None:
             return self._least_jerk(begin, end, speeds)
-        duration, factor = self._shortest(begin, end, speeds)
-        c = _pieces(self.count, np.array([[begin], [end]]), speeds[:, None], np.array([duration]))
-        return PiecewisePolynomial(np.array([0.0, duration]), c), factor
+        return self._shortest(begin, end, speeds, self.count)
 
     def _least_jerk(self, begin: float, end: float, speeds: Array) -> tuple[PiecewisePolynomial | None, float]:
         """Return the shortest jerk-limited profile within limits, of several cruise speeds and caps, and its k."""
@@ -101,7 +98,7 @@ class _Chain:
         good_laws = [law for law, factor in found if factor <= _ENOUGH]
         if good_laws:
             return min(good_laws, key=lambda law: law.duration), 1.0
-        return None, float(np.clip(min((factor for _, factor in found), default=_STEP), 1.0 + 2.0 * _KEPT, _STEP))
+        return None, float(np.clip(min((factor for _, factor in found), default=_STEP), 1.0 + 2.0 * _EXCESS, _STEP))
 
     def _under(self, start: Array, end: Array, limits: Array) -> tuple[PiecewisePolynomial | None, float]:
         """Return the jerk-limited profile from one state to another, if any, and its k; ∞ if it turns back."""
@@ -112,18 +109,20 @@ class _Chain:
         factors = self._needed(law.coefficients, np.diff(law.breaks), _INSTANTS // 4, limits[0, 0])
         return law, float(factors.max())
 
-    def _shortest(self, begin: float, end: float, speeds: Array) -> tuple[float, float]:
-        """Return the least duration of a polynomial between two speeds, and the k that must still slow it down."""
-        assert self.count is not None  # noqa: S101 - only called with a count
+    def _shortest(self, begin: float, end: float, speeds: Array, count: int) -> tuple[PiecewisePolynomial, float]:
+        """Return the shortest polynomial between two speeds, and the k that must still slow it down."""
+        starts, ends = np.zeros((2, count, 1, 1))
+        starts[:2, 0, 0], ends[:2, 0, 0] = (begin, speeds[0]), (end, speeds[1])
         low, high = (end - begin) / self.even_speeds(begin, end).max(), 3.0 * (end - begin) / speeds.max()
         for _ in range(_ZOOMS):
             durations = np.geomspace(min(low, high), high, _DURATIONS)
-            c = _pieces(self.count, np.array([[begin], [end]]), speeds[:, None], durations)
-            factors = self._needed(c, durations, _INSTANTS, speeds.max())
+            pieces = hermite_pieces(starts, ends, durations)
+            factors = self._needed(pieces, durations, _INSTANTS, speeds.max())
             good = np.flatnonzero(factors <= 1.0)
             i = int(good[0]) if len(good) else int(factors.argmin())
             low, high = durations[max(i - 1, 0)], durations[i if len(good) else min(i + 1, _DURATIONS - 1)]
-        return float(durations[i]), max(1.0, float(factors[i]))
+        law = PiecewisePolynomial(np.array([0.0, durations[i]]), hermite_pieces(starts, ends, durations[i : i + 1]))
+        return law, max(1.0, float(factors[i]))
 
     def _needed(self, pieces: Array, durations: Array, count: int, speed: float) -> Array:
         """Return the k that must slow down each polynomial, ∞ if it turns back, from `count` instants; shape (K,)."""
@@ -131,15 +130,8 @@ class _Chain:
         rows = np.repeat(pieces, count, axis=0)
         law = [values.reshape(t.shape) for values in derivatives(rows, t.reshape(-1, 1))]
         factors: Array = self.factors(*law).max(axis=1)
-        factors[law[1].min(axis=1) < -_KEPT * speed] = np.inf
+        factors[law[1].min(axis=1) < -_EXCESS * speed] = np.inf
         return factors
-
-
-def _pieces(count: int, places: Array, speeds: Array, durations: Array) -> Array:
-    """Return polynomials between places, (2, K), with given speeds there and durations; shape (K, 2 count, 1)."""
-    ends = np.zeros((2, count, len(durations), 1))
-    ends[:, 0, :, 0], ends[:, 1, :, 0] = places, speeds
-    return hermite_pieces(ends[0], ends[1], durations)
 
 
 def chain_law(geometry: LimitedPath, count: int | None) -> PiecewisePolynomial | None:
@@ -166,16 +158,14 @@ def chain_law(geometry: LimitedPath, count: int | None) -> PiecewisePolynomial |
         for i, (first, last) in enumerate(lines.tolist()):
             law, factor = chain.line(first, last, speeds[i : i + 2])
             laws.append(law)
-            if factor > 1.0 + _KEPT:
+            if factor > 1.0 + _EXCESS:
                 speeds[i : i + 2] /= factor
         if (speeds == before).all():
             break
     else:
         return None
-    parts = [law for law in laws if law is not None]
-    if len(parts) < len(laws):
-        return None
-    for i, ((first, last), speed) in reversed(list(enumerate(zip(corners.tolist(), speeds[1:-1], strict=True)))):
+    parts = laws[:1]
+    for (first, last), speed, law in zip(corners.tolist(), speeds[1:-1], laws[1:], strict=True):
         even = PiecewisePolynomial(np.array([0.0, (last - first) / speed]), np.array([[[first], [speed]]]))
-        parts.insert(i + 1, even)
-    return joined(parts)
+        parts += [even, law]
+    return joined([part for part in parts if part is not None]) if all(laws) else None

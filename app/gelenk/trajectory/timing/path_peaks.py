@@ -6,14 +6,13 @@ exceed the largest value found by sampling are examined closely.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TypeAlias, cast
 
 import numpy as np
 
 from gelenk.robot.arrays import Array, Indices
-from gelenk.trajectory.motion.composition import derivatives
 from gelenk.trajectory.motion.extremes import candidates
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, derivatives
 from gelenk.trajectory.paths.path_geometry import (
     ACCELERATION,
     JOINTS,
@@ -25,7 +24,6 @@ from gelenk.trajectory.paths.path_geometry import (
     subdivided,
     tip_ratios,
 )
-from gelenk.trajectory.paths.paths import Path
 from gelenk.trajectory.problem.problem import SegmentLimits
 
 Ratios: TypeAlias = Callable[[Indices, Array], Array]
@@ -68,8 +66,7 @@ class PathPeaks:
         i = int(self._factors().argmax())
         if i < JOINTS:
             joint = int(self.joints[i])
-            values = (limits.velocity, limits.acceleration, limits.jerk)[i]
-            return f"joint {joint + 1} reaches its limit of {QUANTITIES[i]}, {values[joint]:g}"
+            return f"joint {joint + 1} reaches its limit of {QUANTITIES[i]}, {limits.joints[i, joint]:g}"
         if in_blends and i == JOINTS + ACCELERATION:
             return "the tip reaches its limit of acceleration, its own or that of a blend"
         tip = limits.tip
@@ -99,8 +96,7 @@ def peaks_of(
         with_joints: Whether to consider the joints; the tip always counts if it has limits.
     """
     found, joints = np.zeros(len(QUANTITIES)), np.zeros(JOINTS, dtype=np.int64)
-    limits = geometry.limits
-    for order, limit in enumerate((limits.velocity, limits.acceleration, limits.jerk)[: 3 if with_jerk else 2]):
+    for order, limit in enumerate(geometry.limits.joints[: 3 if with_jerk else 2]):
         if with_joints:
             found[order], joints[order] = _largest(motion.derivative(order + 1), limit)
     if geometry.limits_tip:
@@ -130,14 +126,13 @@ def _largest(values: PiecewisePolynomial, limits: Array) -> tuple[float, int]:
 def _of_tip(geometry: LimitedPath, motion: PiecewisePolynomial, law: PiecewisePolynomial) -> Array:
     """Return the tip's largest ratios; shape (4,)."""
     widths = np.diff(motion.breaks)
-    along = cut(law, motion.breaks)
-    places = geometry.piece_of(derivatives(along, 0.5 * widths[:, None])[0][:, 0])
-    if geometry.tip_motion is not None:
-        ratios = _through_joints(geometry.tip_motion, motion, geometry.tip_bounds(places))
-    elif geometry.path is not None:
-        ratios = _along_path(geometry, geometry.path, along, places)
-    else:
-        return np.zeros(len(QUANTITIES) - JOINTS)
+    middles = law.at(motion.breaks[:-1] + 0.5 * widths)[:, 0]
+    tip_motion, bounds = cast(TipMotion, geometry.tip_motion), geometry.tip_bounds(geometry.piece_of(middles))
+
+    def ratios(piece: Indices, local: Array) -> Array:
+        rates = derivatives(motion.coefficients[piece], local[:, None], 2)
+        return tip_ratios(*tip_motion(*rates), bounds[piece])
+
     piece, within, steps = subdivided(widths, _SAMPLES, _LEAST_SAMPLES)
     found = ratios(piece, within * widths[piece] / steps)
     largest: Array = found.max(axis=0)
@@ -163,28 +158,6 @@ def _refined(ratios: Ratios, piece: Indices, columns: Indices, low: Array, high:
     return result
 
 
-def _through_joints(tip_motion: TipMotion, motion: PiecewisePolynomial, bounds: Array) -> Ratios:
-    """Return a function for the tip's ratios, computed from the joints' motion; bounds of shape (M, 4)."""
-
-    def ratios(piece: Indices, local: Array) -> Array:
-        rates = derivatives(motion.coefficients[piece], local[:, None])
-        return tip_ratios(*tip_motion(*rates[:3]), bounds[piece])
-
-    return ratios
-
-
-def _along_path(geometry: LimitedPath, path: Path, law: Array, places: Indices) -> Ratios:
-    """Return a function for the tip's ratios along the path; shapes (M, d + 1, 1) of `law` and (M,) of `places`."""
-    bounds = geometry.tip_bounds(places)
-
-    def ratios(piece: Indices, local: Array) -> Array:
-        s, v, a, _ = derivatives(law[piece], local[:, None])
-        first, second = geometry.along(path, places[piece], s[:, 0])
-        return tip_ratios(first * v, first * a + second * v**2, bounds[piece])
-
-    return ratios
-
-
 def _promising(found: Array, within: Indices, steps: Indices) -> tuple[Indices, Indices]:
     """Return rows and columns around which to expect the largest values between samples; shape (N, 4) → (K,) each.
 
@@ -201,5 +174,5 @@ def _promising(found: Array, within: Indices, steps: Indices) -> tuple[Indices, 
         heights = np.where(rises, at + vertex * (slope - 0.5 * bend * vertex), 0.0)
     chosen = np.argsort(heights, axis=0)[-_CANDIDATES:]
     columns = np.broadcast_to(np.arange(found.shape[1]), chosen.shape)
-    kept = np.take_along_axis(heights, chosen, axis=0) > found.max(axis=0) * (1.0 - _DOUBT)
-    return rows[chosen[kept]], columns[kept]
+    is_near = np.take_along_axis(heights, chosen, axis=0) > found.max(axis=0) * (1.0 - _DOUBT)
+    return rows[chosen[is_near]], columns[is_near]

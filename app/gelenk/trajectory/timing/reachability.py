@@ -28,25 +28,25 @@ class Stages:
         upper: Offsets and slopes of the lines in x that bound u from above, ∞ and 0 for none; shape (2, N, m).
         lower: The same for those that bound u from below, -∞ and 0 for none.
         highest: Largest x at the start of each interval from which the motion can continue; shape (N,).
-        kept: Smallest fraction of x that must be left at the end of each interval; shape (N,).
+        least_shares: Smallest fraction of x that must be left at the end of each interval; shape (N,).
     """
 
     lengths: Array
     upper: Array
     lower: Array
     highest: Array
-    kept: Array
+    least_shares: Array
 
 
-def stages(lengths: Array, alpha: Array, beta: Array, kept: Array) -> Stages:
+def stages(lengths: Array, alpha: Array, beta: Array, least_shares: Array) -> Stages:
     """Build the constraints of intervals from their rows αu + βx ≤ 1.
 
     Args:
         lengths: Δ > 0; shape (N,).
         alpha: α; shape (N, m).
         beta: β; shape (N, m).
-        kept: Smallest fraction of x to leave at the end of an interval, from 0 to 1; shape (N,). Without it, where q'
-            of a joint changes sign, the largest x may be one from which the motion can only stop.
+        least_shares: Smallest fraction of x to leave at the end of an interval, from 0 to 1; shape (N,). Without it,
+            where q' of a joint changes sign, the largest x may be one from which the motion can only stop.
     """
     is_without = np.abs(alpha) <= _NO_WEIGHT * np.abs(alpha).max(axis=1, keepdims=True)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -55,10 +55,10 @@ def stages(lengths: Array, alpha: Array, beta: Array, kept: Array) -> Stages:
     is_above, is_below = ~is_without & (alpha > 0.0), ~is_without & (alpha < 0.0)
     upper = np.stack((np.where(is_above, offsets, np.inf), np.where(is_above, slopes, 0.0)))
     lower = np.stack((np.where(is_below, offsets, -np.inf), np.where(is_below, slopes, 0.0)))
-    # x_i + 2Δu ≥ kept x_i.
-    onward = np.stack((np.zeros_like(lengths), -0.5 * (1.0 - kept) / lengths))[:, :, None]
+    # x_i + 2Δu ≥ share x_i.
+    onward = np.stack((np.zeros_like(lengths), -0.5 * (1.0 - least_shares) / lengths))[:, :, None]
     highest = _highest(upper, np.concatenate((lower, onward), axis=2), np.minimum(bounds.min(axis=1), _UNBOUNDED))
-    return Stages(lengths, upper, lower, highest, kept)
+    return Stages(lengths, upper, lower, highest, least_shares)
 
 
 def _highest(upper: Array, lower: Array, x: Array) -> Array:
@@ -84,38 +84,38 @@ def _highest(upper: Array, lower: Array, x: Array) -> Array:
     return x
 
 
-def controllable(course: Stages, caps: Array) -> Array:
+def controllable(constraints: Stages, end: float) -> Array:
     """Return the largest x at each node from which the end can be reached; shape (N + 1,).
 
     Args:
-        course: Constraints of the intervals.
-        caps: Further upper bound of x at each node; shape (N + 1,).
+        constraints: Constraints of the intervals.
+        end: Largest x at the end.
     """
-    most: Array = np.minimum(np.append(course.highest, np.inf), caps)
-    halves = 0.5 / course.lengths
-    climb = course.lower[1] + halves[:, None]
+    most: Array = np.append(constraints.highest, end)
+    halves = 0.5 / constraints.lengths
+    climb = constraints.lower[1] + halves[:, None]
     with np.errstate(divide="ignore"):
         gains = np.where(climb > 0.0, 1.0 / climb, np.inf)
-    offsets = course.lower[0]
-    for i in range(len(course.lengths) - 1, -1, -1):
+    offsets = constraints.lower[0]
+    for i in range(len(constraints.lengths) - 1, -1, -1):
         # No faster than the motion can brake to the largest x of the next node.
         most[i] = min(most[i], ((most[i + 1] * halves[i] - offsets[i]) * gains[i]).min())
-        if course.kept[i] > 0.0:
-            most[i] = min(most[i], most[i + 1] / course.kept[i])
+        if constraints.least_shares[i] > 0.0:
+            most[i] = min(most[i], most[i + 1] / constraints.least_shares[i])
     return most
 
 
-def fastest(course: Stages, most: Array, start: float) -> Array:
+def fastest(constraints: Stages, most: Array, start: float) -> Array:
     """Return x at each node for the largest u in every interval that keeps x within bounds; shape (N + 1,).
 
     Args:
-        course: Constraints of the intervals.
+        constraints: Constraints of the intervals.
         most: Largest x at each node; shape (N + 1,).
         start: Largest x at the first node.
     """
     x = min(start, most[0])
     found = [x]
-    for twice, offsets, slopes, upper in zip(2.0 * course.lengths, *course.upper, most[1:], strict=True):
+    for twice, offsets, slopes, upper in zip(2.0 * constraints.lengths, *constraints.upper, most[1:], strict=True):
         u = (offsets + slopes * x).min()
         x = max(min(x + twice * u, upper), 0.0)
         found.append(x)

@@ -18,7 +18,7 @@ from typing import TypeAlias
 import numpy as np
 
 from gelenk.errors import InvalidField, TooLarge
-from gelenk.robot.arrays import Array, Flags
+from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.time_scaling import LARGEST, check_limits
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, composed, cut
 from gelenk.trajectory.timing.reachability import controllable, fastest, stages
@@ -32,21 +32,16 @@ LARGEST_PATH = 100_000
 MARGIN = 1e-9
 """Fraction of each limit that is reserved for rounding errors."""
 _LEAST_INTERVALS = 4
-"""Least number of intervals per piece of the path, to leave room between corners."""
+"""Least number of intervals per piece of the path."""
 _NO_LENGTH = 1e-13
 _STILL = 1e-12
-_JUMP, _EXACT = 1e-9, 1e-12
-"""Largest jump of q that counts as rounding: as a fraction of the largest travel, or absolute, [rad or m], if larger;
-the absolute value is the best accuracy with which joints follow a path."""
-_CORNER = 1e-7
-"""Jump of q', as a fraction of the largest |q'|, above which it counts as a corner."""
 _CHANGE = 0.25
 """Relative change of q' above which an interval is cut."""
 _MOST_PARTS = 8
 _NEAR = 1e-3
-"""Distance of an extra node from each stop, as a fraction of an interval, to resolve u there."""
-_KEPT = 0.5
-"""Least ṡ² left after an interval, as a fraction of what uniform braking to the next stop leaves."""
+"""Distance of an extra node from each end, as a fraction of an interval, to resolve u there."""
+_LEAST_SHARE = 0.5
+"""Least ṡ² left after an interval, as a fraction of what uniform braking to the end leaves."""
 _SWITCH = 0.02
 """Change of u, as a fraction of the largest |u|, that counts as a switch."""
 
@@ -71,14 +66,12 @@ class _Task:
     Attributes:
         path: q(s).
         limits: Limits of velocity and acceleration, less the margin; shape (2, n).
-        is_corner: Whether the motion has to stop at each break; shape (M + 1,).
         most_at_ends: Largest ṡ² at the start and the end: 0, or ∞ where q' = 0, so that the joints rest at any ṡ.
         rows: Further constraints, if any.
     """
 
     path: PiecewisePolynomial
     limits: Array
-    is_corner: Flags
     most_at_ends: tuple[float, float]
     rows: Rows | None
 
@@ -93,10 +86,10 @@ def time_optimal(
 ) -> TimeOptimal:
     """Plan the fastest motion along a path from rest to rest; the limits are kept everywhere.
 
-    The motion stops at corners, where q' jumps. Where q'' jumps, the acceleration may jump too.
+    Where q'' jumps, the acceleration may jump too.
 
     Args:
-        path: q(s), without jumps.
+        path: q(s), with continuous q'.
         velocity: Velocity limit of each joint; shape (n,), [rad/s or m/s].
         acceleration: Acceleration limit of each joint; shape (n,), [rad/s² or m/s²].
         intervals: Approximate number of intervals, at least four per piece of the path. More come nearer to the
@@ -108,7 +101,7 @@ def time_optimal(
         The motion, starting at time 0; along a path of zero length (≤ 1e-13), one piece whose two breaks coincide.
 
     Raises:
-        InvalidField: A limit is out of range, or the path jumps or stands still.
+        InvalidField: A limit is out of range, or the path stands still.
         TooLarge: The path has too many pieces.
     """
     check_limits((velocity, acceleration))
@@ -147,24 +140,16 @@ def _task(path: PiecewisePolynomial, travels: Array, limits: Array, further: Row
         raise InvalidField(
             "path", f"does not move from s = {path.breaks[i]:g} to {path.breaks[i + 1]:g}: leave that out"
         )
-    jumps = np.abs(_at_ends(unit)[1][:-1] - _at_ends(unit)[0][1:]).max(axis=1, initial=0.0)
-    if (jumps > max(_JUMP * travels.max(), _EXACT)).any():
-        raise InvalidField("path", f"jumps at s = {path.breaks[1 + int(np.argmax(jumps))]:g}")
-    before, after = _at_ends(unit.derivative())
-    steepest = np.abs(np.concatenate((before, after))).max()
-    is_corner = np.abs(after[:-1] - before[1:]).max(axis=1, initial=0.0) > _CORNER * steepest
-    start, end = (np.inf if np.abs(slope).max() <= _STILL * steepest else 0.0 for slope in (before[0], after[-1]))
-    return _Task(unit, limits, np.concatenate(([False], is_corner, [False])), (start, end), further)
-
-
-def _at_ends(path: PiecewisePolynomial) -> tuple[Array, Array]:
-    """Return values at the start and at the end of each piece; shape (M, n) each."""
-    powers = np.diff(path.breaks)[:, None] ** np.arange(path.coefficients.shape[1])
-    return path.coefficients[:, 0], np.einsum("mk,mkj->mj", powers, path.coefficients)
+    slopes = unit.derivative()
+    powers = np.diff(slopes.breaks)[:, None] ** np.arange(slopes.coefficients.shape[1])
+    before, after = slopes.coefficients[:, 0], np.einsum("mk,mkj->mj", powers, slopes.coefficients)
+    still = _STILL * np.abs(np.concatenate((before, after))).max()
+    start, end = (np.inf if np.abs(slope).max() <= still else 0.0 for slope in (before[0], after[-1]))
+    return _Task(unit, limits, (start, end), further)
 
 
 def _nodes(task: _Task, travels: Array, intervals: int) -> Array:
-    """Choose nodes: evenly spaced within a piece, more in pieces that are long or take long, and extra near stops."""
+    """Choose nodes: evenly spaced within a piece, more in pieces that are long or take long, and one near each end."""
     breaks = task.path.breaks
     times = (travels / task.limits[0]).max(axis=1)
     shares = 0.5 * (np.diff(breaks) + times / times.sum())
@@ -174,25 +159,20 @@ def _nodes(task: _Task, travels: Array, intervals: int) -> Array:
     spans = zip(breaks[:-1], breaks[1:], counts, strict=True)
     nodes = np.concatenate([*(np.linspace(a, b, count, endpoint=False) for a, b, count in spans), breaks[-1:]])
     steps = _NEAR * np.diff(breaks) / counts
-    is_stop = task.is_corner | (np.abs(breaks - 0.5) == 0.5)
-    near = np.concatenate(((breaks[:-1] + steps)[is_stop[:-1]], (breaks[1:] - steps)[is_stop[1:]]))
-    return np.union1d(nodes, near)
+    return np.union1d(nodes, [breaks[0] + steps[0], breaks[-1] - steps[-1]])
 
 
 def _squared_speeds(task: _Task, nodes: Array) -> Array:
     """Return x = ṡ² of the fastest motion at each node; shape (N + 1,)."""
     lengths = np.diff(nodes)
-    stops = np.append(task.path.breaks[task.is_corner], 1.0)
-    next_stops = stops[np.searchsorted(stops, nodes[:-1], side="right")]
-    kept = _KEPT * (next_stops - nodes[1:]) / (next_stops - nodes[:-1])
+    least_shares = _LEAST_SHARE * (1.0 - nodes[1:]) / (1.0 - nodes[:-1])
     alpha, beta = _rows(cut(task.path, nodes), lengths, task.limits)
     if task.rows is not None:
         more = task.rows(nodes)
         alpha, beta = np.hstack((alpha, more[0])), np.hstack((beta, more[1]))
-    course = stages(lengths, alpha, beta, kept)
-    caps = np.where(np.isin(nodes, stops[:-1]), 0.0, np.inf)
-    caps[-1] = task.most_at_ends[1]
-    return fastest(course, controllable(course, caps), task.most_at_ends[0])
+    constraints = stages(lengths, alpha, beta, least_shares)
+    start, end = task.most_at_ends
+    return fastest(constraints, controllable(constraints, end), start)
 
 
 def _rows(pieces: Array, lengths: Array, limits: Array) -> tuple[Array, Array]:
