@@ -214,7 +214,8 @@ class _Examination:
             return None
         lowest, lowest_times = extremes(self.pieces.negated(), 0)
         highest, highest_times = extremes(self.pieces, 0)
-        below, above = -lowest - lower, upper - highest
+        # 0 - 0 is 0, and the opposite of 0 is -0.
+        below, above = 0.0 - lowest - lower, upper - highest
         bound: Literal["lower", "upper"] = "lower" if below.min() < above.min() else "upper"
         distances, times = (below, lowest_times) if bound == "lower" else (above, highest_times)
         joint = int(distances.argmin())
