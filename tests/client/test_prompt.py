@@ -8,7 +8,9 @@ import pytest
 
 from gelenk.client import AsyncClient, Client
 from gelenk.client.refusals import Refused
+from gelenk.contract.encoder import EncoderAnswer
 from gelenk.contract.pose import Pose
+from gelenk.course.actuators.quadrature import decoded, read_samples
 from gelenk.errors import InvalidField
 from tests.corpus import zips
 
@@ -108,3 +110,11 @@ def test_a_file_is_told_by_its_path_in_any_form(gelenk: Client, tmp_path: Any) -
     gelenk.remove_robot("by_text")
     with pytest.raises(FileNotFoundError, match=r"none\.zip"):
         gelenk.add_archive("by_text", "none.zip")
+
+
+def test_a_part_of_an_answer_is_shown_in_short_too() -> None:
+    moved = decoded(read_samples("00 10 11 01 " * 250, "samples"), "x4")
+    answer = EncoderAnswer(resolution=None, required=None, quadrature=moved, absolute=None, steps=[])
+    assert "counts=[0, 1, 2, ... 1000 in all]" in repr(answer)
+    assert len(repr(answer)) < 300
+    assert "register_value" not in repr(answer)  # which it does not have

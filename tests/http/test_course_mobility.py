@@ -22,7 +22,7 @@ def count(client: TestClient, **body: Any) -> dict[str, Any]:
     answer = client.post(PATH, json=body)
     assert answer.status_code == 200, answer.text
     content: dict[str, Any] = answer.json()
-    MobilityAnswer.model_validate(content, strict=True)
+    MobilityAnswer.model_validate_json(answer.content, strict=True)
     return content
 
 

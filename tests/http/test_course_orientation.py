@@ -23,7 +23,7 @@ def converted(client: TestClient, **body: Any) -> dict[str, Any]:
     answer = client.post(PATH, json=body)
     assert answer.status_code == 200, answer.text
     content: dict[str, Any] = answer.json()
-    OrientationAnswer.model_validate(content, strict=True)
+    OrientationAnswer.model_validate_json(answer.content, strict=True)
     assert content["certificate"]["max_rotation_error"] < 1e-13
     return content
 

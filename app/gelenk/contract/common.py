@@ -1,7 +1,7 @@
 """The strict base of all payloads, and types that many of them share."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Annotated, Any, TypeAlias
 
 import numpy as np
@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
 from gelenk.robot.arrays import Array
+from gelenk.robot.result import Result
 
 
 def as_lists(value: Any) -> Any:
@@ -73,6 +74,10 @@ class _Brief:
             return f"[{', '.join([*shown, f'... {len(value)} in all'] if many else shown)}]"
         if isinstance(value, dict):
             return "{" + ", ".join(f"{key!r}: {_Brief(item)!r}" for key, item in value.items()) + "}"
+        if isinstance(value, Result):
+            known = ((one.name, getattr(value, one.name)) for one in fields(value))  # type: ignore[arg-type]
+            parts = ", ".join(f"{name}={_Brief(item)!r}" for name, item in known if item is not None)
+            return f"{type(value).__name__}({parts})"
         told = repr(value)
         return told if not isinstance(value, str) or len(told) <= _LONGEST_SHOWN else f"{told[:_LONGEST_SHOWN]}...'"
 

@@ -33,6 +33,7 @@ def run(call: DcMotorRequest) -> dict[str, Any]:
     voltage_residual, torque_residual = balance(*supply, point)
     start = (call.initial_current, call.initial_angular_velocity)
     exact = None if times is None else step_response(*supply, times, *start)
+    response = exact and {"times": times, "currents": exact.currents, "angular_velocities": exact.angular_velocities}
     return {
         "steady_state": point,
         "torque_speed_line": torque_speed_line(motor, call.voltage),
@@ -43,8 +44,7 @@ def run(call: DcMotorRequest) -> dict[str, Any]:
             "mechanical_time_constant": motor.mechanical_time_constant,
             "electrical_time_constant": motor.electrical_time_constant,
         },
-        "response": exact
-        and {"times": times, "currents": exact.currents, "angular_velocities": exact.angular_velocities},
+        "response": response,
         "steps": motor_steps(*supply, point),
         "warnings": motor_warnings(*supply, point),
         "certificate": {

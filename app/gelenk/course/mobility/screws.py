@@ -28,21 +28,14 @@ _DIRECTIONS = 1e-9
 _NOISE = 1e-13
 """Singular values up to this, relative to the largest, count as rounding whatever tolerance is requested."""
 _ROUNDING = 1e-11
+_POINT_AND_AXIS = ("revolute", "cylindrical", "sphere_in_groove", "point_contact", "pin_in_slot", "cam", "gear")
 _NEEDS: dict[str, tuple[str, ...]] = {
-    "revolute": ("point", "axis"),
-    "prismatic": ("axis",),
+    **dict.fromkeys(_POINT_AND_AXIS, ("point", "axis")),
+    **dict.fromkeys(("prismatic", "planar"), ("axis",)),
+    **dict.fromkeys(("spherical", "rolling"), ("point",)),
     "screw": ("point", "axis", "pitch"),
     "universal": ("point", "axis", "second_axis"),
-    "cylindrical": ("point", "axis"),
-    "spherical": ("point",),
-    "planar": ("axis",),
-    "sphere_in_groove": ("point", "axis"),
-    "point_contact": ("point", "axis"),
     "fixed": (),
-    "rolling": ("point",),
-    "pin_in_slot": ("point", "axis"),
-    "cam": ("point", "axis"),
-    "gear": ("point", "axis"),
 }
 _WHERE: dict[str, str] = {
     "axis": "a {kind} pair has no axis",

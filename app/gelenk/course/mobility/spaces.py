@@ -37,10 +37,7 @@ class TaskKind(Result):
 
 def tasks(n: int) -> tuple[TaskKind, ...]:
     """Return every kind of task, for a chain of n joints."""
-    return tuple(TaskKind(name, m, n - m, _solutions(n - m)) for name, m in DIMENSIONS.items())
-
-
-def _solutions(redundancy: int) -> Solutions:
-    if redundancy == 0:
-        return "finite"
-    return "none" if redundancy < 0 else "infinite"
+    return tuple(
+        TaskKind(name, m, n - m, "finite" if n == m else "none" if n < m else "infinite")
+        for name, m in DIMENSIONS.items()
+    )

@@ -10,12 +10,12 @@ SHOWN_JOINTS = 4
 _SHOWN_NUMBERS = 12
 
 
-def tex_polynomial(coefficients: Sequence[float], variable: str = "t") -> str:
-    """Format a polynomial, highest power first in formula and list; 0 if all coefficients are."""
+def tex_polynomial(coefficients: Sequence[float]) -> str:
+    """Format a polynomial in t, highest power first in formula and list; 0 if all coefficients are."""
     text = ""
     for power, value in zip(range(len(coefficients) - 1, -1, -1), coefficients, strict=True):
         if value != 0.0:
-            symbol = {0: "", 1: rf"\,{variable}"}.get(power, rf"\,{variable}^{{{power}}}")
+            symbol = {0: "", 1: r"\,t"}.get(power, rf"\,t^{{{power}}}")
             sign = "-" if value < 0.0 else "+" if text else ""
             text += f" {sign} " if text else sign
             text += tex(abs(value)) + symbol
