@@ -15,7 +15,7 @@ from fastapi.routing import iter_route_contexts
 from gelenk import __version__
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.endpoints import ENDPOINTS
-from gelenk.http import dispatch, documentation, studio
+from gelenk.http import dispatch, pages
 from gelenk.http.access.audit_log import AuditLog
 from gelenk.http.access.hosts import TrustedHosts, repeated
 from gelenk.http.access.keyring import Keyring
@@ -126,15 +126,15 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     special = {"derive_dh": derive_handler(pool, derivations)}
     for endpoint in ENDPOINTS:
         handler = special.get(endpoint.name) or dispatch.handler(endpoint, pool_client, runner, limits)
-        most_body = min(size, PARSED_HERE_BYTES) if endpoint.name in special else size
+        is_small = endpoint.name in special or getattr(endpoint, "is_job", False)
+        most_body = min(size, PARSED_HERE_BYTES) if is_small else size
         route = dispatch.route(endpoint, handler, most_body)
         app.router.routes.append(route)
         if isinstance(endpoint, RobotEndpoint):
             app.operations[endpoint.name] = route
     app.include_router(jobs_router(runner))
     app.include_router(service_router(readiness, metrics))
-    documentation.install(app)
-    studio.install(app)
+    pages.install(app)
     openapi.describe(app, bool(settings.api_keys))
     app.entry = _middleware(app, settings, metrics, audit)
     return app

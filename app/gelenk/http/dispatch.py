@@ -70,14 +70,7 @@ def find(context: Context, task_request: TaskRequest) -> Response:
 
 
 def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runner, limits: Limits) -> Handler:
-    """Return the handler of an endpoint's requests.
-
-    Args:
-        endpoint: The endpoint.
-        pool_client: Sends requests to workers.
-        runner: Runs jobs.
-        limits: Limits on the work for an answer.
-    """
+    """Return the handler of an endpoint's requests."""
     offered, accepted = _offered(endpoint), (JSON, NPY) if _has_npy_body(endpoint) else (JSON,)
     can_be_job, is_job = bool(getattr(endpoint, "job", "")), getattr(endpoint, "is_job", False)
 

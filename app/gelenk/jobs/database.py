@@ -66,11 +66,7 @@ class Database:
             self._connection = None
 
     def read(self, query: str, *values: str) -> list[JobRecord]:
-        """Return the jobs that a SELECT finds; `values` replace its question marks.
-
-        Raises:
-            StorageFailed: The file cannot be read.
-        """
+        """Return the jobs that a SELECT finds, or raise StorageFailed; `values` replace its question marks."""
         if _inode(self._path) is None:
             return []
         with self._lock, self._translating():
@@ -84,10 +80,8 @@ class Database:
     def transaction(self, is_durable: bool = True) -> Iterator[None]:
         """Run the context as one transaction, which excludes all other writers.
 
-        If it is durable, the changes are on disk when the context ends; otherwise the system decides when.
-
-        Raises:
-            StorageFailed: The file cannot be written; `StorageFull` if the disk has no room.
+        If it is durable, the changes are on disk when the context ends. If the file cannot be written, it raises
+        StorageFailed, or StorageFull without room on the disk.
         """
         with self._lock, self._translating():
             connection = self._open()

@@ -261,11 +261,7 @@ def _probed() -> None:
 
 
 def _computed(code: str, function: Callable[[Any], Any], argument: Any) -> Any:
-    """Compute a part on a machine of the cluster.
-
-    Raises:
-        ChildProcessError: The machine has another version of the service, which might compute something else.
-    """
+    """Compute a part on a machine of the cluster; ChildProcessError if that has another version of the service."""
     if code != code_digest():
         raise ChildProcessError("a machine of the Ray cluster has another version of the service")
     return function(argument)

@@ -77,13 +77,7 @@ class WorkspaceWork:
 def question(name: str, robot: RobotModel, chain: Chain, wish: Wish, over: Over, count: int) -> WorkspaceWork:
     """Check a request and plan its computation, so that errors are reported before a job is created.
 
-    Args:
-        name: Name of the robot.
-        robot: The robot.
-        chain: The chain.
-        wish: The requested options.
-        over: What the orientations of a dexterity map cover.
-        count: Number of orientations of a dexterity map.
+    `over` and `count` say what the orientations of a dexterity map cover, and how many there are.
 
     Raises:
         InvalidField: A value is not allowed.
@@ -131,11 +125,7 @@ def work_of(asked: WorkspaceWork) -> Work:
 
 
 def _put_together(job: tuple[WorkspaceWork, Parts, str | None]) -> Workspace | None:
-    """Combine the parts and write the result files, in a process of its own.
-
-    Returns:
-        For a dexterity map, which is computed next, the workspace instead; no files are written.
-    """
+    """Combine the parts and write the result files, in a process of its own; of a dexterity map return them instead."""
     asked, parts, digest = job
     survey = Survey(asked.plan)
     for part in parts.of(_SAMPLES, asked.plan.parts):

@@ -182,8 +182,7 @@ class Library:
     def state(self) -> int | None:
         """Return a number that changes when a robot is added, replaced or removed; None while it could miss a change.
 
-        It is the folder's time of change, since every writer creates and removes a folder in it; its clock may be
-        coarse.
+        It is the time of change of the folder, in which every writer creates and removes a folder.
         """
         try:
             changed = self.uploads.stat().st_mtime_ns

@@ -56,11 +56,7 @@ class Key:
 
 
 def new_key(name: str, scopes: Collection[Scope]) -> tuple[str, Key]:
-    """Create a key; return the text that its owner sends, and what the service stores.
-
-    Raises:
-        InvalidKeys: The name is invalid, or no scope is given.
-    """
+    """Create a key; return the text that its owner sends, and what the service stores; raises InvalidKeys."""
     if not re.fullmatch(_NAME, name):
         raise InvalidKeys("a key's name is 1 to 32 letters, digits, '_' or '-', the first one a letter or digit")
     if not scopes:

@@ -28,18 +28,13 @@ class BlockingPoolClient:
         self._is_over = False
 
     def run(self, function: Callable[[_Argument], _Result], argument: _Argument, seconds: float) -> _Result:
-        """Run a function in a worker and return its result. Call it from one thread at a time, not the event loop's.
+        """Run a function in a worker and return its result; see `WorkerPool.run`, whose other errors it raises too.
 
-        Args:
-            function: Module-level function; its argument and its result must be picklable.
-            argument: Argument of the function.
-            seconds: Longest wait for a worker and the result together, [s].
+        Call it from one thread at a time, not the event loop's.
 
         Raises:
-            TimeoutError: The result does not come in time.
+            TimeoutError: The result does not come within `seconds`, which include the wait for a worker.
             ChildProcessError: The worker died, or the result is no longer needed.
-            KinematicsError: The pool accepts no more calls, as for `WorkerPool.run`.
-            Exception: Whatever the function raises.
         """
 
         async def call() -> _Result:
