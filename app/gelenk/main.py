@@ -126,7 +126,7 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     special = {"derive_dh": derive_handler(pool, derivations)}
     for endpoint in ENDPOINTS:
         handler = special.get(endpoint.name) or dispatch.handler(endpoint, pool_client, runner, limits)
-        is_small = endpoint.name in special or getattr(endpoint, "is_job", False)
+        is_small = endpoint.name in special or endpoint.is_job
         most_body = min(size, PARSED_HERE_BYTES) if is_small else size
         route = dispatch.route(endpoint, handler, most_body)
         app.router.routes.append(route)

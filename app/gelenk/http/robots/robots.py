@@ -176,10 +176,9 @@ class Keep:
     def _kept(self, library: Library, upload: RobotUpload) -> Response:
         if self.name is not None:
             library.replace(upload)
-            return json_response(info(library.get(upload.name)).model_dump(mode="json"))
-        created = library.add(upload)
-        location = {"Location": f"{self.root_path}/v1/robots/{upload.name}"}
-        return json_response(info(library.get(upload.name)).model_dump(mode="json"), 201 if created else 200, location)
+            return _robot_response(library, upload.name)
+        status = 201 if library.add(upload) else 200
+        return _robot_response(library, upload.name, status, {"Location": f"{self.root_path}/v1/robots/{upload.name}"})
 
 
 def _from_json(body: bytes, name: str | None) -> RobotUpload:
@@ -197,7 +196,11 @@ def _listed(context: Context, _: TaskRequest) -> Response:
 
 
 def _described(context: Context, task_request: TaskRequest) -> Response:
-    return json_response(info(context.library.get(task_request.robot)).model_dump(mode="json"))
+    return _robot_response(context.library, task_request.robot)
+
+
+def _robot_response(library: Library, name: str, status: int = 200, headers: dict[str, str] | None = None) -> Response:
+    return json_response(info(library.get(name)).model_dump(mode="json"), status, headers)
 
 
 def _urdf(context: Context, task_request: TaskRequest) -> Response:
