@@ -1,6 +1,5 @@
 """Check that a request has a key with the scope of its operation: `Authorization: Bearer gelenk.…`."""
 
-from concurrent.futures import ThreadPoolExecutor, wait
 from http import HTTPStatus
 
 from starlette.responses import Response
@@ -11,8 +10,6 @@ from gelenk.http.access.request_context import RequestContext
 from gelenk.http.access.route_table import UNKNOWN
 from gelenk.http.messages.problems import problem
 
-_PATIENCE = 0.5
-"""Longest wait of a request while the key file is checked, [s]."""
 _REALM = 'Bearer realm="gelenk"'
 
 
@@ -25,18 +22,13 @@ class KeyCheck:
 
     def __init__(self, keyring: Keyring) -> None:
         self._keyring = keyring
-        self._beside = ThreadPoolExecutor(1, thread_name_prefix="keys")
 
     def __call__(self, exchange: RequestContext) -> Response | None:
         """Return the refusal, or None to let the request pass."""
         operation = exchange.operation
         if operation.scope is None and operation is not UNKNOWN:
             return None
-        is_overdue = self._keyring.is_overdue
-        if self._keyring.is_due:
-            refreshing = self._beside.submit(self._keyring.refresh)
-            if is_overdue:  # first request after a quiet time; the file may be on a slow disk
-                wait((refreshing,), _PATIENCE)
+        self._keyring.refresh_if_due()
         scheme, _, token = exchange.headers.get(b"authorization", b"").decode("latin-1").partition(" ")
         if scheme.lower() != "bearer":
             return _unauthorised(exchange, "this needs a key: send it as `Authorization: Bearer gelenk.…`", _REALM)
