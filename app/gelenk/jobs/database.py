@@ -16,6 +16,8 @@ from contextlib import closing, contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 
+import orjson
+
 from gelenk.errors import StorageFailed, StorageFull
 from gelenk.jobs.job import JobRecord
 from gelenk.store import folders
@@ -23,6 +25,8 @@ from gelenk.store import folders
 NAMED = "SELECT * FROM jobs WHERE id = ?"
 _FILES = "jobs.sqlite", "jobs.sqlite-wal", "jobs.sqlite-shm", "jobs.sqlite-journal"
 """Names of the file, and of those that SQLite keeps beside it."""
+_EARLIER = "job.json"
+"""Name of the file of a job in earlier versions."""
 _BUSY_SECONDS = 20.0
 """Longest wait for a transaction of another process, which normally takes milliseconds, [s]."""
 _TABLE = """
@@ -164,6 +168,30 @@ class Database:
                 raise StorageFull(os.strerror(errno.ENOSPC)) from error
             folders.probe(self._folder)  # raises the system's more specific error if the disk is at fault
             raise StorageFailed(str(error)) from error
+
+
+def import_earlier(root: Path, database: Database) -> None:
+    """Move the records of jobs from earlier versions, each a file in its folder, into the table.
+
+    Their requests, parts and results stay where they are.
+    """
+    jobs = [job for path in root.glob(f"*/{_EARLIER}") if (job := _earlier(path)) is not None]
+    if jobs:
+        with database.transaction():
+            for job in sorted(jobs, key=lambda job: (job.number, job.created)):
+                if not database.read(NAMED, job.id):  # else an earlier import ended before it removed the file
+                    database.put(replace(job, number=0))
+    for job in jobs:
+        folders.sweep(root / job.id)
+        folders.discard(root / job.id / _EARLIER)
+
+
+def _earlier(path: Path) -> JobRecord | None:
+    with suppress(OSError, ValueError, TypeError, KeyError):
+        row = orjson.loads(folders.read_plain(path))
+        job = JobRecord.from_row({**row, "failure": row["failure"] and orjson.dumps(row["failure"])})
+        return job if job.id == path.parent.name else None
+    return None
 
 
 def _jobs(connection: sqlite3.Connection, query: str, values: tuple[str, ...]) -> list[JobRecord]:
