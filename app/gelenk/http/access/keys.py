@@ -1,5 +1,6 @@
 """Check that a request has a key with the scope of its operation: `Authorization: Bearer gelenk.…`."""
 
+from dataclasses import dataclass
 from http import HTTPStatus
 
 from starlette.responses import Response
@@ -13,26 +14,22 @@ from gelenk.http.messages.problems import problem
 _REALM = 'Bearer realm="gelenk"'
 
 
+@dataclass(frozen=True, slots=True)
 class KeyCheck:
-    """Refuses a request whose operation needs a key, unless it carries one with the right scope.
+    """Refuses a request whose operation needs a key, unless it carries one of the keyring with the right scope."""
 
-    Args:
-        keyring: Valid keys.
-    """
-
-    def __init__(self, keyring: Keyring) -> None:
-        self._keyring = keyring
+    keyring: Keyring
 
     def __call__(self, exchange: RequestContext) -> Response | None:
         """Return the refusal, or None to let the request pass."""
         operation = exchange.operation
         if operation.scope is None and operation is not UNKNOWN:
             return None
-        self._keyring.refresh_if_due()
+        self.keyring.refresh_if_due()
         scheme, _, token = exchange.headers.get(b"authorization", b"").decode("latin-1").partition(" ")
         if scheme.lower() != "bearer":
             return _unauthorised(exchange, "this needs a key: send it as `Authorization: Bearer gelenk.…`", _REALM)
-        key = self._keyring.find(token.strip())
+        key = self.keyring.find(token.strip())
         if key is None:
             return _unauthorised(
                 exchange, "the key is unknown to this service or has been revoked", f'{_REALM}, error="invalid_token"'
