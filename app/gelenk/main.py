@@ -122,7 +122,6 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     problems.install(app)
     size = settings.max_body_bytes
     app.include_router(robots_router(library, pool_client))
-    app.router.routes.extend(documented_routes(pool_client, size))
     special = {"derive_dh": derive_handler(pool, derivations)}
     for endpoint in ENDPOINTS:
         handler = special.get(endpoint.name) or dispatch.handler(endpoint, pool_client, runner, limits)
@@ -132,6 +131,7 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         app.router.routes.append(route)
         if isinstance(endpoint, RobotEndpoint):
             app.operations[endpoint.name] = route
+    app.router.routes.extend(documented_routes(pool_client, size))
     app.include_router(jobs_router(runner))
     app.include_router(service_router(readiness, metrics))
     pages.install(app)
