@@ -37,12 +37,7 @@ def main() -> None:
 
 
 def add(key: Key, file: Path) -> None:
-    """Add a key to a file; a new file can only be read by its owner.
-
-    Raises:
-        InvalidKeys: The file holds something else, or a key of this name.
-        OSError: The file cannot be written.
-    """
+    """Add a key to a file, perhaps a new one, which only its owner can read; raises InvalidKeys or OSError."""
     descriptor = os.open(file, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o600)
     with open(descriptor, "r+", encoding="utf-8") as stream:  # noqa: PTH123 - a descriptor
         text = stream.read()

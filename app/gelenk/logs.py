@@ -25,12 +25,7 @@ _LONGEST = 16_384
 
 
 def configuration(level: str, at_once: bool = False) -> dict[str, Any]:
-    """Return the configuration for `logging.config` and the server: all loggers, one handler.
-
-    Args:
-        level: The lowest level that is logged, one of `LEVELS`.
-        at_once: See `LineHandler`.
-    """
+    """Return the configuration for `logging.config` and the server; see `LEVELS`, and `LineHandler` for `at_once`."""
     return {
         "version": 1,
         "disable_existing_loggers": False,

@@ -14,7 +14,7 @@ from fastapi.routing import iter_route_contexts
 from gelenk import __version__
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.endpoints import ENDPOINTS
-from gelenk.http import dispatch, documentation, studio
+from gelenk.http import dispatch, pages
 from gelenk.http.access.audit_log import AuditLog
 from gelenk.http.access.hosts import TrustedHosts, repeated
 from gelenk.http.access.keyring import Keyring
@@ -31,7 +31,7 @@ from gelenk.http.messages.payloads import Bodies
 from gelenk.http.messages.routes import Application
 from gelenk.http.robots.robots import documented_routes, robots_router
 from gelenk.http.service import Readiness, service_router
-from gelenk.http.workers.pool_client import PoolClient
+from gelenk.http.workers.pool_client import PARSED_HERE_BYTES, PoolClient
 from gelenk.http.workers.task import Context
 from gelenk.jobs.cluster import Cluster
 from gelenk.jobs.runner import Runner
@@ -118,17 +118,17 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     problems.install(app)
     size = settings.max_body_bytes
     app.include_router(robots_router(library, pool_client))
-    app.router.routes.extend(documented_routes(pool_client, size))
     for endpoint in ENDPOINTS:
         handler = dispatch.handler(endpoint, pool_client, runner, limits)
-        route = dispatch.route(endpoint, handler, size)
+        most_body = min(size, PARSED_HERE_BYTES) if endpoint.is_job else size
+        route = dispatch.route(endpoint, handler, most_body)
         app.router.routes.append(route)
         if isinstance(endpoint, RobotEndpoint):
             app.operations[endpoint.name] = route
+    app.router.routes.extend(documented_routes(pool_client, size))
     app.include_router(jobs_router(runner))
     app.include_router(service_router(readiness, metrics))
-    documentation.install(app)
-    studio.install(app)
+    pages.install(app)
     openapi.describe(app, bool(settings.api_keys))
     app.entry = _middleware(app, settings, metrics, audit)
     return app

@@ -67,11 +67,7 @@ def compress(mesh: Path) -> None:
 
 
 def unneeded(needed: set[Path]) -> Iterator[Path]:
-    """Yield the files of this environment that neither the service nor a licence needs.
-
-    Args:
-        needed: Libraries and robots; materials and pictures in the folder of a robot's meshes stay too.
-    """
+    """Yield the files that neither the service nor a licence needs; pictures beside a needed mesh stay too."""
     data = package_data().resolve()
     prefix = data.parents[1]
     site_packages = prefix.parent

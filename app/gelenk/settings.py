@@ -143,8 +143,16 @@ _LISTS = {
     "trusted_proxies": (re.compile(r"\*|[0-9a-f:.]+(/\d{1,3})?"), "10.0.0.5 or 10.0.0.0/8"),
 }
 """Settings with several values: what each must be, and an example."""
-_ANSWERS = {"yes": True, "no": False}
-_CHOICES = {"log_level": LEVELS, "ray_lost": ("wait", "local")}
+_TEXTS = {
+    "api_keys": (re.compile(".*", re.DOTALL), ""),
+    "root_path": (re.compile("(/.*)?", re.DOTALL), "must start with a slash, such as /gelenk"),
+    "open_access": (re.compile("yes|no"), "must be yes or no"),
+    "log_level": (re.compile("|".join(LEVELS)), f"must be one of {', '.join(LEVELS)}"),
+    "ray_lost": (re.compile("wait|local"), "must be one of wait, local"),
+    "otlp_endpoint": (_ENDPOINT, "must be a URL such as http://127.0.0.1:4318"),
+    "ray_address": (_HEAD, "must be the host and the port of a cluster's head, such as 10.0.0.5:6379"),
+}
+"""Settings with one value that is neither a folder nor a number: what it must be, in two ways."""
 
 
 def _parse(variable: str, name: str, text: str) -> _Value:
@@ -152,24 +160,13 @@ def _parse(variable: str, name: str, text: str) -> _Value:
         raise InvalidSetting(f"{variable} is empty: leave it out for the default")
     if name.endswith("_dir"):
         return Path(text).expanduser()
-    if name == "root_path":
-        if text and not text.startswith("/"):
-            raise InvalidSetting(f"{variable} must start with a slash, such as /gelenk")
-        return text.rstrip("/")
     if name in _LISTS:
         return _parse_list(variable, text, *_LISTS[name])
-    if name == "open_access":
-        if text not in _ANSWERS:
-            raise InvalidSetting(f"{variable} must be yes or no")
-        return _ANSWERS[text]
-    if name in _CHOICES and text not in _CHOICES[name]:
-        raise InvalidSetting(f"{variable} must be one of {', '.join(_CHOICES[name])}")
-    if name == "otlp_endpoint" and not _ENDPOINT.fullmatch(text):
-        raise InvalidSetting(f"{variable} must be a URL such as http://127.0.0.1:4318")
-    if name == "ray_address" and not _HEAD.fullmatch(text):
-        raise InvalidSetting(f"{variable} must be the host and the port of a cluster's head, such as 10.0.0.5:6379")
-    if name in {"api_keys", "otlp_endpoint", "ray_address", *_CHOICES}:
-        return text
+    if name in _TEXTS:
+        pattern, rule = _TEXTS[name]
+        if not pattern.fullmatch(text):
+            raise InvalidSetting(f"{variable} {rule}")
+        return text == "yes" if name == "open_access" else text.rstrip("/") if name == "root_path" else text
     if not text.isdecimal() or int(text) == 0:
         raise InvalidSetting(f"{variable} must be a whole number greater than zero; it is {text!r}")
     return int(text)

@@ -114,7 +114,7 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.JobNotFinished: lambda: result_of({}),
     errors.JobFinished: lambda: in_a_store(cancelled_twice),
     errors.JobCancelled: lambda: result_of({"state": "cancelled"}),
-    errors.JobFailed: lambda: result_of({"state": "failed", "failure": Failure.because("the process died")}),
+    errors.JobFailed: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobFailed("it died"))}),
     errors.JobInterrupted: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobInterrupted("gone"))}),
     errors.ServiceStopping: lambda: in_a_store(submitted_too_late),
     errors.JobTookTooLong: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobTookTooLong(1.0))}),

@@ -5,7 +5,7 @@ import re
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.http.studio import FILES, POLICY
+from gelenk.http.pages import STUDIO, STUDIO_POLICY
 
 
 def test_the_page_and_all_that_it_loads_come_from_here(client: TestClient) -> None:
@@ -26,11 +26,11 @@ def test_the_page_and_all_that_it_loads_come_from_here(client: TestClient) -> No
 @pytest.mark.parametrize("path", ["/", "/studio/studio.js", "/studio/studio.css", "/studio/LICENSES.txt"])
 def test_the_policy_allows_nothing_inline_and_no_other_host(client: TestClient, path: str) -> None:
     headers = client.get(path).headers
-    assert headers["content-security-policy"] == POLICY
+    assert headers["content-security-policy"] == STUDIO_POLICY
     assert headers["x-content-type-options"] == "nosniff"
-    assert "unsafe" not in POLICY
-    assert "http" not in POLICY
-    assert "*" not in POLICY
+    assert "unsafe" not in STUDIO_POLICY
+    assert "http" not in STUDIO_POLICY
+    assert "*" not in STUDIO_POLICY
 
 
 def test_nothing_in_the_page_is_inline(client: TestClient) -> None:
@@ -57,6 +57,6 @@ def test_nothing_else_is_served(client: TestClient, path: str) -> None:
 
 
 def test_the_bundle_names_its_licences() -> None:
-    text = (FILES / "LICENSES.txt").read_text()
+    text = (STUDIO / "LICENSES.txt").read_text()
     for package in ("three", "urdf-loader", "katex"):
         assert re.search(rf"^{package} [\d.]+ \(", text, re.MULTILINE)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from gelenk.jobs import workspace
+from gelenk.jobs import workspace_request
 from gelenk.kinematics.workspace.voxels import merged
 from gelenk.kinematics.workspace.workspace import PART, Wish, plan, sampled
 from gelenk.main import create_app
@@ -76,8 +76,8 @@ def test_voxels_of_many_samples_are_foreseen(robot: str, size: float, monkeypatc
     loaded = Library(CATALOGUE, CATALOGUE / "none").get(robot).robot
     wish = Wish("grid", 8 * PART, voxel_size=size)
     work, _ = plan(loaded.chain(None, None), wish)
-    monkeypatch.setattr(workspace, "_COUNTED_PARTS", 1)
-    foreseen = workspace._voxels_met(work)
+    monkeypatch.setattr(workspace_request, "_COUNTED_PARTS", 1)
+    foreseen = workspace_request._voxels_met(work)
     counted = len(merged([sampled((work, k)).voxels for k in range(8)]))
     assert 0.95 * counted <= foreseen <= 1.6 * counted
 

@@ -99,20 +99,6 @@ class Endpoint(Route, Generic[P, A]):
         example: Request that works unchanged, on the Panda if it is about a robot.
         robot_field: Field of the request that names a robot; "" if there is none.
         picture: What an image of the answer shows; "" if it has none.
-    """
-
-    request: Callable[P, BaseModel]
-    answer: type[A]
-    example: dict[str, Any]
-    robot_field: str = ""
-    picture: str = ""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RobotEndpoint(Endpoint[P, A]):
-    """POST /v1/robots/{robot}/{name}: an operation on a robot, which can also answer with an array.
-
-    Attributes:
         npy_answer: Content of the npy answer; "" if it has none.
         batch: Field that an npy body stands for; "" if there is no such body.
         options: Model of the query fields beside an npy body.
@@ -123,8 +109,11 @@ class RobotEndpoint(Endpoint[P, A]):
         is_job: Whether it always runs as a job.
     """
 
-    path: str = ""
-    tag: Tag = "Kinematics"
+    request: Callable[P, BaseModel]
+    answer: type[A]
+    example: dict[str, Any]
+    robot_field: str = ""
+    picture: str = ""
     npy_answer: str = ""
     batch: str = "joint_positions"
     options: type[BaseModel] | None = None
@@ -133,6 +122,14 @@ class RobotEndpoint(Endpoint[P, A]):
     table: str = ""
     job: str = ""
     is_job: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotEndpoint(Endpoint[P, A]):
+    """POST /v1/robots/{robot}/{name}: an operation on a robot."""
+
+    path: str = ""
+    tag: Tag = "Kinematics"
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "path", f"v1/robots/{{robot}}/{self.name}")

@@ -8,7 +8,7 @@ from importlib import import_module
 from typing import Any, get_args
 
 from gelenk import contract
-from gelenk.contract.endpoint import Endpoint, RobotEndpoint, Route, Tag
+from gelenk.contract.endpoint import Endpoint, Route, Tag
 from gelenk.contract.resources import RESOURCES
 
 _NAMES = [module.name for module in pkgutil.iter_modules(contract.__path__) if module.name != "endpoints"]
@@ -22,9 +22,6 @@ ENDPOINTS: tuple[Endpoint[Any, Any], ...] = tuple(
     )
 )
 """All operations with a request and an answer in JSON, sorted by tag and name."""
-ROBOT_ENDPOINTS: tuple[RobotEndpoint[Any, Any], ...] = tuple(
-    endpoint for endpoint in ENDPOINTS if isinstance(endpoint, RobotEndpoint)
-)
 BY_NAME = {endpoint.name: endpoint for endpoint in ENDPOINTS}
 ROUTES: dict[str, Route] = {route.id: route for route in (*RESOURCES, *ENDPOINTS)}
 """All operations of the API by their ids."""

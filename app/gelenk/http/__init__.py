@@ -3,5 +3,5 @@
 - `dispatch`: routes and responses of all operations, built from the table of endpoints.
 - `messages`: bodies, answers, errors and the OpenAPI document. `access`: checks of every request.
 - `workers`: requests that a worker process answers. `jobs`: long work. `robots`: the robots as resources.
-- `service`: health and readiness; `documentation`: the page of the reference; `studio`: the studio's files.
+- `service`: health and readiness. `pages`: the studio and the documentation.
 """

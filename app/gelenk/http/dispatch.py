@@ -70,16 +70,11 @@ def find(context: Context, task_request: TaskRequest) -> Response:
 
 
 def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runner, limits: Limits) -> Handler:
-    """Return the handler of an endpoint's requests.
-
-    Args:
-        endpoint: The endpoint.
-        pool_client: Sends requests to workers.
-        runner: Runs jobs.
-        limits: Limits on the work for an answer.
-    """
-    offered, accepted = _offered(endpoint), (JSON, NPY) if _has_npy_body(endpoint) else (JSON,)
-    can_be_job, is_job = bool(getattr(endpoint, "job", "")), getattr(endpoint, "is_job", False)
+    """Return the handler of an endpoint's requests."""
+    further = {NPY: endpoint.npy_answer, CSV: endpoint.table, SVG: endpoint.picture, PNG: endpoint.picture}
+    offered = (JSON, *(media_type for media_type, content in further.items() if content))
+    accepted = (JSON,) if endpoint.options is None else (JSON, NPY)
+    is_job = endpoint.is_job
 
     async def handle(request: BoundedRequest) -> Response:
         if request.media_type not in accepted:
@@ -91,7 +86,7 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
             robot = request.path_params.get("robot", "")
             return TaskRequest(buffers(pieces), robot, query, is_npy, wanted, endpoint.name)
 
-        if is_job or (can_be_job and wants_answer_later(request.scope["headers"])):
+        if is_job or (endpoint.job and wants_answer_later(request.scope["headers"])):
             planned = await pool_client.content(request, plan_job, task_request())
             return await submitted(runner, endpoint.name, request, planned, {} if is_job else PREFERENCE_APPLIED)
         if request.length <= INLINE_BYTES and not pool_client.pool.is_starting:
@@ -143,15 +138,6 @@ def route(endpoint: Endpoint[Any, Any], handle: Handler, max_body_bytes: int) ->
     return DocumentedRoute(described, handle, max_body_bytes, **endpoint_documentation(endpoint))
 
 
-def _has_npy_body(endpoint: Endpoint[Any, Any]) -> bool:
-    return isinstance(endpoint, RobotEndpoint) and endpoint.options is not None
-
-
-def _offered(endpoint: Endpoint[Any, Any]) -> tuple[str, ...]:
-    arrays = (NPY, *((CSV,) if endpoint.table else ())) if isinstance(endpoint, RobotEndpoint) else ()
-    return (JSON, *arrays, *((SVG, PNG) if endpoint.picture else ()))
-
-
 def _robot_and_call(
     library: Library, endpoint: Endpoint[Any, Any], task_request: TaskRequest
 ) -> tuple[LoadedRobot | None, Any]:
@@ -165,23 +151,22 @@ def _robot_and_call(
 
 def _parsed(endpoint: Endpoint[Any, Any], query: str, body: bytes, npy: bool) -> Any:
     model = cast(Any, endpoint.request)
-    if isinstance(endpoint, RobotEndpoint) and endpoint.options is not None and npy:
+    if endpoint.options is not None and npy:
         options = read_query(cast(Any, endpoint.options), QueryParams(query))
         given = options.model_fields_set | {endpoint.batch}
         return model.model_construct(given, **{**dict(options), endpoint.batch: read_npy(body)})
     if query:
         why = "they are for an npy body; a JSON call has them as fields"
         raise InvalidField(
-            "query", why if _has_npy_body(endpoint) else "this call has its parameters as fields of the body"
+            "query", "this call has its parameters as fields of the body" if endpoint.options is None else why
         )
     return read_json(model, body)
 
 
 def _answered(endpoint: Endpoint[Any, Any], call: Any, outcome: Outcome, wanted: str) -> Response:
     """Build the response, and set what the metrics count of it."""
-    if isinstance(endpoint, RobotEndpoint):
-        batch = len(getattr(call, endpoint.batch)) if endpoint.batch else 0
-        REQUEST_COUNTS.set(RequestCounts(batch) if outcome.solved is None else outcome.solved(batch))
+    batch = len(getattr(call, endpoint.batch)) if endpoint.batch else 0
+    REQUEST_COUNTS.set(RequestCounts(batch) if outcome.solved is None else outcome.solved(batch))
     if wanted == JSON:
         return json_response(outcome.content())
     if wanted in _PICTURES:

@@ -6,10 +6,11 @@ Finished parts are stored on disk, and a job that resumes after a restart does n
 
 - `job`: the record of a job.
 - `store`: the jobs of all processes of the service, in a `database` and a folder for each job; `parts`: the finished
-  parts of a job; `owners`: which of these processes are alive; `earlier`: imports jobs from earlier versions.
+  parts of a job; `owners`: which of these processes are alive.
 - `workers`: computes parts in the worker pool.
 - `cluster`: computes parts on a Ray cluster; `driver`: the only process that talks to Ray.
 - `run`: a job while it runs; `runner`: accepts, runs, resumes and cancels jobs.
 - `robot_files`: the robot of a job, stored with its request.
-- `workspace`: computes the workspace of a robot as a job; `workspace_picture`: draws it.
+- `workspace_request`: a request for the workspace of a robot, checked and planned. `workspace`: computes it as a job;
+  `workspace_picture`: draws it.
 """

@@ -16,6 +16,8 @@ from contextlib import closing, contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 
+import orjson
+
 from gelenk.errors import StorageFailed, StorageFull
 from gelenk.jobs.job import JobRecord
 from gelenk.store import folders
@@ -23,6 +25,8 @@ from gelenk.store import folders
 NAMED = "SELECT * FROM jobs WHERE id = ?"
 _FILES = "jobs.sqlite", "jobs.sqlite-wal", "jobs.sqlite-shm", "jobs.sqlite-journal"
 """Names of the file, and of those that SQLite keeps beside it."""
+_EARLIER = "job.json"
+"""Name of the file of a job in earlier versions."""
 _BUSY_SECONDS = 20.0
 """Longest wait for a transaction of another process, which normally takes milliseconds, [s]."""
 _TABLE = """
@@ -66,11 +70,7 @@ class Database:
             self._connection = None
 
     def read(self, query: str, *values: str) -> list[JobRecord]:
-        """Return the jobs that a SELECT finds; `values` replace its question marks.
-
-        Raises:
-            StorageFailed: The file cannot be read.
-        """
+        """Return the jobs that a SELECT finds, or raise StorageFailed; `values` replace its question marks."""
         if _inode(self._path) is None:
             return []
         with self._lock, self._translating():
@@ -84,10 +84,8 @@ class Database:
     def transaction(self, is_durable: bool = True) -> Iterator[None]:
         """Run the context as one transaction, which excludes all other writers.
 
-        If it is durable, the changes are on disk when the context ends; otherwise the system decides when.
-
-        Raises:
-            StorageFailed: The file cannot be written; `StorageFull` if the disk has no room.
+        If it is durable, the changes are on disk when the context ends. If the file cannot be written, it raises
+        StorageFailed, or StorageFull without room on the disk.
         """
         with self._lock, self._translating():
             connection = self._open()
@@ -170,6 +168,30 @@ class Database:
                 raise StorageFull(os.strerror(errno.ENOSPC)) from error
             folders.probe(self._folder)  # raises the system's more specific error if the disk is at fault
             raise StorageFailed(str(error)) from error
+
+
+def import_earlier(root: Path, database: Database) -> None:
+    """Move the records of jobs from earlier versions, each a file in its folder, into the table.
+
+    Their requests, parts and results stay where they are.
+    """
+    jobs = [job for path in root.glob(f"*/{_EARLIER}") if (job := _earlier(path)) is not None]
+    if jobs:
+        with database.transaction():
+            for job in sorted(jobs, key=lambda job: (job.number, job.created)):
+                if not database.read(NAMED, job.id):  # else an earlier import ended before it removed the file
+                    database.put(replace(job, number=0))
+    for job in jobs:
+        folders.sweep(root / job.id)
+        folders.discard(root / job.id / _EARLIER)
+
+
+def _earlier(path: Path) -> JobRecord | None:
+    with suppress(OSError, ValueError, TypeError, KeyError):
+        row = orjson.loads(folders.read_plain(path))
+        job = JobRecord.from_row({**row, "failure": row["failure"] and orjson.dumps(row["failure"])})
+        return job if job.id == path.parent.name else None
+    return None
 
 
 def _jobs(connection: sqlite3.Connection, query: str, values: tuple[str, ...]) -> list[JobRecord]:

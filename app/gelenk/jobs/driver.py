@@ -81,11 +81,11 @@ class _Part:
     reference: Any = None
 
 
+@dataclass(frozen=True, slots=True)
 class Driver:
     """Main function of the process that talks to Ray; an instance can be pickled."""
 
-    def __init__(self, address: str) -> None:
-        self._address = address
+    address: str
 
     def __call__(self, connection: socket.socket) -> None:
         """Send the number of processors, or why the cluster is unreachable; dispatch parts until the pipe closes."""
@@ -94,10 +94,10 @@ class Driver:
             import ray  # noqa: PLC0415 - optional, and slow to import
             from ray.util.scheduling_strategies import NodeAffinitySchedulingStrategy  # noqa: PLC0415
 
-            ray.init(self._address, configure_logging=False, log_to_driver=False, namespace="gelenk")
+            ray.init(self.address, configure_logging=False, log_to_driver=False, namespace="gelenk")
         except Exception as error:
             reason = (str(error).strip() or type(error).__name__).splitlines()[0]
-            wire.send(connection, f"the Ray cluster at {self._address} cannot be reached: {reason}")
+            wire.send(connection, f"the Ray cluster at {self.address} cannot be reached: {reason}")
             return
         with suppress(EOFError, OSError):
             _Dispatcher(ray, NodeAffinitySchedulingStrategy, connection).run()
@@ -261,11 +261,7 @@ def _probed() -> None:
 
 
 def _computed(code: str, function: Callable[[Any], Any], argument: Any) -> Any:
-    """Compute a part on a machine of the cluster.
-
-    Raises:
-        ChildProcessError: The machine has another version of the service, which might compute something else.
-    """
+    """Compute a part on a machine of the cluster; ChildProcessError if that has another version of the service."""
     if code != code_digest():
         raise ChildProcessError("a machine of the Ray cluster has another version of the service")
     return function(argument)

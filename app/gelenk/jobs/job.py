@@ -43,11 +43,6 @@ class Failure:
                 return cls(**self.facts)
         return JobFailed(self.detail)
 
-    @classmethod
-    def because(cls, reason: str) -> "Failure":
-        """Create the failure of a `JobFailed` with a reason, where the core has no error."""
-        return cls.of(JobFailed(reason))
-
 
 @dataclass(frozen=True, slots=True)
 class JobRecord:

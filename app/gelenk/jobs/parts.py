@@ -55,11 +55,7 @@ class Parts:
         return content if digest == _digest(content) else None
 
     def of(self, stage: str, count: int) -> Iterator[bytes]:
-        """Yield the parts of a finished stage in order.
-
-        Raises:
-            FileNotFoundError: A part is missing or damaged.
-        """
+        """Yield the parts of a finished stage in order; raises FileNotFoundError if one is missing or damaged."""
         for k in range(count):
             part = self.read(f"{stage}-{k}")
             if part is None:

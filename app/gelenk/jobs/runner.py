@@ -74,7 +74,7 @@ class Runner:
         self._turned = threading.Condition()
         self._threads: list[threading.Thread] = []
         self._lock = threading.Lock()
-        self._unrecorded: dict[str, tuple[JobRecord, Failure]] = {}
+        self._unrecorded: dict[str, tuple[JobRecord, KinematicsError]] = {}
         self._waiting: list[JobRecord] = []
         self._closed = threading.Event()
 
@@ -93,11 +93,7 @@ class Runner:
     def submit(
         self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None, client: str = ""
     ) -> JobRecord:
-        """Submit a job, or return the existing one with the same id and request; see `JobStore.add`.
-
-        Raises:
-            ServiceStopping: The service is shutting down.
-        """
+        """Submit a job, or find it; see `JobStore.add`. Raises ServiceStopping during shutdown."""
         if self._closed.is_set():
             raise ServiceStopping
         job, is_new = self.store.add(kind, digest, request, job_id, client)
@@ -139,7 +135,7 @@ class Runner:
             case "cancelled":
                 raise JobCancelled(job_id)
             case "failed":
-                raise (job.failure or Failure.because("the job failed")).error_again()
+                raise job.failure.error_again() if job.failure else JobFailed("the job failed")
         return self.store.folder(job_id) / name
 
     def rendered(self, function: Callable[[Any], bytes], argument: Any) -> bytes:
@@ -233,14 +229,14 @@ class Runner:
             if self._closed.is_set():
                 self._leave(job)
         except OutOfTime:
-            self._fail(job, Failure.of(JobTookTooLong(self._seconds)))
+            self._fail(job, JobTookTooLong(self._seconds))
         except KinematicsError as error:
-            self._fail(job, Failure.of(error))
+            self._fail(job, error)
         except ChildProcessError as error:
-            self._fail(job, Failure.because(str(error)))
+            self._fail(job, JobFailed(str(error)))
         except Exception as error:
             logger.exception("job %s failed", job.id)
-            self._fail(job, Failure.because(f"internal error: {type(error).__name__}"))
+            self._fail(job, JobFailed(f"internal error: {type(error).__name__}"))
         finally:
             self._clear(job)
 
@@ -283,7 +279,7 @@ class Runner:
         with contextlib.suppress(KinematicsError):
             self.store.change(job, state="queued", attempts=0)
 
-    def _fail(self, job: JobRecord, failure: Failure) -> None:
+    def _fail(self, job: JobRecord, failure: KinematicsError) -> None:
         """Mark a job as failed; if the disk cannot store even that, `_take_up` tries again."""
         with contextlib.suppress(KinematicsError, OSError):
             self.store.parts(job).clear()  # the disk may be full
@@ -293,7 +289,7 @@ class Runner:
             logger.warning("job %s: %s", job.id, error.detail)
             self._unrecorded[job.id] = job, failure
 
-    def _record_failure(self, job: JobRecord, failure: Failure) -> None:
+    def _record_failure(self, job: JobRecord, failure: KinematicsError) -> None:
         with contextlib.suppress(UnknownJob):
-            self.store.change(job, state="failed", failure=failure)
+            self.store.change(job, state="failed", failure=Failure.of(failure))
         self._unrecorded.pop(job.id, None)

@@ -19,8 +19,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from gelenk.errors import JobExists, JobInterrupted, StorageFailed, TooManyJobs, UnknownJob
-from gelenk.jobs.database import NAMED, Database
-from gelenk.jobs.earlier import import_earlier
+from gelenk.jobs.database import NAMED, Database, import_earlier
 from gelenk.jobs.job import JobRecord
 from gelenk.jobs.owners import Owners
 from gelenk.jobs.parts import Parts

@@ -63,10 +63,7 @@ class PoolExecutor:
 
         Returns:
             Future of the function's result. Its exception is the function's, `Cancelled`, `OutOfTime`, or
-            ChildProcessError if the process died `ATTEMPTS` times.
-
-        Raises:
-            Cancelled: The service is shutting down.
+            ChildProcessError if the process died `ATTEMPTS` times. `Cancelled` is raised at once during shutdown.
         """
         if self._loop is None or self._loop.is_closed():
             raise Cancelled

@@ -1,121 +1,38 @@
 """The workspace of a robot as a job: samples in parts, then dexterity voxel by voxel, then a summary."""
 
-import math
 import pickle
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import asdict, fields, replace
 from functools import lru_cache
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import orjson
 
-from gelenk.errors import InvalidField
 from gelenk.jobs.parts import Parts, packed, unpacked
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
 from gelenk.jobs.store import write_result
-from gelenk.kinematics.workspace.dexterity import Orientations, Over, excluded, orientations, shares
+from gelenk.jobs.workspace_request import WorkspaceWork
+from gelenk.kinematics.workspace.dexterity import Orientations, shares
 from gelenk.kinematics.workspace.sampling import Sampling
-from gelenk.kinematics.workspace.survey import POINT_COLUMNS, VOXEL_COLUMNS, Measures, Survey, Workspace
-from gelenk.kinematics.workspace.tip_motion import TipReach
-from gelenk.kinematics.workspace.voxels import MAX_VOXELS, Grid, VoxelTable, merged
-from gelenk.kinematics.workspace.workspace import PART, Plane, SampledPart, SamplingPlan, Wish, plan, sampled
+from gelenk.kinematics.workspace.survey import Measures, Survey, Workspace
+from gelenk.kinematics.workspace.voxels import Grid, VoxelTable
+from gelenk.kinematics.workspace.workspace import PART, SampledPart, SamplingPlan, sampled
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
-from gelenk.robot.description import Description
 from gelenk.robot.robot import RobotModel
 
 KIND = "workspace"
 SUMMARY, ARRAY = "result.json", "result.npy"
 _SAMPLES, _VOXELS = "samples", "voxels"
 """Names of the first stage of every workspace, and of the second stage of a dexterity map."""
-MAX_POSES = 1_000_000
-"""Largest number of poses that a job may pass to inverse kinematics: orientations times voxels."""
 
 _POSES_AT_ONCE = 512
 """Number of poses per part: inverse kinematics takes about a tenth of a second."""
-_COUNTED_PARTS = 8
-"""Number of parts of the samples computed to estimate the number of voxels: some tenths of a second."""
-_TOO_LOW = 1.25
-"""Factor by which the estimated number of voxels may be too low."""
 _SAMPLING_SHARE, _DONE = 0.05, 0.99
 """Progress when the samples of a dexterity map are computed, and when only the result remains to be written."""
 
 Column: TypeAlias = Literal["x", "y", "z", "measure", "samples", "best_measure", "dexterity"]
-
-
-@dataclass(frozen=True, slots=True)
-class WorkspaceWork:
-    """A checked request for a workspace, and the plan for computing it.
-
-    Attributes:
-        name: Name of the robot.
-        description: Description of the robot.
-        chain: The chain.
-        wish: The requested options.
-        plan: Plan of the samples.
-        asked: Orientations of a dexterity map, else None.
-        excluded: Why the chain cannot reach all of these in any region, if so; see `dexterity.excluded`.
-    """
-
-    name: str
-    description: Description
-    chain: Chain
-    wish: Wish
-    plan: SamplingPlan
-    asked: Orientations | None
-    excluded: str | None
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Names of the columns of the result array."""
-        if self.wish.kind == "cloud":
-            return POINT_COLUMNS
-        return VOXEL_COLUMNS if self.asked is None else (*VOXEL_COLUMNS, "dexterity")
-
-
-def question(name: str, robot: RobotModel, chain: Chain, wish: Wish, over: Over, count: int) -> WorkspaceWork:
-    """Check a request and plan its computation, so that errors are reported before a job is created.
-
-    Args:
-        name: Name of the robot.
-        robot: The robot.
-        chain: The chain.
-        wish: The requested options.
-        over: What the orientations of a dexterity map cover.
-        count: Number of orientations of a dexterity map.
-
-    Raises:
-        InvalidField: A value is not allowed.
-    """
-    work, motion = plan(chain, wish)
-    asked = reason = None
-    if wish.kind == "dexterity":
-        asked = orientations(chain, motion, over, count)
-        reason = excluded(motion, work.grid.dimensions, asked.spread)
-        notes = (*work.notes, *_spread_notes(motion, wish.plane, asked), *([reason] if reason else []))
-        work = replace(work, notes=notes)
-    return WorkspaceWork(name, replace(robot.description, warnings=()), chain, wish, work, asked, reason)
-
-
-def _spread_notes(motion: TipReach, plane: Plane | None, asked: Orientations) -> list[str]:
-    """Return notes on why a dexterity map may not be what users expect."""
-    notes = []
-    if motion.kept_to is not None:
-        notes.append(
-            f"orientations are asked for at the middles of the voxels, and these are beside the {motion.kept_to} that "
-            "the tip keeps to: hardly any is reached, if one is at all"
-        )
-    elif plane is not None and 0 < motion.dimensions < 3 and motion.slice_notes(plane.normal):
-        notes.append(
-            "orientations are asked for at the middles of the voxels: none is reached where the plane's origin is not "
-            "on what the tip keeps to"
-        )
-    if asked.spread == "fixed":
-        notes.append("the tip never turns: only this orientation is tested")
-    elif asked.spread == "turns":
-        notes.append("the tip rotates about one direction only: only rotations about it are tested")
-    return notes
 
 
 def work_of(asked: WorkspaceWork) -> Work:
@@ -131,11 +48,7 @@ def work_of(asked: WorkspaceWork) -> Work:
 
 
 def _put_together(job: tuple[WorkspaceWork, Parts, str | None]) -> Workspace | None:
-    """Combine the parts and write the result files, in a process of its own.
-
-    Returns:
-        For a dexterity map, which is computed next, the workspace instead; no files are written.
-    """
+    """Combine the parts and write the result files, in a process of its own; of a dexterity map return them instead."""
     asked, parts, digest = job
     survey = Survey(asked.plan)
     for part in parts.of(_SAMPLES, asked.plan.parts):
@@ -157,54 +70,6 @@ def _files(asked: WorkspaceWork, found: Workspace, dexterity: Array | None, robo
         ARRAY: lambda target: np.lib.format.write_array(target, array, allow_pickle=False),
         SUMMARY: lambda target: target.write(summary),
     }
-
-
-def check_size(asked: WorkspaceWork) -> None:
-    """Check that the samples do not fall into too many voxels, before a job is created.
-
-    Raises:
-        InvalidField: They do; the message names a voxel size and a number of samples that are allowed.
-    """
-    plan, rotations = asked.plan, 1 if asked.asked is None else len(asked.asked.rotations)
-    most = MAX_VOXELS if asked.asked is None else min(MAX_VOXELS, MAX_POSES // rotations)
-    if min(plan.sampling.count, plan.grid.most_cells(plan.extent)) <= most:
-        return
-    voxels = _voxels_met(plan)
-    if voxels <= most:
-        return
-    told = f"the samples fall into some {voxels:,} voxels"
-    if asked.asked is not None:
-        told += f", at each of which {rotations} orientations are asked for"
-    ways = [f"at most {most:,} `samples`"]
-    if (size := plan.grid.least_size(plan.extent, most)) < plan.extent:
-        ways.insert(0, f"voxels of {_rounded_up(size):g} m or more")
-    if asked.asked is not None:
-        ways.append("fewer `orientations`")
-    raise InvalidField("voxel_size", f"{told}; at most {most:,} are allowed: ask for {' or '.join(ways)}")
-
-
-def _voxels_met(plan: SamplingPlan) -> int:
-    """Count the voxels that the samples fall into; if there are many samples, estimate it from the first of them.
-
-    Good–Turing: the probability that the next sample falls into a new voxel is the share of samples that are alone in
-    theirs; it decreases later. Chao: the number of unseen voxels follows from the numbers of voxels with one and with
-    two samples; this is too low if voxels are not equally likely, in trials by up to a fifth.
-    """
-    counted = min(plan.parts, _COUNTED_PARTS)
-    table = merged([sampled((plan, k)).voxels for k in range(counted)])
-    samples = min(plan.sampling.count, counted * PART)
-    later, once, twice = plan.sampling.count - samples, *(int(np.sum(table.counts == k)) for k in (1, 2))
-    if not later or not once:
-        return len(table)
-    unseen = once**2 / (2.0 * max(twice, 1))
-    met = len(table) + unseen * (1.0 - (1.0 - once / (samples * unseen + once)) ** later)
-    return math.ceil(min(len(table) + once / samples * later, _TOO_LOW * met))
-
-
-def _rounded_up(length: float) -> float:
-    """Round a length up to three significant digits."""
-    step = 10.0 ** (math.floor(math.log10(length)) - 2)
-    return float(f"{math.ceil(length / step) * step:.6g}")
 
 
 def _dexterity(run: Run, asked: WorkspaceWork, found: Workspace) -> Array:

@@ -70,11 +70,7 @@ class WorkerPool:
         self.is_starting = False
 
     def check_room(self, client: str = "") -> None:
-        """Check that a request would be accepted, so that the caller can refuse it before creating a task.
-
-        Raises:
-            ServiceBusy: Too many requests are waiting.
-        """
+        """Raise ServiceBusy if a request would not be accepted, before the caller creates a task for it."""
         if len(self.requests.turns) >= self.waiting and not self.requests.is_free_for(client):
             self._turn_away()
             raise ServiceBusy(self.retry_after)

@@ -115,11 +115,7 @@ class Workers:
             raise
 
     async def run(self, worker: WorkerProcess, client: str, call: Call) -> Any:
-        """Run a call and return its result; cancelling this coroutine ends the call, after a grace period.
-
-        Raises:
-            Exception: The same as `WorkerPool.run`.
-        """
+        """Run a call and return its result as `WorkerPool.run`; if cancelled, the call ends after a grace period."""
         loop = asyncio.get_running_loop()
         work = loop.create_task(self._ask(worker, client, call))
         try:

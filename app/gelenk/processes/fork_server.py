@@ -43,11 +43,7 @@ logger = logging.getLogger("gelenk")
 
 
 def main(control: int) -> None:
-    """Import everything, then serve requests until the parent ends.
-
-    Args:
-        control: File descriptor of the socket that requests come from.
-    """
+    """Import everything, then serve requests from the socket `control` until the parent ends."""
     for stop in (signal.SIGINT, signal.SIGTERM):
         signal.signal(stop, signal.SIG_IGN)
     _set_title("original")

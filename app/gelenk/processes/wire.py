@@ -26,11 +26,7 @@ def pieces_of(content: bytes) -> list[pickle.PickleBuffer]:
 
 
 def send(connection: socket.socket, content: Any) -> None:
-    """Send an object; block until the socket has accepted it.
-
-    Raises:
-        OSError: The other side has closed the connection.
-    """
+    """Send an object; block until the socket has accepted it, or raise OSError if the other side has closed it."""
     for part in _parts(content):
         connection.sendall(part)
 
@@ -45,12 +41,7 @@ async def send_async(connection: socket.socket, content: Any) -> None:
 
 
 def receive(connection: socket.socket) -> Any:
-    """Wait for the next object and return it.
-
-    Raises:
-        EOFError: The other side has closed the connection.
-        OSError: The connection is broken.
-    """
+    """Wait for the next object and return it; EOFError or OSError if the other side has closed the connection."""
     (count,) = _COUNT.unpack(_read(connection, _COUNT.size))
     lengths = struct.unpack(f"!{count}Q", _read(connection, 8 * count))
     parts = [_read(connection, length) for length in lengths]

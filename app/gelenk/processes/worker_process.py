@@ -111,9 +111,7 @@ class WorkerProcess:
     async def ask(self, message: Any) -> Any:
         """Send a message and return the answer, in an event loop; the socket must be non-blocking.
 
-        Raises:
-            EOFError: The process has ended.
-            OSError: The process has ended, and the connection is broken.
+        If the process has ended, this raises EOFError or OSError.
         """
         await wire.send_async(self.socket, message)
         return await wire.receive_async(self.socket)
@@ -165,11 +163,7 @@ class ForkServerClient:
         self._control = socket.socket(fileno=control)
 
     def warm_up(self) -> socket.socket:
-        """Let the fork server load the kernels, after it has started the processes requested earlier.
-
-        Returns:
-            A socket that becomes readable when the kernels are loaded.
-        """
+        """Let the fork server load the kernels, after earlier requests; the socket becomes readable when it is done."""
         ours, theirs = socket.socketpair()
         with theirs:
             self.request(WARM_UP, theirs.fileno())
@@ -181,11 +175,7 @@ class ForkServerClient:
             self.request(LOAD)
 
     def request(self, what: bytes, *descriptors: int) -> None:
-        """Send a request, and file descriptors with it, to the fork server.
-
-        Raises:
-            OSError: The fork server has ended or was never started.
-        """
+        """Send a request and file descriptors to the fork server; OSError if it has ended or was never started."""
         if self._control is None:
             raise ChildProcessError("the fork server is not running")
         socket.send_fds(self._control, [what], descriptors)

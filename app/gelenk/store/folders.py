@@ -85,11 +85,7 @@ def read_plain(path: Path) -> bytes:
 
 @contextmanager
 def writing() -> Iterator[None]:
-    """Turn the system's errors of writing into `StorageFailed`.
-
-    Raises:
-        StorageFailed: The disk cannot be written to; `StorageFull` if it has no room.
-    """
+    """Turn the system's errors of writing into `StorageFailed`, or `StorageFull` if the disk has no room."""
     try:
         yield
     except OSError as error:

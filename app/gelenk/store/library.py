@@ -148,12 +148,10 @@ class Library:
         A robot edited by hand may appear as it was before: each call checks only some of the robots for edits.
         """
         entries, others = self._index.entries()
-        told = {entry.name: entry.summary for entry in entries}
-        if others:
-            loaded = {name: self._summary(name, "uploaded", file) for name, file in others}
-            told = dict(sorted((told | {name: one for name, one in loaded.items() if one is not None}).items()))
         ours = (self._summary(record.name, "catalogue", record.file) for record in self._catalogue.values())
-        return [*filter(None, ours), *told.values()]
+        uploaded = {entry.name: entry.summary for entry in entries}
+        uploaded |= {name: told for name, file in others if (told := self._summary(name, "uploaded", file))}
+        return [*filter(None, ours), *(uploaded[name] for name in sorted(uploaded))]
 
     def _summary(self, name: str, source: Source, file: RobotFile) -> bytes | None:
         """Return a robot's JSON in the list; None if its folder is not a robot (a request by name gives the reason)."""
@@ -182,8 +180,7 @@ class Library:
     def state(self) -> int | None:
         """Return a number that changes when a robot is added, replaced or removed; None while it could miss a change.
 
-        It is the folder's time of change, since every writer creates and removes a folder in it; its clock may be
-        coarse.
+        It is the time of change of the folder, in which every writer creates and removes a folder.
         """
         try:
             changed = self.uploads.stat().st_mtime_ns

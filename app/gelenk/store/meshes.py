@@ -88,11 +88,7 @@ class MeshFiles:
 
 
 def mesh_warnings(found: Mapping[str, Sequence[str]]) -> tuple[str, ...]:
-    """Return warnings of the meshes that a description names, one sentence for each kind of fault.
-
-    Args:
-        found: Result of `MeshFiles.find` for each name.
-    """
+    """Return warnings of mesh names, given what `MeshFiles.find` has found for each; one for each kind of fault."""
     kinds = {name: PurePosixPath(name).suffix[1:] for name in found}
     unread = {name: kind or "no ending" for name, kind in kinds.items() if f".{kind.lower()}" not in MESH_SUFFIXES}
     missing = [name for name, paths in found.items() if not paths and name not in unread]

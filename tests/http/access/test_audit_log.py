@@ -84,7 +84,7 @@ def test_refused_writes_are_summed_up_and_push_no_line_out(tmp_path: Path) -> No
     added, first = entries(tmp_path)
     assert added["status"] == 201
     assert (first["key"], first["status"], first["refused"], first["clients"]) == ("read", 403, 1, ["192.0.2.7"])
-    app.entry._audit.close()  # type: ignore[attr-defined]
+    app.entry.audit.close()  # type: ignore[attr-defined]
     *_, rest = entries(tmp_path)
     assert (rest["key"], rest["refused"], rest["clients"]) == ("read", 299, ["192.0.2.7"])
     assert first["since"] <= rest["since"] <= rest["time"]

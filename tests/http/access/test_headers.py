@@ -6,7 +6,7 @@ import pytest
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
-from gelenk.http import studio
+from gelenk.http import pages
 from gelenk.http.access.middleware import COMMON
 from tests.http.access.asking import HOST, application, ask, bearer, keys_for
 
@@ -57,7 +57,7 @@ def test_refusals_carry_them_too(headers: tuple[tuple[bytes, bytes], ...], statu
 
 
 def test_pages_keep_their_own_policies() -> None:
-    assert ask(APP, "/").header("content-security-policy") == studio.POLICY
+    assert ask(APP, "/").header("content-security-policy") == pages.STUDIO_POLICY
     assert "script-src 'self'" in (ask(APP, "/docs").header("content-security-policy") or "")
     urdf = ask(APP, "/v1/robots/panda/urdf", headers=(HOST, bearer(KEYS["read"])))
     assert "sandbox" in (urdf.header("content-security-policy") or "")

@@ -111,7 +111,7 @@ def test_names_from_outside_cannot_multiply_the_numbers(monkeypatch: pytest.Monk
     monkeypatch.setattr(metrics, "MOST_ROBOTS", 3)
     made = metrics.Metrics(["panda", "ur5"], WorkerPool(2, 1, 1), dict)
     app = application()
-    monkeypatch.setattr(app.entry, "_metrics", made)  # type: ignore[attr-defined]
+    monkeypatch.setattr(app.entry, "metrics", made)  # type: ignore[attr-defined]
     for i in range(50):
         assert ask(app, f"/v1/robots/robot{i}").status == 404
         assert ask(app, f"/nothing/{i}", method="BREW").status in {404, 405}

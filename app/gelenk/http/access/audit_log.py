@@ -74,9 +74,7 @@ class AuditLog:
     def write(self, exchange: RequestContext, location: str | None) -> None:
         """Append a line, or count a refusal. A line that cannot be written to disk goes to the log.
 
-        Args:
-            exchange: The write, with its status.
-            location: `Location` header of the response, if it has one.
+        `location` is that header of the response, if it has one.
         """
         facts = _facts(exchange) | {"location": location}
         if exchange.was_let_in:

@@ -11,6 +11,7 @@ import re
 import secrets
 import time
 from collections.abc import Collection, Mapping
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -25,6 +26,8 @@ _ENTRY = re.compile(
 _TOKEN = re.compile(rf"gelenk\.(?P<name>{_NAME})\.[A-Za-z0-9_-]{{43}}")
 _COMMENT = re.compile(r"#[^\n]*")
 _LOOK_SECONDS = 1.0
+_PATIENCE = 0.5
+"""Longest wait of a request while the key file is checked, [s]."""
 
 logger = logging.getLogger("gelenk")
 
@@ -56,11 +59,7 @@ class Key:
 
 
 def new_key(name: str, scopes: Collection[Scope]) -> tuple[str, Key]:
-    """Create a key; return the text that its owner sends, and what the service stores.
-
-    Raises:
-        InvalidKeys: The name is invalid, or no scope is given.
-    """
+    """Create a key; return the text that its owner sends, and what the service stores; raises InvalidKeys."""
     if not re.fullmatch(_NAME, name):
         raise InvalidKeys("a key's name is 1 to 32 letters, digits, '_' or '-', the first one a letter or digit")
     if not scopes:
@@ -107,6 +106,7 @@ class Keyring:
         self._file = None if _ENTRY.match(setting.strip()) else Path(setting).expanduser()
         self._stamp: tuple[int, int, int] | None = None
         self._looked = time.monotonic()
+        self._beside = ThreadPoolExecutor(1, thread_name_prefix="keys")
         self._keys: Mapping[str, Key] = read_keys(setting) if self._file is None else self._read(self._file)
         if not self._keys:
             raise InvalidKeys(f"{setting} holds no key; `./dev keys` makes one")
@@ -118,19 +118,14 @@ class Keyring:
         digest = _digest(key.salt if key else bytes(16), token)
         return key if hmac.compare_digest(digest, key.digest if key else bytes(32)) else None
 
-    @property
-    def is_due(self) -> bool:
-        """Whether it is time to check the file again; true at most once a second."""
-        now = time.monotonic()
-        if self._file is None or now < self._looked + _LOOK_SECONDS:
-            return False
-        self._looked = now
-        return True
-
-    @property
-    def is_overdue(self) -> bool:
-        """Whether the last check of the file is so old that a key may have been removed since."""
-        return self._file is not None and time.monotonic() > self._looked + 2.0 * _LOOK_SECONDS
+    def refresh_if_due(self) -> None:
+        """Check the file again, at most once a second, in a thread: the file may be on a slow disk."""
+        now, looked = time.monotonic(), self._looked
+        if self._file is not None and now >= looked + _LOOK_SECONDS:
+            self._looked = now
+            refreshing = self._beside.submit(self.refresh)
+            if now > looked + 2.0 * _LOOK_SECONDS:  # after a quiet time; a key may have been removed since
+                wait((refreshing,), _PATIENCE)
 
     def refresh(self) -> None:
         """Read the file again if it has changed; if that fails, keep the present keys."""

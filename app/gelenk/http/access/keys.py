@@ -1,6 +1,6 @@
 """Check that a request has a key with the scope of its operation: `Authorization: Bearer gelenk.…`."""
 
-from concurrent.futures import ThreadPoolExecutor, wait
+from dataclasses import dataclass
 from http import HTTPStatus
 
 from starlette.responses import Response
@@ -11,36 +11,25 @@ from gelenk.http.access.request_context import RequestContext
 from gelenk.http.access.route_table import UNKNOWN
 from gelenk.http.messages.problems import problem
 
-_PATIENCE = 0.5
-"""Longest wait of a request while the key file is checked, [s]."""
 _REALM = 'Bearer realm="gelenk"'
 
 
+@dataclass(frozen=True, slots=True)
 class KeyCheck:
-    """Refuses a request whose operation needs a key, unless it carries one with the right scope.
+    """Refuses a request whose operation needs a key, unless it carries one of the keyring with the right scope."""
 
-    Args:
-        keyring: Valid keys.
-    """
-
-    def __init__(self, keyring: Keyring) -> None:
-        self._keyring = keyring
-        self._beside = ThreadPoolExecutor(1, thread_name_prefix="keys")
+    keyring: Keyring
 
     def __call__(self, exchange: RequestContext) -> Response | None:
         """Return the refusal, or None to let the request pass."""
         operation = exchange.operation
         if operation.scope is None and operation is not UNKNOWN:
             return None
-        is_overdue = self._keyring.is_overdue
-        if self._keyring.is_due:
-            refreshing = self._beside.submit(self._keyring.refresh)
-            if is_overdue:  # first request after a quiet time; the file may be on a slow disk
-                wait((refreshing,), _PATIENCE)
+        self.keyring.refresh_if_due()
         scheme, _, token = exchange.headers.get(b"authorization", b"").decode("latin-1").partition(" ")
         if scheme.lower() != "bearer":
             return _unauthorised(exchange, "this needs a key: send it as `Authorization: Bearer gelenk.…`", _REALM)
-        key = self._keyring.find(token.strip())
+        key = self.keyring.find(token.strip())
         if key is None:
             return _unauthorised(
                 exchange, "the key is unknown to this service or has been revoked", f'{_REALM}, error="invalid_token"'

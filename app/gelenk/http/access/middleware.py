@@ -3,6 +3,7 @@
 import asyncio
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeAlias
 
@@ -19,7 +20,6 @@ from gelenk.operations.request_counts import REQUEST_COUNTS
 AccessRule: TypeAlias = Callable[[RequestContext], Response | None]
 """Checks a request; returns the refusal, or None to let the request pass."""
 
-
 Headers: TypeAlias = list[tuple[bytes, bytes]]
 
 COMMON: Headers = [
@@ -32,10 +32,11 @@ COMMON: Headers = [
 """Headers of every response that does not set them itself: pages have their own policies."""
 
 
+@dataclass(eq=False, slots=True)
 class Middleware:
     """Passes requests through the checks, in order, to the application; completes the headers of responses.
 
-    Args:
+    Attributes:
         app: The ASGI application.
         directory: Table of its operations.
         root_path: Path prefix under which a proxy serves it.
@@ -44,32 +45,27 @@ class Middleware:
         audit: Log of the writes.
     """
 
-    def __init__(
-        self,
-        app: ASGIApp,
-        directory: RouteTable,
-        root_path: str,
-        checks: Sequence[AccessRule],
-        metrics: Metrics,
-        audit: AuditLog,
-    ) -> None:
-        self._app, self._directory, self._root_path = app, directory, root_path
-        self._checks, self._metrics, self._audit = tuple(checks), metrics, audit
+    app: ASGIApp
+    directory: RouteTable
+    root_path: str
+    checks: Sequence[AccessRule]
+    metrics: Metrics
+    audit: AuditLog
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve a request or the lifespan events; refuse a WebSocket."""
         if scope["type"] == "http":
             await self._serve(scope, receive, send)
         elif scope["type"] == "lifespan":
-            await self._app(scope, receive, send)
+            await self.app(scope, receive, send)
         else:
             await send({"type": "websocket.close", "code": 1008})
 
     async def _serve(self, scope: Scope, receive: Receive, send: Send) -> None:
-        path: str = scope["path"].removeprefix(self._root_path)
-        if self._root_path and not path:
+        path: str = scope["path"].removeprefix(self.root_path)
+        if self.root_path and not path:
             path = "/"  # the prefix alone is the root
-        exchange = RequestContext.of(scope, *self._directory.find(path, scope["method"]))
+        exchange = RequestContext.of(scope, *self.directory.find(path, scope["method"]))
         REQUEST_ID.set(exchange.request_id)
         REQUEST_COUNTS.set(None)
 
@@ -80,32 +76,30 @@ class Middleware:
                 headers = [*message.get("headers", ()), own, *exchange.answer_headers]
                 message["headers"] = headers + _lacking(tuple([name for name, _ in headers]))
                 if exchange.is_audited:
-                    await asyncio.to_thread(self._audit.write, exchange, _location(headers))
+                    await asyncio.to_thread(
+                        self.audit.write, exchange, dict(headers).get(b"location", b"").decode("latin-1") or None
+                    )
             await send(message)
 
-        self._metrics.begin()
+        self.metrics.begin()
         try:
             refusal = self._refusal(exchange)
-            await (refusal or self._app)(scope, receive, answer)
+            await (refusal or self.app)(scope, receive, answer)
         finally:
             if exchange.is_audited and not exchange.status:
                 # The client has left, or the request failed: what it wrote may remain.
-                await asyncio.shield(asyncio.to_thread(self._audit.write, exchange, None))
+                await asyncio.shield(asyncio.to_thread(self.audit.write, exchange, None))
             exchange.seconds = time.perf_counter() - exchange.started
             exchange.counts = REQUEST_COUNTS.get()
-            self._metrics.end(exchange)
+            self.metrics.end(exchange)
             log_request(exchange)
 
     def _refusal(self, exchange: RequestContext) -> Response | None:
-        for check in self._checks:
+        for check in self.checks:
             if (refusal := check(exchange)) is not None:
                 return refusal
         exchange.was_let_in = True
         return None
-
-
-def _location(headers: Sequence[tuple[bytes, bytes]]) -> str | None:
-    return next((value.decode("latin-1") for name, value in headers if name == b"location"), None)
 
 
 @lru_cache(256)

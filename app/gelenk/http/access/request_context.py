@@ -8,7 +8,7 @@ from random import getrandbits
 from starlette.requests import Request
 from starlette.types import Scope as AsgiScope
 
-from gelenk.contract.endpoint import RobotEndpoint, Route, Scope
+from gelenk.contract.endpoint import Endpoint, Route, Scope
 from gelenk.http.messages.payloads import wants_answer_later
 from gelenk.operations.request_counts import RequestCounts
 
@@ -54,7 +54,7 @@ class RequestContext:
         given = headers.get(b"x-request-id", b"")
         request_id = given.decode("ascii") if _WELL_FORMED.fullmatch(given) else f"{getrandbits(128):032x}"
         scope["request_id"] = request_id
-        can_be_job = isinstance(operation, RobotEndpoint) and operation.job
+        can_be_job = isinstance(operation, Endpoint) and operation.job
         if b"prefer" in headers and can_be_job and wants_answer_later(scope["headers"]):
             operation = replace(operation, scope=Scope.WRITE)  # a job is stored
         return cls(scope, operation, robot, headers, request_id, time.perf_counter())

@@ -4,6 +4,7 @@ Only the few names here are imported before tracing is switched on; the exporter
 """
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from fastapi.telemetry import TelemetryConfig
 from starlette.types import ASGIApp, Receive, Scope, Send
@@ -20,15 +21,11 @@ def exporter_variables(endpoint: str, environment: Mapping[str, str]) -> dict[st
     return {name: value for name, value in wanted.items() if name not in environment}
 
 
+@dataclass(frozen=True, slots=True)
 class TracedId:
-    """Puts the id of each request on its span, so that a trace leads to the log and back.
+    """Puts the id of each request on its span, so that a trace leads to the log and back."""
 
-    Args:
-        app: The ASGI application.
-    """
-
-    def __init__(self, app: ASGIApp) -> None:
-        self._app = app
+    app: ASGIApp
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Put the request id on the current span, and pass the request on."""
@@ -36,4 +33,4 @@ class TracedId:
 
         if scope["type"] == "http":
             trace.get_current_span().set_attribute("gelenk.request_id", scope["request_id"])
-        await self._app(scope, receive, send)
+        await self.app(scope, receive, send)

@@ -10,7 +10,7 @@ from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel, TypeAdapter
 
 from gelenk.contract.endpoint import Endpoint, RobotEndpoint, Route
-from gelenk.contract.endpoints import ROBOT_ENDPOINTS, ROUTES
+from gelenk.contract.endpoints import ENDPOINTS, ROUTES
 from gelenk.contract.jobs import JobInfo
 from gelenk.contract.kinematics import ByName, Configuration
 from gelenk.contract.problem import Problem
@@ -87,25 +87,21 @@ def documentation(name: str) -> dict[str, Any]:
 
 def endpoint_documentation(endpoint: Endpoint[Any, Any]) -> dict[str, Any]:
     """Return the arguments of FastAPI's route that document one of the `ENDPOINTS`."""
-    problems, responses = [400, 413, 415, 422, *_BY_WORKER], {}
-    contents = _contents({SVG: endpoint.picture, PNG: endpoint.picture})
+    problems, responses, notes = [400, 413, 415, 422, *_BY_WORKER], {}, ""
+    contents = _contents({NPY: endpoint.npy_answer, CSV: endpoint.table, SVG: endpoint.picture, PNG: endpoint.picture})
     body: dict[str, Any] = {JSON: {"example": endpoint.example}}
-    status, notes = 200, ""
     if isinstance(endpoint, RobotEndpoint) or endpoint.robot_field or endpoint.tag == "DH tables":
         problems.append(404)
-    if isinstance(endpoint, RobotEndpoint):
-        contents = _contents({NPY: endpoint.npy_answer, CSV: endpoint.table}) | contents
-        if endpoint.options is not None:
-            body |= _npy_body(endpoint.npy_body, endpoint.options)
-        if endpoint.is_job:
-            status = 202
-            problems += [409, 507]
-        if endpoint.job:
-            responses = _JOB_STARTED
-            problems.append(507)
-            notes = _JOB_NOTE.format(endpoint.job)
+    if endpoint.options is not None:
+        body |= _npy_body(endpoint.npy_body, endpoint.options)
+    if endpoint.is_job:
+        problems += [409, 507]
+    if endpoint.job:
+        responses, notes = _JOB_STARTED, _JOB_NOTE.format(endpoint.job)
+        problems.append(507)
     if contents:
         responses = {200: {"content": contents}, **responses}
+    status = 202 if endpoint.is_job else 200
     return _documentation(endpoint, endpoint.answer, status, responses, problems, body, notes)
 
 
@@ -206,7 +202,7 @@ def describe(app: FastAPI, has_keys: bool) -> None:
             problem = Problem.model_json_schema(ref_template=_COMPONENT)
             components.update(problem.pop("$defs"))
             components["Problem"] = problem
-            queries = [endpoint.options for endpoint in ROBOT_ENDPOINTS if endpoint.options is not None]
+            queries = [endpoint.options for endpoint in ENDPOINTS if endpoint.options is not None]
             components.update({query.__name__: _query_schema(query) for query in queries})
             _name_what_is_shared(schema)
             schema["components"]["securitySchemes"] = {"key": _SCHEME}

@@ -226,10 +226,6 @@ def _place(error: errors.KinematicsError) -> str | None:
     return pointer if index is None else f"{pointer}/{index}"
 
 
-def _place_of(item: Mapping[str, Any]) -> dict[str, str]:
-    return {"pointer": _pointer(item["loc"]), "detail": item["msg"].removeprefix("Value error, ")[:_MOST_TEXT]}
-
-
 def _pointer(location: Sequence[int | str]) -> str:
     parts = [str(part) for part in location if not str(part).startswith("<")]
     if parts[:1] == ["body"]:

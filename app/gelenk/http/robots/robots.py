@@ -31,17 +31,21 @@ WITHOUT_KEY = "clients without a key"
 """Owner of uploads without a key: addresses change, and where no key is needed all clients share one machine."""
 _PIECE = 256 * 1024
 _LIST_SECONDS = 5.0
-"""How long the list of robots is cached if nothing shows that it has changed, [s]."""
+"""How long the list of robots is cached if nothing shows that it has changed, as after an edit by hand, [s]."""
 
 
 def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
     """Return the router of operations that read or remove robots; workers read the untrusted descriptions."""
     router = APIRouter()
-    listed = Listed(library, pool_client)
+    cached: tuple[int | None, float, bytes] = None, 0.0, b""
 
     @router.api_route(**documentation("list_robots"))
     async def list_robots(request: Request) -> Any:
-        return await listed.answer(request)
+        nonlocal cached
+        state, now = library.state(), time.monotonic()
+        if state is None or state != cached[0] or now >= cached[1] + _LIST_SECONDS:
+            cached = state, now, await pool_client.content(request, _listed, TaskRequest())
+        return Response(cached[2], media_type=JSON)
 
     @router.api_route(**documentation("get_robot"))
     async def get_robot(robot: RobotPath, request: Request) -> Any:
@@ -75,30 +79,6 @@ def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
         return Response(status_code=204)
 
     return router
-
-
-class Listed:
-    """The list of all robots, cached until any process adds, replaces or removes a robot.
-
-    Manual changes in a robot's folder show once the cached list expires.
-
-    Args:
-        library: All robots.
-        pool_client: Has a worker build the list.
-    """
-
-    def __init__(self, library: Library, pool_client: PoolClient) -> None:
-        self._library, self._pool_client = library, pool_client
-        self._kept: tuple[int, float, bytes] | None = None
-
-    async def answer(self, request: Request) -> Response:
-        """Return the list; raises as `PoolClient.answer` does."""
-        state, now = self._library.state(), time.monotonic()
-        if self._kept is not None and state == self._kept[0] and now < self._kept[1] + _LIST_SECONDS:
-            return Response(self._kept[2], media_type=JSON)
-        content = await self._pool_client.content(request, _listed, TaskRequest())
-        self._kept = None if state is None else (state, now, content)
-        return Response(content, media_type=JSON)
 
 
 def documented_routes(pool_client: PoolClient, max_body_bytes: int) -> list[DocumentedRoute]:
@@ -196,10 +176,9 @@ class Keep:
     def _kept(self, library: Library, upload: RobotUpload) -> Response:
         if self.name is not None:
             library.replace(upload)
-            return json_response(info(library.get(upload.name)).model_dump(mode="json"))
-        created = library.add(upload)
-        location = {"Location": f"{self.root_path}/v1/robots/{upload.name}"}
-        return json_response(info(library.get(upload.name)).model_dump(mode="json"), 201 if created else 200, location)
+            return _robot_response(library, upload.name)
+        status = 201 if library.add(upload) else 200
+        return _robot_response(library, upload.name, status, {"Location": f"{self.root_path}/v1/robots/{upload.name}"})
 
 
 def _from_json(body: bytes, name: str | None) -> RobotUpload:
@@ -217,7 +196,11 @@ def _listed(context: Context, _: TaskRequest) -> Response:
 
 
 def _described(context: Context, task_request: TaskRequest) -> Response:
-    return json_response(info(context.library.get(task_request.robot)).model_dump(mode="json"))
+    return _robot_response(context.library, task_request.robot)
+
+
+def _robot_response(library: Library, name: str, status: int = 200, headers: dict[str, str] | None = None) -> Response:
+    return json_response(info(library.get(name)).model_dump(mode="json"), status, headers)
 
 
 def _urdf(context: Context, task_request: TaskRequest) -> Response:

@@ -83,8 +83,7 @@ class PoolClient:
 def client_of(request: Request) -> str:
     """Return the client of a request: its key or, without a key, its address.
 
-    All requests without a key from this machine count as one nameless client without a maximum share, because a proxy
-    in front of the service may forward requests of many clients.
+    Requests without a key from this machine, perhaps from a proxy, count as one nameless client without a share.
     """
     key: str | None = request.scope.get("gelenk.key")
     if key is not None:
