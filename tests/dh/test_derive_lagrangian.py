@@ -586,7 +586,7 @@ def test_a_formula_that_disagrees_with_pinocchio_leaves_out_the_equations_and_no
     def wrong(question: MotionQuestion) -> MotionTexts:
         found = honest(question)
         assert isinstance(found, MotionTexts)
-        values = [replace(one, **{field: (np.array(getattr(one, field)) + 1e-6).tolist()}) for one in found.values]
+        values = [{**one, field: (np.array(one[field]) + 1e-6).tolist()} for one in found.values]
         return replace(found, values=values)
 
     monkeypatch.setattr(worked, "motion", wrong)

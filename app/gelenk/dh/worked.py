@@ -15,7 +15,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 
 from gelenk.course.steps import Step
-from gelenk.dh.derive.check import Checks, checked_formulas, checked_singularities
+from gelenk.dh.derive.check import SEED, Checks, checked_formulas, checked_singularities
 from gelenk.dh.derive.numeric import NumericSolution, numeric_solution
 from gelenk.dh.derive.steps import steps
 from gelenk.dh.derive.symbolic import formulas, singularities
@@ -45,7 +45,6 @@ from gelenk.robot.urdf import read_urdf, write_urdf
 logger = logging.getLogger("gelenk")
 
 SAMPLES = 20
-SEED = 0
 _Question = TypeVar("_Question")
 _Result = TypeVar("_Result")
 
@@ -132,16 +131,16 @@ def worked_solution(
     question = SymbolicRequest(_numbers(table), style, keeps_symbols, tuple(tuple(q) for q in samples.tolist()))
     notes: list[str] = []
     found = _timed(run, formulas, question, deadline, 0.5, notes, "the transforms and the Jacobian")
-    asked = None if bodies is None or found is None else motion_question(question, table, bodies[0], SEED)
+    motion_request = None if bodies is None or found is None else motion_question(question, table, bodies)
     what = "the equations of motion", "they are left out"
-    moving = _timed(run, motion, asked, deadline, 0.5, notes, *what) if asked else None
+    moving = _timed(run, motion, motion_request, deadline, 0.5, notes, *what) if motion_request else None
     singular = _timed(run, singularities, question, deadline, 1.0, notes, "the determinant") if found else None
     checks, solved = Checks(0.0, []), None
     if found is not None:
         notes = [*found.remarks, *_limits(table, found, singular), *notes]
         as_read = _read_back(table, found.as_read)
-        if asked is not None and bodies is not None and isinstance(moving, MotionTexts):
-            solved = motion_solution(moving, asked, table, as_read, *bodies, qs, SEED, checks)
+        if motion_request is not None and bodies is not None and isinstance(moving, MotionTexts):
+            solved = motion_solution(moving, motion_request, table, as_read, bodies, qs, checks)
         solutions = [numeric_solution(as_read, q) for q in samples]
         found = checked_formulas(found, solutions, checks)
         if singular is not None:

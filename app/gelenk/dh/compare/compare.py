@@ -8,7 +8,7 @@ zeros and senses of the joints make the poses of both equal at random configurat
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Literal
 
 import numpy as np
 
@@ -33,7 +33,7 @@ from gelenk.dh.compare.screws import (
     parameters_of,
 )
 from gelenk.dh.compare.trials import LOOKS, Diagnosis
-from gelenk.dh.compare.words import ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES
+from gelenk.dh.compare.words import ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES, Unverified
 from gelenk.errors import InvalidField, counted, listed, quoted
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain, crossed_joints
@@ -49,15 +49,6 @@ _SPANNED = 1e-7
 _SAME_MULTIPLIER = 1e-9
 
 
-class Unverified(NamedTuple):
-    """A table entry that cannot be checked, because the base, tool or offsets found compensate for its errors."""
-
-    row: int
-    joint: str
-    parameter: str
-    absorbed_by: str
-
-
 @dataclass(frozen=True, slots=True)
 class Comparison:
     """The result of comparing a table with a chain.
@@ -67,25 +58,26 @@ class Comparison:
         freedom: The quantities that were found; the others were held.
         placement: The table fitted to the chain as closely as possible, with the errors measured through Pinocchio;
             None if the rows and the joints do not match in number or type.
-        first_difference: The first row and parameter that differ; None if nothing differs.
-        differences: All known differences, including the first.
+        differences: All known differences, the first row and parameter that differ first.
         diagnoses: Single mistakes, or pairs of them, that explain the differences; the likeliest first.
         unverified: Entries that cannot be checked, because something found compensates for them.
         notes: Further remarks, one sentence each.
-        seed: Seed of the random configurations.
         samples: Number of configurations compared.
     """
 
     equivalent: bool
     freedom: Freedom
     placement: Placement | None
-    first_difference: Difference | None
     differences: tuple[Difference, ...]
     diagnoses: tuple[Diagnosis, ...]
     unverified: tuple[Unverified, ...]
     notes: tuple[str, ...]
-    seed: int
     samples: int
+
+    @property
+    def first_difference(self) -> Difference | None:
+        """The first row and parameter that differ; None if nothing differs."""
+        return self.differences[0] if self.differences else None
 
 
 def compare(
@@ -94,7 +86,6 @@ def compare(
     table: DhTable,
     freedom: Freedom,
     tolerances: tuple[float, float] = (POSITION_TOLERANCE, ORIENTATION_TOLERANCE),
-    samples: int = SAMPLES,
     seed: int = 0,
 ) -> Comparison:
     """Compare a table with a chain.
@@ -105,7 +96,6 @@ def compare(
         table: The table; its base and tool are ignored where they are to be found.
         freedom: The quantities to find.
         tolerances: Position [m] and orientation [rad] within which poses count as equal.
-        samples: Number of configurations to compare.
         seed: Seed of the random configurations.
 
     Raises:
@@ -115,26 +105,23 @@ def compare(
     unlike = _unlike(chain, table)
     if unlike is not None:
         found = _reordered(robot, chain, table, freedom, tolerances, seed)
-        return _refused(unlike, found, freedom, robot, chain, seed)
+        return _refused(unlike, found, freedom, robot, chain)
+    only = "offsets and signs can only be found for"
     if len(target) != len(chain) and (freedom.offsets or freedom.signs):
-        raise InvalidField(
-            "find", "offsets and signs can only be found for chains without mimic joints; base and tool for any chain"
-        )
+        raise InvalidField("find", f"{only} chains without mimic joints; base and tool for any chain")
     if len(target) > MAX_ROWS_WITH_SENSES and (freedom.offsets or freedom.signs):
-        raise InvalidField(
-            "find", f"offsets and signs can only be found for tables with at most {MAX_ROWS_WITH_SENSES} rows"
-        )
-    on = subject(robot, chain, target, _senses(chain, table), tolerances, samples, seed)
+        raise InvalidField("find", f"{only} tables with at most {MAX_ROWS_WITH_SENSES} rows")
+    on = subject(robot, chain, target, _senses(chain, table), tolerances, SAMPLES, seed)
     placement = placed(on, table, freedom)
     assert placement is not None  # noqa: S101 - a fit that is not strict always succeeds
     if on.accepts(placement.errors):
         unverified = _unverified(on, placement, freedom)
         notes = (*_plain_notes(table, placement, freedom), *_notes(on, unverified))
-        return Comparison(True, freedom, placement, None, (), (), unverified, notes, seed, samples)
-    return _explained(on, table, freedom, placement, seed)
+        return Comparison(True, freedom, placement, (), (), unverified, notes, SAMPLES)
+    return _explained(on, table, freedom, placement)
 
 
-def _explained(on: Subject, table: DhTable, freedom: Freedom, placement: Placement, seed: int) -> Comparison:
+def _explained(on: Subject, table: DhTable, freedom: Freedom, placement: Placement) -> Comparison:
     """Result for a table that matches the joints in number and type but does not describe the chain."""
     signs = placement.signs * on.senses if len(on.chain) == len(on.target) else on.senses
     found: list[Diagnosis] = []
@@ -149,10 +136,8 @@ def _explained(on: Subject, table: DhTable, freedom: Freedom, placement: Placeme
         notes.append("no one or two mistakes explain it; the difference listed is the first one from the base")
     elif len(found) > 1:
         notes.append("each of the diagnoses alone explains it; the first difference is that of the likeliest")
-    first = differences[0] if differences else None
-    samples = len(on.qs)
     shown = tuple(found[:_MOST_DIAGNOSES])
-    return Comparison(False, freedom, placement, first, differences, shown, unverified, tuple(notes), seed, samples)
+    return Comparison(False, freedom, placement, differences, shown, unverified, tuple(notes), SAMPLES)
 
 
 def _reordered(
@@ -167,7 +152,7 @@ def _reordered(
 
 
 def _refused(
-    unlike: Difference, found: list[Diagnosis], freedom: Freedom, robot: RobotModel, chain: Chain, seed: int
+    unlike: Difference, found: list[Diagnosis], freedom: Freedom, robot: RobotModel, chain: Chain
 ) -> Comparison:
     """Result for a table whose rows do not match the joints."""
     ends = f"from {quoted(chain.base_frame)} to {quoted(chain.tip_frame)}"
@@ -176,7 +161,7 @@ def _refused(
     note = f"the chain {ends} has the {counted(len(joints), 'joint')} {names}"
     differences = found[0].differences if found else (unlike,)
     shown = tuple(found[:_MOST_DIAGNOSES])
-    return Comparison(False, freedom, None, differences[0], differences, shown, (), (note,), seed, 0)
+    return Comparison(False, freedom, None, differences, shown, (), (note,), 0)
 
 
 def _unlike(chain: Chain, table: DhTable) -> Difference | None:
@@ -228,11 +213,14 @@ def _unverified(on: Subject, placement: Placement, freedom: Freedom) -> tuple[Un
     everything = np.arange(BASE_DIRECTIONS + 4 * n)[None]
     J = jacobians(table.convention, geometry(tables), everything, with_tip=not freedom.tool)[0]
     zeros = BASE_DIRECTIONS + 4 * np.arange(n) + variable_columns(on.target)
-    spans = {"tool": np.zeros((len(J), 0)), "base": J[:, :BASE_DIRECTIONS] if freedom.base else np.zeros((len(J), 0))}
-    if freedom.offsets:
-        spans["offsets"] = np.column_stack((spans["base"], J[:, zeros]))
-    changes = J[:, BASE_DIRECTIONS:]
-    absorbed = {name: _lie_in(changes, span).tolist() for name, span in spans.items()}
+    none, changes = np.zeros((len(J), 0)), J[:, BASE_DIRECTIONS:]
+    base = J[:, :BASE_DIRECTIONS] if freedom.base else none
+    offsets = np.column_stack((base, J[:, zeros])) if freedom.offsets else none
+    absorbed: dict[Literal["base", "tool", "offsets"], Flags] = {
+        "tool": _lie_in(changes, none),
+        "base": _lie_in(changes, base),
+        "offsets": _lie_in(changes, offsets),
+    }
     found = []
     for place in range(4 * n):
         by = next((name for name, lie in absorbed.items() if lie[place]), None)

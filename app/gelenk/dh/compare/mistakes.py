@@ -84,9 +84,9 @@ def diagnoses_of_rows(on: Subject, table: DhTable, freedom: Freedom) -> list[Dia
 
 def _wrong_numbers(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> list[Diagnosis]:
     found = []
-    for number in wrong_numbers(on, table, freedom, signs):
+    for number, placement in wrong_numbers(on, table, freedom, signs):
         undone = in_words(number)
-        found.append(Diagnosis((undone.mistake,), undone.detail, (number.difference,), number.placement))
+        found.append(Diagnosis((undone.mistake,), undone.detail, (number.difference,), placement))
     return found
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from gelenk.dh.compare.alignment import Alignment, Freedom, alignments
 from gelenk.dh.compare.screws import (
     BASE_DIRECTIONS,
+    STEPS,
     ChainScrews,
     TableAxes,
     Tables,
@@ -30,6 +31,7 @@ _INDEPENDENT = 1e-6
 _ROUNDING = 1e-9
 """Errors that a plain base or tool may always cause, [m] and [rad]."""
 _STEPS_WHERE_IT_FITS = 8
+"""Aligned axes need only a few steps."""
 _LOOSENESS = 30.0
 """Ratio of least-squares error to tolerance up to which a test through Pinocchio is worthwhile."""
 
@@ -165,15 +167,12 @@ def _judged(on: Subject, table: DhTable, offsets: Array, signs: Array, freedom: 
 
 def fitted(on: Subject, table: DhTable, freedom: Freedom, strict: bool) -> tuple[Tables, Array]:
     """Fit a table by least squares from each of its alignments; return tables and roots of their sums of squares."""
-    free_base = replace(table, base=np.eye(4)) if freedom.base else table
-    tables = started(on, free_base, parameters_of(table)[None], freedom, strict=strict)
+    tables = started(on, table, parameters_of(table)[None], freedom, strict=strict)
     if not len(tables.rows):
         return tables, np.empty(0)
     unknowns = np.tile(unknowns_of(on.target, tables, freedom), (len(tables.rows), 1))
-    if strict:
-        # Aligned axes need only a few steps.
-        return fit(on.target, tables, unknowns, not freedom.tool, _STEPS_WHERE_IT_FITS)
-    return fit(on.target, tables, unknowns, with_tip=not freedom.tool)
+    steps = _STEPS_WHERE_IT_FITS if strict else STEPS
+    return fit(on.target, tables, unknowns, not freedom.tool, steps)
 
 
 def started(on: Subject, table: DhTable, rows: Array, freedom: Freedom, strict: bool = False) -> Tables:
@@ -181,32 +180,27 @@ def started(on: Subject, table: DhTable, rows: Array, freedom: Freedom, strict: 
 
     Args:
         on: The chain.
-        table: The table that gives convention, types, base and tool of all.
+        table: The table that gives convention, types, base (if it is not free) and tool of all.
         rows: Numbers of the tables; shape (C, n, 4).
         freedom: The quantities that the alignment may change.
         strict: Omit tables that do not fit.
     """
-    plain = Tables(
-        table.convention, on.target.slides, np.ones(rows.shape[:2]), rows, _repeated(table, rows), table.tool
-    )
-    found = geometry(plain)
+    bases = np.tile(np.eye(4) if freedom.base else table.base, (len(rows), 1, 1))
+    unturned = Tables(table.convention, on.target.slides, np.ones(rows.shape[:2]), rows, bases, table.tool)
+    found = geometry(unturned)
     starts: list[tuple[int, Alignment]] = []
     for c in range(len(rows)):
         axes = ChainScrews(found.twists[c], on.target.slides, found.tips[c])
-        starts += [(c, way) for way in alignments(on.target, axes, freedom, on.senses, strict)]
+        starts += [(c, alignment) for alignment in alignments(on.target, axes, freedom, on.senses, strict)]
     chosen = np.array([c for c, _ in starts], dtype=np.int64)
-    tables = plain.only(chosen)
+    tables = unturned.only(chosen)
     if not starts:
         return tables
     turned, bases = tables.rows.copy(), tables.bases.copy()
-    for k, (_, way) in enumerate(starts):
-        turned[k, :, 3] += way.offsets
-        bases[k] = transform(np.zeros(3), way.base) @ bases[k]
-    return tables._replace(rows=turned, bases=bases, signs=np.array([way.signs for _, way in starts]))
-
-
-def _repeated(table: DhTable, rows: Array) -> Array:
-    return np.tile(table.base, (len(rows), 1, 1))
+    for k, (_, alignment) in enumerate(starts):
+        turned[k, :, 3] += alignment.offsets
+        bases[k] = transform(np.zeros(3), alignment.base) @ bases[k]
+    return tables._replace(rows=turned, bases=bases, signs=np.array([alignment.signs for _, alignment in starts]))
 
 
 def variable_columns(target: ChainScrews) -> Indices:

@@ -15,8 +15,9 @@ from gelenk.dh.compare.screws import PARAMETERS
 from gelenk.dh.compare.words import Mistake
 from gelenk.errors import quoted
 from gelenk.robot.arrays import Array, Flags, Indices
-from gelenk.robot.dh import Convention
+from gelenk.robot.dh import Convention, DhTable
 
+OTHER: dict[Convention, Convention] = {"standard": "modified", "modified": "standard"}
 _CONVENTIONS: dict[Convention, str] = {"standard": "standard", "modified": "modified (Craig)"}
 _DEGREE = np.pi / 180.0
 _NOWHERE = -1
@@ -52,14 +53,7 @@ class Repairs(NamedTuple):
 
     def only(self, chosen: Indices | Flags) -> "Repairs":
         """Select some repairs."""
-        return Repairs(
-            self.undone[chosen],
-            self.sources[chosen],
-            self.factors[chosen],
-            self.senses[chosen],
-            self.switched[chosen],
-            self.alone[chosen],
-        )
+        return Repairs._make(values[chosen] for values in self)
 
     def numbers(self, table: Array) -> Array:
         """Compute the repaired tables, with zeros in missing rows; shape (n, 4) → (N, m, 4)."""
@@ -70,6 +64,10 @@ class Repairs(NamedTuple):
     def rows(self) -> Indices:
         """Row of the given table that each row comes from, -1 if missing; shape (N, m)."""
         return self.sources[:, ::4] // 4
+
+    def convention(self, table: DhTable) -> Convention:
+        """Return the convention of the repaired tables, the same for all."""
+        return OTHER[table.convention] if self.switched[0] else table.convention
 
     def then(self, others: "Repairs") -> "Repairs":
         """Combine each repair with each of the others; two that each change a single number in one order only."""
@@ -193,8 +191,7 @@ def _powers(highest: int) -> list[int]:
 
 
 def _other_convention(convention: Convention) -> _Repair:
-    other: Convention = "modified" if convention == "standard" else "standard"
-    detail = f"the numbers are those of a {_CONVENTIONS[other]} table, read as {_CONVENTIONS[convention]}"
+    detail = f"the numbers are those of a {_CONVENTIONS[OTHER[convention]]} table, read as {_CONVENTIONS[convention]}"
     return _Repair("convention", detail, switched=True)
 
 

@@ -9,7 +9,7 @@ Twists are linear before angular; batches of tables come first in every shape.
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -18,11 +18,11 @@ from gelenk.robot.chain import FlatChain
 from gelenk.robot.dh import Convention, DhTable
 from gelenk.robot.notations import rotations_from_vectors, vectors_from_rotations
 
-PARAMETERS = ("a", "alpha", "d", "theta")
+PARAMETERS: tuple[Literal["a"], Literal["alpha"], Literal["d"], Literal["theta"]] = ("a", "alpha", "d", "theta")
 BASE_DIRECTIONS = 6
 """Number of unknowns of the base; they come before the parameters, which follow row by row."""
 
-_STEPS = 30
+STEPS = 30
 _CONVERGED = 1e-13
 """Root of the sum of squares below which a fit is complete, [m, rad]."""
 _SETTLED = 1e-6
@@ -85,10 +85,6 @@ class Tables(NamedTuple):
     def only(self, chosen: Indices) -> "Tables":
         """Select some tables."""
         return self._replace(signs=self.signs[chosen], rows=self.rows[chosen], bases=self.bases[chosen])
-
-    def part(self, count: int) -> "Tables":
-        """Keep only the first `count` rows."""
-        return self._replace(slides=self.slides[:count], signs=self.signs[:, :count], rows=self.rows[:, :count])
 
 
 class TableAxes(NamedTuple):
@@ -191,7 +187,7 @@ def moved_joints(convention: Convention, n: int) -> Flags:
 
 
 def fit(
-    target: ChainScrews, tables: Tables, unknowns: Indices, with_tip: bool, steps: int = _STEPS
+    target: ChainScrews, tables: Tables, unknowns: Indices, with_tip: bool, steps: int = STEPS
 ) -> tuple[Tables, Array]:
     """Fit tables to a chain by least squares over their unknowns.
 

@@ -66,6 +66,15 @@ def shortened(vector: Vector) -> Vector:
     return reduced_vector(vector, one_group)
 
 
+def quantity(atom: Atom, value: float | None, values: dict[Atom, float], zero: float = 0.0) -> Polynomial:
+    """Return a given quantity as a symbol, with its value in `values` if it has one; one of zero vanishes."""
+    if value is not None and abs(value) <= zero:
+        return ZERO
+    if value is not None:
+        values[atom] = value
+    return symbol(atom)
+
+
 @dataclass(slots=True)
 class _Walk:
     """A frame that moves along the chain."""
@@ -164,29 +173,24 @@ def _center(
 ) -> Vector:
     """Return a centre of mass, given along the link's line or by its coordinates in the link's frame."""
     if not isinstance(given, tuple):
-        return shortened(plus(start, scaled(_length("lc", index, given, values), walk.seen(direction))))
-    inside = tuple(_length(name, index, value, values) for name, value in zip(("xc", "yc", "zc"), given, strict=True))
+        return shortened(
+            plus(
+                start,
+                scaled(quantity(Atom(LENGTH, (index,), "lc"), given, values, LENGTH_TOLERANCE), walk.seen(direction)),
+            )
+        )
+    inside = tuple(
+        quantity(Atom(LENGTH, (index,), name), value, values, LENGTH_TOLERANCE)
+        for name, value in zip(("xc", "yc", "zc"), given, strict=True)
+    )
     return shortened(plus(walk.position, walk.seen(shortened(applied(walk.fixed, inside)))))
 
 
-def _length(name: str, index: int, value: float | None, values: dict[Atom, float]) -> Polynomial:
-    if value is not None and abs(value) <= LENGTH_TOLERANCE:
-        return ZERO
-    atom = Atom(LENGTH, (index,), name)
-    if value is not None:
-        values[atom] = value
-    return symbol(atom)
-
-
 def _demand_plane(walk: _Walk) -> None:
-    """Check that all prismatic joints slide within the plane.
-
-    Raises:
-        NotPlanar: A joint does not.
-    """
+    """Check that all prismatic joints slide within the plane."""
     slides = walk.slides
     if walk.normal is not None:
-        numbers = [i for i, sense in enumerate(walk.senses, start=1) if not sense]
+        numbers = (i for i, sense in enumerate(walk.senses, start=1) if not sense)
         for number, axis in zip(numbers, slides, strict=True):
             if reduced(dot(walk.normal, axis), one_group):
                 raise NotPlanar(f"the axis of the prismatic joint {number} is not across those of the revolute joints")
