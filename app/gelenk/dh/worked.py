@@ -20,7 +20,7 @@ from gelenk.dh.derive.numeric import NumericSolution, numeric_solution
 from gelenk.dh.derive.steps import steps
 from gelenk.dh.derive.symbolic import formulas, singularities
 from gelenk.dh.derive.table import Numbers4, RowNumbers, TableNumbers
-from gelenk.dh.derive.texts import FormulaCertificate, Formulas, Singularities, SymbolicRequest
+from gelenk.dh.derive.texts import FormulaCertificate, Formulas, NumericCertificate, Singularities, SymbolicRequest
 from gelenk.dh.derive.transforms import MAX_ENTRY_TERMS
 from gelenk.dh.derive.typeset import Style
 from gelenk.dh.lagrangian.bodies import MassProperties
@@ -34,7 +34,7 @@ from gelenk.dh.lagrangian.symbolic import motion
 from gelenk.dh.lagrangian.texts import MotionTexts, NoMotion
 from gelenk.dh.tables.convert import BASE_FRAME, TOOL_FRAME, describe_dh
 from gelenk.errors import InvalidDhTable
-from gelenk.kinematics.judge.judge import JacobianCertificate, PoseCertificate, certify_jacobians, certify_poses
+from gelenk.kinematics.judge.judge import certify_jacobians, certify_poses
 from gelenk.robot.arrays import Array, Configuration
 from gelenk.robot.configuration import configurations
 from gelenk.robot.dh import DhJoint, DhTable
@@ -76,8 +76,7 @@ class WorkedSolution:
         steps: The solution in words.
         notes: Numbers that were read as something else, and what stays numeric and why.
         certificate: Certificate of the formulas; None without formulas.
-        pose_certificate: Certificate of the poses at the configurations, by Pinocchio.
-        jacobian_certificate: Certificate of the Jacobians there, by Pinocchio.
+        numeric_certificate: Certificate of poses and Jacobians at the configurations, by Pinocchio.
     """
 
     joint_names: tuple[str, ...]
@@ -89,8 +88,7 @@ class WorkedSolution:
     steps: list[Step]
     notes: list[str]
     certificate: FormulaCertificate | None
-    pose_certificate: PoseCertificate | None
-    jacobian_certificate: JacobianCertificate | None
+    numeric_certificate: NumericCertificate | None
 
 
 def worked_solution(
@@ -138,7 +136,7 @@ def worked_solution(
     checks, solved = Checks(0.0, []), None
     if found is not None:
         notes = [*found.remarks, *_limits(table, found, singular), *notes]
-        as_read = _read_back(table, found.as_read)
+        as_read = _read_back(found.as_read)
         if motion_request is not None and bodies is not None and isinstance(moving, MotionTexts):
             solved = motion_solution(moving, motion_request, table, as_read, bodies, qs, checks)
         solutions = [numeric_solution(as_read, q) for q in samples]
@@ -161,7 +159,7 @@ def worked_solution(
         [*derivation, *(solved.steps if solved is not None else ())],
         [*notes, *(solved.notes if solved is not None else ())],
         None if found is None else FormulaCertificate(len(samples), checks.worst, SEED),
-        *_certified(robot, qs, numeric),
+        _certified(robot, qs, numeric) if numeric else None,
     )
 
 
@@ -201,10 +199,10 @@ def _tuples(matrix: Array) -> Numbers4:
     return tuple(tuple(row) for row in matrix.tolist())
 
 
-def _read_back(table: DhTable, numbers: TableNumbers) -> DhTable:
+def _read_back(numbers: TableNumbers) -> DhTable:
     """Return the table that the formulas stand for: angles and lengths as they were read."""
     joints = tuple(DhJoint(**asdict(row)) for row in numbers.rows)
-    return DhTable(table.convention, joints, np.array(numbers.base), np.array(numbers.tool))
+    return DhTable(numbers.convention, joints, np.array(numbers.base), np.array(numbers.tool))
 
 
 def _determinant(singular: Singularities | None, solution: NumericSolution) -> float | None:
@@ -213,17 +211,14 @@ def _determinant(singular: Singularities | None, solution: NumericSolution) -> f
     return solution.determinant(range(6), 0) if solution.jacobian.shape[1] == 6 else None
 
 
-def _certified(
-    robot: RobotModel, qs: Array, numeric: Sequence[NumericSolution]
-) -> tuple[PoseCertificate | None, JacobianCertificate | None]:
+def _certified(robot: RobotModel, qs: Array, numeric: Sequence[NumericSolution]) -> NumericCertificate:
     """Compare the numbers at the configurations with Pinocchio's."""
-    if not numeric:
-        return None, None
     chain = robot.chain(None, None)
     positions = np.array([solution.tip[:3, 3] for solution in numeric])
     rotations = np.array([solution.tip[:3, :3] for solution in numeric])
     poses = certify_poses(robot, chain, qs, {TOOL_FRAME: Poses(positions, rotations)})
-    return poses, certify_jacobians(robot, chain, qs, np.array([solution.jacobian for solution in numeric]))
+    jacobians = certify_jacobians(robot, chain, qs, np.array([solution.jacobian for solution in numeric]))
+    return NumericCertificate(poses.samples, poses.max_position_error, poses.max_orientation_error, jacobians.max_error)
 
 
 def _limits(table: DhTable, found: Formulas, singular: Singularities | None) -> list[str]:

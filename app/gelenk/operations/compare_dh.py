@@ -34,8 +34,9 @@ def is_heavy(_: CompareRequest) -> bool:
 def _compared(robot: RobotModel, call: CompareRequest) -> dict[str, Any]:
     chain = robot.chain(call.base_frame, call.tip_frame)
     tolerances = call.position_tolerance, call.orientation_tolerance
-    comparison = compare(robot, chain, call.dh.table(), _freedom(call), tolerances, seed=call.random_seed)
-    return _content(chain, call, comparison)
+    freedom = _freedom(call)
+    comparison = compare(robot, chain, call.dh.table(), freedom, tolerances, seed=call.random_seed)
+    return _content(chain, call, freedom, comparison)
 
 
 def _freedom(call: CompareRequest) -> Freedom:
@@ -44,7 +45,7 @@ def _freedom(call: CompareRequest) -> Freedom:
     return Freedom(*(name in call.find for name in Freedom._fields))
 
 
-def _content(chain: Chain, call: CompareRequest, comparison: Comparison) -> dict[str, Any]:
+def _content(chain: Chain, call: CompareRequest, freedom: Freedom, comparison: Comparison) -> dict[str, Any]:
     placement = comparison.placement
     content: dict[str, Any] = dict.fromkeys(
         ("base", "tool", "offsets", "signs", "max_position_error", "max_orientation_error")
@@ -63,8 +64,8 @@ def _content(chain: Chain, call: CompareRequest, comparison: Comparison) -> dict
         "equivalent": comparison.equivalent,
         **content,
         "first_difference": None if first is None else _difference(first),
-        "found": [name for name in Freedom._fields if getattr(comparison.freedom, name)],
-        "held": [name for name in Freedom._fields if not getattr(comparison.freedom, name)],
+        "found": [name for name in Freedom._fields if getattr(freedom, name)],
+        "held": [name for name in Freedom._fields if not getattr(freedom, name)],
         "diagnoses": [_diagnosis(each) for each in comparison.diagnoses],
         "unverified": comparison.unverified,
         "notes": [*_replaced(call), *comparison.notes],

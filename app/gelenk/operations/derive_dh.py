@@ -105,7 +105,7 @@ def _derived(call: DeriveRequest) -> dict[str, Any]:
         "steps": solution.steps,
         "notes": solution.notes,
         "certificate": solution.certificate,
-        "numeric_certificate": _numeric_certificate(solution),
+        "numeric_certificate": solution.numeric_certificate,
     }
 
 
@@ -138,7 +138,6 @@ def _determinant(singular: Singularities) -> dict[str, Any] | None:
 
 
 def _numbers(one: NumericSolution, determinant: float | None) -> dict[str, Any]:
-    fields = ("axis", "arm", "linear", "angular")
     numbers: dict[str, Any] = as_lists(
         {
             "joint_positions": one.q,
@@ -147,7 +146,7 @@ def _numbers(one: NumericSolution, determinant: float | None) -> dict[str, Any]:
             "T_base_tool": one.tip,
             "position": one.tip[:3, 3],
             "rotation": one.tip[:3, :3],
-            "columns": [{name: getattr(column, name) for name in fields} for column in one.columns],
+            "columns": one.columns,
             "jacobian": one.jacobian,
             "singular_values": one.singular_values,
             "rank": one.rank,
@@ -155,18 +154,6 @@ def _numbers(one: NumericSolution, determinant: float | None) -> dict[str, Any]:
         }
     )
     return numbers
-
-
-def _numeric_certificate(solution: WorkedSolution) -> dict[str, Any] | None:
-    poses, jacobians = solution.pose_certificate, solution.jacobian_certificate
-    if poses is None or jacobians is None:
-        return None
-    return {
-        "samples": poses.samples,
-        "max_position_error": poses.max_position_error,
-        "max_orientation_error": poses.max_orientation_error,
-        "max_jacobian_error": jacobians.max_error,
-    }
 
 
 def _dynamics(motion: MotionSolution) -> dict[str, Any]:

@@ -36,6 +36,10 @@ class FlatChain(NamedTuple):
     joints: Indices
     drives: Array
 
+    def placement(self, i: int) -> Array:
+        """Return a constant placement as a new homogeneous transform; shape (4, 4)."""
+        return transform(self.placements[i, 9:], self.placements[i, :9].reshape(3, 3))
+
 
 @dataclass(frozen=True, eq=False)
 class Chain:

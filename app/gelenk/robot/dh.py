@@ -69,8 +69,8 @@ class DhJoint:
         revolute = self.type == "revolute"
         theta = self.theta + position if revolute else self.theta
         d = self.d if revolute else self.d + position
-        turn = _about_z(theta, d)
-        return turn @ _about_x(self.alpha, self.a) if convention == "standard" else _about_x(self.alpha, self.a) @ turn
+        turn, shift = about_z(theta, d), about_x(self.alpha, self.a)
+        return turn @ shift if convention == "standard" else shift @ turn
 
 
 @dataclass(frozen=True)
@@ -191,13 +191,13 @@ def _check_mimic(i: int, mimic: Mimic, followers: set[str]) -> None:
             raise InvalidDhTable(f"{parameter} must be a number of magnitude ≤ {most:g}", i, "mimic")
 
 
-def _about_z(theta: float, d: float) -> Array:
+def about_z(theta: float, d: float) -> Array:
     """Return Rz(θ) Tz(d)."""
     c, s = math.cos(theta), math.sin(theta)
     return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, d], [0, 0, 0, 1]])
 
 
-def _about_x(alpha: float, a: float) -> Array:
+def about_x(alpha: float, a: float) -> Array:
     """Return Tx(a) Rx(α); the order does not matter because the two commute."""
     c, s = math.cos(alpha), math.sin(alpha)
     return np.array([[1, 0, 0, a], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1]])

@@ -55,7 +55,6 @@ class Comparison:
 
     Attributes:
         equivalent: Whether the table describes the chain.
-        freedom: The quantities that were found; the others were held.
         placement: The table fitted to the chain as closely as possible, with the errors measured through Pinocchio;
             None if the rows and the joints do not match in number or type.
         differences: All known differences, the first row and parameter that differ first.
@@ -66,7 +65,6 @@ class Comparison:
     """
 
     equivalent: bool
-    freedom: Freedom
     placement: Placement | None
     differences: tuple[Difference, ...]
     diagnoses: tuple[Diagnosis, ...]
@@ -105,7 +103,7 @@ def compare(
     unlike = _unlike(chain, table)
     if unlike is not None:
         found = _reordered(robot, chain, table, freedom, tolerances, seed)
-        return _refused(unlike, found, freedom, robot, chain)
+        return _refused(unlike, found, robot, chain)
     only = "offsets and signs can only be found for"
     if len(target) != len(chain) and (freedom.offsets or freedom.signs):
         raise InvalidField("find", f"{only} chains without mimic joints; base and tool for any chain")
@@ -117,7 +115,7 @@ def compare(
     if on.accepts(placement.errors):
         unverified = _unverified(on, placement, freedom)
         notes = (*_plain_notes(table, placement, freedom), *_notes(on, unverified))
-        return Comparison(True, freedom, placement, (), (), unverified, notes, SAMPLES)
+        return Comparison(True, placement, (), (), unverified, notes, SAMPLES)
     return _explained(on, table, freedom, placement)
 
 
@@ -137,7 +135,7 @@ def _explained(on: Subject, table: DhTable, freedom: Freedom, placement: Placeme
     elif len(found) > 1:
         notes.append("each of the diagnoses alone explains it; the first difference is that of the likeliest")
     shown = tuple(found[:_MOST_DIAGNOSES])
-    return Comparison(False, freedom, placement, differences, shown, unverified, tuple(notes), SAMPLES)
+    return Comparison(False, placement, differences, shown, unverified, tuple(notes), SAMPLES)
 
 
 def _reordered(
@@ -151,9 +149,7 @@ def _reordered(
     return diagnoses_of_rows(on, table, freedom)
 
 
-def _refused(
-    unlike: Difference, found: list[Diagnosis], freedom: Freedom, robot: RobotModel, chain: Chain
-) -> Comparison:
+def _refused(unlike: Difference, found: list[Diagnosis], robot: RobotModel, chain: Chain) -> Comparison:
     """Result for a table whose rows do not match the joints."""
     ends = f"from {quoted(chain.base_frame)} to {quoted(chain.tip_frame)}"
     joints = crossed_joints(robot.description, chain)
@@ -161,7 +157,7 @@ def _refused(
     note = f"the chain {ends} has the {counted(len(joints), 'joint')} {names}"
     differences = found[0].differences if found else (unlike,)
     shown = tuple(found[:_MOST_DIAGNOSES])
-    return Comparison(False, freedom, None, differences, shown, (), (note,), 0)
+    return Comparison(False, None, differences, shown, (), (note,), 0)
 
 
 def _unlike(chain: Chain, table: DhTable) -> Difference | None:

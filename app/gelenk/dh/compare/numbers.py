@@ -260,7 +260,7 @@ def _link(on: Subject, table: DhTable, freedom: Freedom, signs: Array, count: in
         values = tables.rows[c].ravel()[places].tolist()
         numbers = [explained(on, table, *each).difference for each in zip(places, values, strict=True)]
         answers.append([each for each in numbers if _differs(on, each)])
-    return min(answers, key=lambda differences: (len(differences), _size(differences)), default=[])
+    return min(answers, key=lambda found: (len(found), sum(abs(each.difference or 0.0) for each in found)), default=[])
 
 
 def _places_of_link(table: DhTable, count: int) -> list[int]:
@@ -276,10 +276,6 @@ def _places_of_link(table: DhTable, count: int) -> list[int]:
 def _differs(on: Subject, each: Difference) -> bool:
     tolerance = on.tolerances[1] if each.parameter in {"alpha", "theta"} else on.tolerances[0]
     return each.difference is not None and abs(each.difference) > tolerance
-
-
-def _size(differences: Sequence[Difference]) -> float:
-    return sum(abs(each.difference or 0.0) for each in differences)
 
 
 def explained(on: Subject, table: DhTable, place: int, found: float) -> Candidate:

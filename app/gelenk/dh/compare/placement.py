@@ -41,7 +41,6 @@ class Subject:
     """A chain that tables are compared with.
 
     Attributes:
-        robot: The robot.
         chain: Base → tip.
         target: The screws of its joints.
         senses: -1 where the multipliers of table and chain have opposite signs, else 1; shape (n,).
@@ -50,7 +49,6 @@ class Subject:
         expected: Pinocchio's poses at these configurations.
     """
 
-    robot: RobotModel
     chain: Chain
     target: ChainScrews
     senses: Array
@@ -113,7 +111,7 @@ def subject(
             reach[variable] = 1.0
     qs = np.random.default_rng(seed).uniform(-reach, reach, (samples, len(chain)))
     expected = pinocchio_poses(robot, chain, chain.tip_frame, qs, range(samples))
-    return Subject(robot, chain, target, senses, tolerances, qs, expected)
+    return Subject(chain, target, senses, tolerances, qs, expected)
 
 
 def placed(
@@ -135,7 +133,8 @@ def placed(
     nearest = _best(on, tables, costs, freedom)
     signs = nearest.signs[0] * on.senses
     offsets = (nearest.rows[0] - parameters_of(table))[np.arange(len(on.target)), variable_columns(on.target)]
-    offsets = _nearest_zero(offsets, on.target)
+    turns = np.remainder(offsets + np.pi, 2.0 * np.pi) - np.pi  # to within half a turn of zero
+    offsets = np.where(on.target.slides, offsets, turns) + 0.0
     if len(on.chain) != len(on.target):
         signs, offsets = np.ones(len(on.chain)), np.zeros(len(on.chain))
     placement = _judged(on, replace(table, base=_within_reach(nearest.bases[0])), offsets, signs, freedom)
@@ -157,7 +156,9 @@ def _judged(on: Subject, table: DhTable, offsets: Array, signs: Array, freedom: 
     if freedom.tool:
         table = replace(table, tool=_within_reach(_tool(on, table.base @ products)))
     found = Placement(table, offsets, signs, *_errors(on, table, products))
-    for plainer in _plainer(table, on.tolerances, freedom):
+    base = plain(table.base, on.tolerances) if freedom.base else table.base
+    tool = plain(table.tool, on.tolerances) if freedom.tool else table.tool
+    for plainer in (replace(table, base=base, tool=tool), replace(table, base=base), replace(table, tool=tool)):
         errors = _errors(on, plainer, products)
         costs_nothing = all(e <= max(_ROUNDING, 10.0 * before) for e, before in zip(errors, found.errors, strict=True))
         if on.accepts(errors) and costs_nothing:
@@ -244,12 +245,6 @@ def independent(vectors: Array, given: Array) -> Indices:
     return np.array(kept, dtype=np.int64)
 
 
-def _nearest_zero(offsets: Array, target: ChainScrews) -> Array:
-    """Offsets, with angles wrapped to within half a turn of zero."""
-    wrapped: Array = np.where(target.slides, offsets, np.remainder(offsets + np.pi, 2.0 * np.pi) - np.pi)
-    return wrapped + 0.0
-
-
 def _errors(on: Subject, table: DhTable, products: Array) -> tuple[float, float]:
     """Largest distance [m] and angle [rad] between Pinocchio's poses and base · products of the rows · tool."""
     Ts = table.base @ products @ table.tool
@@ -268,13 +263,6 @@ def _tool(on: Subject, Ts: Array) -> Array:
     tools = np.array([inverse(T) for T in Ts]) @ on.expected.matrices()
     U, _, Vt = np.linalg.svd(tools[:, :3, :3].mean(axis=0))
     return transform(tools[:, :3, 3].mean(axis=0), U @ np.diag([1.0, 1.0, np.linalg.det(U @ Vt)]) @ Vt)
-
-
-def _plainer(table: DhTable, tolerances: tuple[float, float], freedom: Freedom) -> list[DhTable]:
-    """The table with both or one of base and tool simplified, as far as they are free."""
-    base = plain(table.base, tolerances) if freedom.base else table.base
-    tool = plain(table.tool, tolerances) if freedom.tool else table.tool
-    return [replace(table, base=base, tool=tool), replace(table, base=base), replace(table, tool=tool)]
 
 
 def plain(T: Array, tolerances: tuple[float, float]) -> Array:

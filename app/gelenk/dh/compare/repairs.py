@@ -104,7 +104,9 @@ def of_rows(
         turn: Whether a joint may be reversed.
     """
     n = len(table)
-    found = [_other_convention(convention), *_throughout(powers), *(_reordered(n) if reorder else ())]
+    other, own = _CONVENTIONS[OTHER[convention]], _CONVENTIONS[convention]
+    detail = f"the numbers are those of a {other} table, read as {own}"
+    found = [_Repair("convention", detail, switched=True), *_throughout(powers), *(_reordered(n) if reorder else ())]
     found += _in_rows(n, powers)
     if turn:
         for i, name in enumerate(names):
@@ -188,11 +190,6 @@ def _powers(highest: int) -> list[int]:
     return sorted(
         (sign * power for power in range(1, highest + 1) for sign in (1, -1)), key=lambda p: (abs(p - 2.5), p)
     )
-
-
-def _other_convention(convention: Convention) -> _Repair:
-    detail = f"the numbers are those of a {_CONVENTIONS[OTHER[convention]]} table, read as {_CONVENTIONS[convention]}"
-    return _Repair("convention", detail, switched=True)
 
 
 def _throughout(powers: int) -> Iterator[_Repair]:

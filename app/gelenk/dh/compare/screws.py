@@ -116,11 +116,11 @@ def chain_screws(flat: FlatChain) -> ChainScrews:
     twists = np.empty((len(flat.joints), 6))
     slides = flat.joints[:, 0] == 1
     for i, offset in enumerate(flat.drives[:, 1]):
-        T = T @ _homogeneous(flat.placements[i])
+        T = T @ flat.placement(i)
         twists[i] = _twists(T[None], 2, bool(slides[i]))[0]
         motion = _about_z(np.zeros(1), np.array([offset])) if slides[i] else _about_z(np.array([offset]), np.zeros(1))
         T = T @ motion[0]
-    return ChainScrews(twists, slides, T @ _homogeneous(flat.placements[-1]))
+    return ChainScrews(twists, slides, T @ flat.placement(-1))
 
 
 def geometry(tables: Tables) -> TableAxes:
@@ -333,10 +333,3 @@ def _about_x(alpha: Array, a: Array) -> Array:
     Ts[:, 0, 0] = Ts[:, 3, 3] = 1.0
     Ts[:, 0, 3] = a
     return Ts
-
-
-def _homogeneous(placement: Array) -> Array:
-    """A placement of a flat chain as a homogeneous transform; shape (12,) → (4, 4)."""
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = placement[:9].reshape(3, 3), placement[9:]
-    return T
