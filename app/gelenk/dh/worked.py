@@ -128,11 +128,12 @@ def worked_solution(
     samples = _samples(table)
     question = SymbolicRequest(_numbers(table), style, keeps_symbols, tuple(tuple(q) for q in samples.tolist()))
     notes: list[str] = []
-    found = _timed(run, formulas, question, deadline, 0.5, notes, "the transforms and the Jacobian")
+    timed = _Timed(run, deadline, notes)
+    found = timed.result(formulas, question, 0.5, "the transforms and the Jacobian")
     motion_request = None if bodies is None or found is None else motion_question(question, table, bodies)
     what = "the equations of motion", "they are left out"
-    moving = _timed(run, motion, motion_request, deadline, 0.5, notes, *what) if motion_request else None
-    singular = _timed(run, singularities, question, deadline, 1.0, notes, "the determinant") if found else None
+    moving = timed.result(motion, motion_request, 0.5, *what) if motion_request else None
+    singular = timed.result(singularities, question, 1.0, "the determinant") if found else None
     checks, solved = Checks(0.0, []), None
     if found is not None:
         notes = [*found.remarks, *_limits(table, found, singular), *notes]
@@ -163,26 +164,32 @@ def worked_solution(
     )
 
 
-def _timed(
-    run: BoundedRunner,
-    function: Callable[[_Question], _Result],
-    question: _Question,
-    deadline: float | None,
-    share: float,
-    notes: list[str],
-    what: str,
-    instead: str = "only numbers are given",
-) -> _Result | None:
-    """Return the result of a symbolic part within its share of the time that is left; None and a note if it fails."""
-    seconds = float("inf") if deadline is None else (deadline - time.monotonic()) * share
-    try:
-        return run(function, question, seconds)
-    except (TimeoutError, MemoryError):
-        notes.append(f"{what} could not be worked out in symbols in the time allowed: {instead}")
-    except ArithmeticError:
-        logger.exception("derived formulas left out: %s failed a check of their own", what)
-        notes.append(f"{what} in symbols failed a check of their own: {instead}")
-    return None
+@dataclass(frozen=True, slots=True)
+class _Timed:
+    """Runs parts of the symbolic side until a deadline, and notes what fails."""
+
+    run: BoundedRunner
+    deadline: float | None
+    notes: list[str]
+
+    def result(
+        self,
+        function: Callable[[_Question], _Result],
+        question: _Question,
+        share: float,
+        what: str,
+        instead: str = "only numbers are given",
+    ) -> _Result | None:
+        """Return the function's result within its share of the time that is left; None and a note if it fails."""
+        seconds = float("inf") if self.deadline is None else (self.deadline - time.monotonic()) * share
+        try:
+            return self.run(function, question, seconds)
+        except (TimeoutError, MemoryError):
+            self.notes.append(f"{what} could not be worked out in symbols in the time allowed: {instead}")
+        except ArithmeticError:
+            logger.exception("derived formulas left out: %s failed a check of their own", what)
+            self.notes.append(f"{what} in symbols failed a check of their own: {instead}")
+        return None
 
 
 def _samples(table: DhTable) -> Array:

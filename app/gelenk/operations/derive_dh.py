@@ -157,17 +157,9 @@ def _numbers(one: NumericSolution, determinant: float | None) -> dict[str, Any]:
 
 
 def _dynamics(motion: MotionSolution) -> dict[str, Any]:
-    texts = motion.texts
+    names = ("gravity", "links", "mass_matrix", "christoffel", "coriolis", "coriolis_vector", "gravity_vector")
     return {
-        "gravity": texts.gravity,
-        "links": texts.bodies,
-        "mass_matrix": texts.mass_matrix,
-        "christoffel": texts.christoffel,
-        "coriolis": texts.coriolis,
-        "coriolis_vector": texts.coriolis_vector,
-        "gravity_vector": texts.gravity_vector,
-        "skew": texts.skew,
-        "equations_of_motion": texts.rows,
+        **{name: getattr(motion.texts, name) for name in (*names, "skew", "equations_of_motion")},
         "numeric": [_motion_numbers(one) for one in motion.numeric],
         "certificate": motion.certificate,
         "numeric_certificate": motion.numeric_certificate,

@@ -159,14 +159,12 @@ class DhTable:
 
 def _check_row(i: int, joint: DhJoint) -> None:
     _check_name(i, joint.name, "name")
-    bounds = {"a": MAX_LENGTH, "d": MAX_LENGTH, "alpha": MAX_ANGLE, "theta": MAX_ANGLE}
-    for parameter, most in bounds.items():
-        if not abs(getattr(joint, parameter)) <= most:
-            raise InvalidDhTable(f"must be a number of magnitude ≤ {most:g}", i, parameter)
     lower, upper = joint.limits
-    for parameter, value in (("lower", lower), ("upper", upper)):
-        if not abs(value) <= MAX_LENGTH:
-            raise InvalidDhTable(f"must be a number of magnitude ≤ {MAX_LENGTH:g}", i, parameter)
+    lengths = {"a": joint.a, "d": joint.d, "lower": lower, "upper": upper}
+    for most, numbers in ((MAX_LENGTH, lengths), (MAX_ANGLE, {"alpha": joint.alpha, "theta": joint.theta})):
+        for parameter, number in numbers.items():
+            if not abs(number) <= most:
+                raise InvalidDhTable(f"must be a number of magnitude ≤ {most:g}", i, parameter)
     if lower > upper:
         raise InvalidDhTable(f"lower = {lower:.17g} is greater than upper = {upper:.17g}", i, "lower")
     for parameter in ("velocity", "effort"):

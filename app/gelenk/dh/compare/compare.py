@@ -7,7 +7,7 @@ zeros and senses of the joints make the poses of both equal at random configurat
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -27,7 +27,6 @@ from gelenk.dh.compare.screws import (
     BASE_DIRECTIONS,
     PARAMETERS,
     Tables,
-    chain_screws,
     geometry,
     jacobians,
     parameters_of,
@@ -99,17 +98,16 @@ def compare(
     Raises:
         InvalidField: Zeros or senses are requested for a chain with mimic joints, or with too many joints.
     """
-    target = chain_screws(chain.flat)
     unlike = _unlike(chain, table)
     if unlike is not None:
-        found = _reordered(robot, chain, table, freedom, tolerances, seed)
-        return _refused(unlike, found, robot, chain)
-    only = "offsets and signs can only be found for"
-    if len(target) != len(chain) and (freedom.offsets or freedom.signs):
-        raise InvalidField("find", f"{only} chains without mimic joints; base and tool for any chain")
-    if len(target) > MAX_ROWS_WITH_SENSES and (freedom.offsets or freedom.signs):
-        raise InvalidField("find", f"{only} tables with at most {MAX_ROWS_WITH_SENSES} rows")
-    on = subject(robot, chain, target, _senses(chain, table), tolerances, SAMPLES, seed)
+        return _refused(unlike, robot, chain, table, freedom, tolerances, seed)
+    rows = len(table.joints)
+    only = "offsets and signs can only be found"
+    if rows != len(chain) and (freedom.offsets or freedom.signs):
+        raise InvalidField("find", f"{only} for chains without mimic joints; base and tool for any chain")
+    if rows > MAX_ROWS_WITH_SENSES and (freedom.offsets or freedom.signs):
+        raise InvalidField("find", f"{only} for tables with at most {MAX_ROWS_WITH_SENSES} rows")
+    on = replace(subject(robot, chain, tolerances, SAMPLES, seed), senses=_senses(chain, table))
     placement = placed(on, table, freedom)
     assert placement is not None  # noqa: S101 - a fit that is not strict always succeeds
     if on.accepts(placement.errors):
@@ -138,26 +136,24 @@ def _explained(on: Subject, table: DhTable, freedom: Freedom, placement: Placeme
     return Comparison(False, placement, differences, shown, unverified, tuple(notes), SAMPLES)
 
 
-def _reordered(
-    robot: RobotModel, chain: Chain, table: DhTable, freedom: Freedom, tolerances: tuple[float, float], seed: int
-) -> list[Diagnosis]:
-    """Mistakes that explain why rows and joints do not match."""
-    target = chain_screws(chain.flat)
-    if not len(target) or len(chain) != len(target) or any(row.mimic for row in table.joints):
-        return []
-    on = subject(robot, chain, target, np.ones(len(target)), tolerances, LOOKS, seed)
-    return diagnoses_of_rows(on, table, freedom)
-
-
-def _refused(unlike: Difference, found: list[Diagnosis], robot: RobotModel, chain: Chain) -> Comparison:
-    """Result for a table whose rows do not match the joints."""
+def _refused(
+    unlike: Difference,
+    robot: RobotModel,
+    chain: Chain,
+    table: DhTable,
+    freedom: Freedom,
+    tolerances: tuple[float, float],
+    seed: int,
+) -> Comparison:
+    """Result for a table whose rows do not match the joints, with mistakes that explain why."""
+    joints, found = crossed_joints(robot.description, chain), list[Diagnosis]()
+    if joints and len(chain) == len(joints) and not any(row.mimic for row in table.joints):
+        found = diagnoses_of_rows(subject(robot, chain, tolerances, LOOKS, seed), table, freedom)
     ends = f"from {quoted(chain.base_frame)} to {quoted(chain.tip_frame)}"
-    joints = crossed_joints(robot.description, chain)
     names = listed(tuple(each.name for each in joints))
     note = f"the chain {ends} has the {counted(len(joints), 'joint')} {names}"
     differences = found[0].differences if found else (unlike,)
-    shown = tuple(found[:_MOST_DIAGNOSES])
-    return Comparison(False, None, differences, shown, (), (note,), 0)
+    return Comparison(False, None, differences, tuple(found[:_MOST_DIAGNOSES]), (), (note,), 0)
 
 
 def _unlike(chain: Chain, table: DhTable) -> Difference | None:

@@ -12,6 +12,7 @@ from gelenk.dh.compare.screws import (
     ChainScrews,
     TableAxes,
     Tables,
+    chain_screws,
     fit,
     geometry,
     jacobians,
@@ -95,23 +96,13 @@ class Placement:
         return self.position_error, self.orientation_error
 
 
-def subject(
-    robot: RobotModel,
-    chain: Chain,
-    target: ChainScrews,
-    senses: Array,
-    tolerances: tuple[float, float],
-    samples: int,
-    seed: int,
-) -> Subject:
+def subject(robot: RobotModel, chain: Chain, tolerances: tuple[float, float], samples: int, seed: int) -> Subject:
     """Create a subject with random configurations: within ±π for revolute and ±1 m for prismatic joints."""
-    reach = np.full(len(chain), np.pi)
-    for slides, variable in chain.flat.joints:
-        if slides:
-            reach[variable] = 1.0
+    target, reach = chain_screws(chain.flat), np.full(len(chain), np.pi)
+    reach[chain.flat.joints[target.slides, 1]] = 1.0
     qs = np.random.default_rng(seed).uniform(-reach, reach, (samples, len(chain)))
     expected = pinocchio_poses(robot, chain, chain.tip_frame, qs, range(samples))
-    return Subject(chain, target, senses, tolerances, qs, expected)
+    return Subject(chain, target, np.ones(len(target)), tolerances, qs, expected)
 
 
 def placed(

@@ -20,6 +20,7 @@ from gelenk.robot.dh import Convention, DhTable
 OTHER: dict[Convention, Convention] = {"standard": "modified", "modified": "standard"}
 _CONVENTIONS: dict[Convention, str] = {"standard": "standard", "modified": "modified (Craig)"}
 _DEGREE = np.pi / 180.0
+_DEGREES: list[tuple[Mistake, str, float]] = [("degrees", "in degrees", _DEGREE)]
 _NOWHERE = -1
 """Place of a number that the given table does not have, and row of such numbers."""
 
@@ -192,14 +193,21 @@ def _powers(highest: int) -> list[int]:
     )
 
 
+def _in_units(
+    which: str, what: str, powers: int, among: tuple[int, ...] | None = None, alone: bool = False
+) -> Iterator[_Repair]:
+    """Repairs of lengths in another unit, or of angles in degrees, in some columns."""
+    units = [(*power_of_ten(power), 10.0**-power) for power in _powers(powers)]
+    for mistake, words, factor in units if which in {"a", "d", "a d"} else _DEGREES:
+        yield _Repair(mistake, f"{what} {words}", among=among, factors=_factors(which, factor), alone=alone)
+
+
 def _throughout(powers: int) -> Iterator[_Repair]:
     """Repairs of whole columns."""
-    for which, what in (("alpha theta", "all angles are"), ("alpha", "all alpha are"), ("theta", "all theta are")):
-        yield _Repair("degrees", f"{what} in degrees", factors=_factors(which, _DEGREE))
-    for which, what in (("a d", "all lengths are"), ("a", "all a are"), ("d", "all d are")):
-        for power in _powers(powers):
-            mistake, words = power_of_ten(power)
-            yield _Repair(mistake, f"{what} {words}", factors=_factors(which, 10.0**-power))
+    for which, what in (("alpha theta", "angles"), ("alpha", "alpha"), ("theta", "theta")):
+        yield from _in_units(which, f"all {what} are", powers)
+    for which, what in (("a d", "lengths"), ("a", "a"), ("d", "d")):
+        yield from _in_units(which, f"all {what} are", powers)
     for power in _powers(powers):
         length = 10.0**-power
         words = f"all angles are in degrees and all lengths {power_of_ten(power)[1]}"
@@ -227,12 +235,8 @@ def _in_rows(n: int, powers: int) -> Iterator[_Repair]:
     for i in range(n):
         for columns, names in _EXCHANGES:
             yield _Repair("columns", f"{names} are exchanged in row {i + 1}", columns=columns, among=(i,))
-        for power in _powers(powers):
-            mistake, words = power_of_ten(power)
-            factors = _factors("a d", 10.0**-power)
-            yield _Repair(mistake, f"a and d in row {i + 1} are {words}", among=(i,), factors=factors)
-        factors = _factors("alpha theta", _DEGREE)
-        yield _Repair("degrees", f"alpha and theta in row {i + 1} are in degrees", among=(i,), factors=factors)
+        yield from _in_units("a d", f"a and d in row {i + 1} are", powers, (i,))
+        yield from _in_units("alpha theta", f"alpha and theta in row {i + 1} are", powers, (i,))
 
 
 def _in_cells(n: int, powers: int) -> Iterator[_Repair]:
@@ -240,17 +244,9 @@ def _in_cells(n: int, powers: int) -> Iterator[_Repair]:
     for i in range(n):
         for name in PARAMETERS:
             where = f"{name} in row {i + 1}"
-            yield _cell("sign", f"the sign of {where} is wrong", i, name, -1.0)
-            if name in {"alpha", "theta"}:
-                yield _cell("degrees", f"{where} is in degrees", i, name, _DEGREE)
-                continue
-            for power in _powers(powers):
-                mistake, words = power_of_ten(power)
-                yield _cell(mistake, f"{where} is {words}", i, name, 10.0**-power)
-
-
-def _cell(mistake: Mistake, detail: str, row: int, name: str, factor: float) -> _Repair:
-    return _Repair(mistake, detail, among=(row,), factors=_factors(name, factor), alone=True)
+            factors = _factors(name, -1.0)
+            yield _Repair("sign", f"the sign of {where} is wrong", among=(i,), factors=factors, alone=True)
+            yield from _in_units(name, f"{where} is", powers, (i,), alone=True)
 
 
 def _factors(which: str, factor: float) -> tuple[float, ...]:

@@ -10,8 +10,7 @@ from functools import lru_cache
 from typing import Any
 
 from gelenk.dh.derive.algebra import GRAVITY, LENGTH, MASS, RATE, Atom, Polynomial, TooManyTerms
-from gelenk.dh.derive.legend import legend
-from gelenk.dh.derive.symbolic import notation_of
+from gelenk.dh.derive.symbolic import legend, notation_of
 from gelenk.dh.derive.table import Table, read_table
 from gelenk.dh.derive.texts import SymbolEntry, symbol_entry
 from gelenk.dh.derive.typeset import Formula, MatrixFormula, Notation, indexed, matrix_of, summed

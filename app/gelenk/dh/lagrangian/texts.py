@@ -109,28 +109,28 @@ class MotionTexts:
     Attributes:
         legend: Symbols beyond those of the transforms.
         gravity: The acceleration of free fall in frame 0.
-        bodies: One per joint.
+        links: One per joint.
         mass_matrix: M.
         christoffel: The symbols that differ from zero.
         coriolis: C.
         coriolis_vector: C q̇.
         gravity_vector: g.
         skew: Ṁ - 2C.
-        rows: M q̈ + C q̇ + g = τ, row by row.
+        equations_of_motion: M q̈ + C q̇ + g = τ, row by row.
         missing: Symbols of M, C and g that have no value.
         values: Values at each sample of all quantities of `Equations`, by name.
     """
 
     legend: list[SymbolEntry]
     gravity: MatrixFormula
-    bodies: list[LinkFormulas]
+    links: list[LinkFormulas]
     mass_matrix: MatrixFormula
     christoffel: list[ChristoffelSymbol]
     coriolis: MatrixFormula
     coriolis_vector: MatrixFormula
     gravity_vector: MatrixFormula
     skew: MatrixFormula
-    rows: list[Formula]
+    equations_of_motion: list[Formula]
     missing: tuple[str, ...]
     values: list[dict[str, Any]]
 
