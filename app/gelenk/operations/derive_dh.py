@@ -130,7 +130,7 @@ def _determinant(singular: Singularities) -> dict[str, Any] | None:
         "block": block.kind,
         "rows": [ROW_NAMES[i] for i in block.rows],
         "frame": block.frame,
-        "why": which_block(singular),
+        "why": which_block(block),
         "latex": formula and formula.latex,
         "plain": formula and formula.plain,
         "factors": singular.factors,
