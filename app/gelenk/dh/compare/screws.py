@@ -9,6 +9,7 @@ Twists are linear before angular; batches of tables come first in every shape.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -35,7 +36,7 @@ _UNDETERMINED = 1e-9
 """Relative singular value below which a direction counts as undetermined."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ChainScrews:
     """The screws and the tip of a chain at position zero.
 
@@ -52,12 +53,12 @@ class ChainScrews:
     def __len__(self) -> int:
         return len(self.twists)
 
-    @property
+    @cached_property
     def directions(self) -> Array:
         """Unit vectors along the axes; shape (n, 3)."""
         return np.where(self.slides[:, None], self.twists[:, :3], self.twists[:, 3:])
 
-    @property
+    @cached_property
     def points(self) -> Array:
         """Point of each axis nearest to the base's origin, zero if prismatic; shape (n, 3), [m]."""
         return np.cross(self.twists[:, 3:], self.twists[:, :3])
