@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gelenk.dh.compare.screws import PARAMETERS
+from gelenk.dh.compare.screws import PARAMETERS, numbers_of
 from gelenk.dh.compare.words import Mistake
 from gelenk.errors import quoted
 from gelenk.robot.arrays import Array, Flags, Indices
@@ -91,30 +91,26 @@ def unchanged(n: int) -> Repairs:
     return _stacked(n, [_Repair("number", "")]).only(np.ones(1, dtype=bool))._replace(undone=np.empty((1, 0), object))
 
 
-def of_rows(
-    table: Array, convention: Convention, names: list[str], powers: int, *, reorder: bool, turn: bool
-) -> Repairs:
+def of_rows(table: DhTable, powers: int, *, reorder: bool, turn: bool) -> Repairs:
     """Return repairs of single mistakes that keep the number of rows; those of a single number come last.
 
     Args:
-        table: The numbers; shape (n, 4).
-        convention: Convention of the table.
-        names: Names of the joints.
+        table: The table.
         powers: Highest power of ten by which lengths may be off.
         reorder: Whether rows may be exchanged.
         turn: Whether a joint may be reversed.
     """
-    n = len(table)
-    other, own = _CONVENTIONS[OTHER[convention]], _CONVENTIONS[convention]
+    n, numbers = len(table.joints), numbers_of(table)
+    other, own = _CONVENTIONS[OTHER[table.convention]], _CONVENTIONS[table.convention]
     detail = f"the numbers are those of a {other} table, read as {own}"
     found = [_Repair("convention", detail, switched=True), *_throughout(powers), *(_reordered(n) if reorder else ())]
     found += _in_rows(n, powers)
     if turn:
-        for i, name in enumerate(names):
-            detail = f"the joint moves in the opposite direction: {quoted(name)}"
+        for i, row in enumerate(table.joints):
+            detail = f"the joint moves in the opposite direction: {quoted(row.name)}"
             found.append(_Repair("joint_sense", detail, turned=i))
     every = _stacked(n, [*found, *_in_cells(n, powers)])
-    changes = np.count_nonzero(every.numbers(table) != table, axis=(1, 2))
+    changes = np.count_nonzero(every.numbers(numbers) != numbers, axis=(1, 2))
     # A factor of a row or column may change only one number, and such a repair is already among the single numbers.
     news = every.switched | (every.senses < 0.0).any(axis=1) | np.where(every.alone, changes == 1, changes > 1)
     return every.only(news)

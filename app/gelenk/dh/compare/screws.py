@@ -102,9 +102,14 @@ class TableAxes(NamedTuple):
     tips: Array
 
 
+def numbers_of(table: DhTable) -> Array:
+    """Return a, α, d, θ as written in the table, without mimic offsets; shape (n, 4)."""
+    return np.array([[row.a, row.alpha, row.d, row.theta] for row in table.joints])
+
+
 def parameters_of(table: DhTable) -> Array:
     """Return a, α, d, θ of each row, including the offsets of mimic rows; shape (n, 4)."""
-    rows = np.array([[row.a, row.alpha, row.d, row.theta] for row in table.joints])
+    rows = numbers_of(table)
     for i, row in enumerate(table.joints):
         if row.mimic is not None:
             rows[i, 2 if row.type == "prismatic" else 3] += row.mimic.offset

@@ -16,8 +16,8 @@ from gelenk.dh.compare.invariants import Invariants
 from gelenk.dh.compare.numbers import MISFIT, explained, in_words, is_absorbed, misfits
 from gelenk.dh.compare.placement import Subject, unknowns_of
 from gelenk.dh.compare.repairs import Repairs
-from gelenk.dh.compare.screws import BASE_DIRECTIONS, PARAMETERS, Tables, fit, geometry, polished
-from gelenk.dh.compare.trials import Diagnosis, by_convention, judged, numbers_of, parameters, table_of
+from gelenk.dh.compare.screws import BASE_DIRECTIONS, PARAMETERS, Tables, fit, geometry, numbers_of, polished
+from gelenk.dh.compare.trials import Diagnosis, by_convention, judged, parameters, table_of
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.dh import Convention, DhTable
 

@@ -10,7 +10,7 @@ from gelenk.dh.compare.invariants import Invariants
 from gelenk.dh.compare.numbers import Difference, wrapped
 from gelenk.dh.compare.placement import Placement, Subject, placed
 from gelenk.dh.compare.repairs import Repairs, Undone
-from gelenk.dh.compare.screws import PARAMETERS, parameters_of
+from gelenk.dh.compare.screws import PARAMETERS, numbers_of, parameters_of
 from gelenk.dh.compare.words import Mistake
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhJoint, DhTable
@@ -36,11 +36,6 @@ class Diagnosis:
     detail: str
     differences: tuple[Difference, ...]
     placement: Placement
-
-
-def numbers_of(table: DhTable) -> Array:
-    """Return a, α, d, θ as written in the table, without mimic offsets; shape (n, 4)."""
-    return np.array([[row.a, row.alpha, row.d, row.theta] for row in table.joints])
 
 
 def by_convention(on: Subject, table: DhTable, repairs: Repairs) -> Iterator[Repairs]:
