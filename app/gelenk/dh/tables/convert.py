@@ -130,12 +130,12 @@ def _links(table: DhTable, leaders: int) -> tuple[Link, ...]:
     beside = [f"frame_{i}" for i in range(1, n)]
     rotors = {f"leader_{k}": [stock.hub()] for k in range(1, leaders + 1)}
     moving = {f"link_{i}" for i in range(1, n + 1)}
-    links = [_link(name, bodies.get(name, []), name in moving) for name in (BASE_FRAME, *chain, *beside)]
+    links = []
+    for name in (BASE_FRAME, *chain, *beside):
+        solids = bodies.get(name, [])
+        inertial = inertial_of(solids) if name in moving else None
+        links.append(Link(name, inertial, tuple(solid.shape() for solid in solids)))
     return (*links, *(Link(name, inertial_of(solids)) for name, solids in rotors.items()))
-
-
-def _link(name: str, solids: Sequence[Solid], moves: bool) -> Link:
-    return Link(name, inertial_of(solids) if moves else None, tuple(solid.shape() for solid in solids))
 
 
 def _bodies(table: DhTable, stock: Stock) -> Mapping[str, list[Solid]]:

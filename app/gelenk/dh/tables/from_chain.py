@@ -251,7 +251,7 @@ class _Lines:
         tilt, u = math.hypot(zx, zy), 0.0
         alpha = 0.0 if zz > 0.0 else math.pi
         if tilt > self._angle:
-            u, alpha = math.atan2(zx, -zy), self._angle_of(tilt, zz)
+            u, alpha = math.atan2(zx, -zy), self._right(math.atan2(tilt, zz))
             x, y = math.cos(u), math.sin(u)
             if x < -_TIE or (abs(x) <= _TIE and y < 0.0):
                 u, alpha = u + math.pi, -alpha
@@ -321,7 +321,7 @@ class _Lines:
         P = self._Ps[i + 1]
         x, y, z = P[:3, 3].tolist()
         zx, zy, zz = P[:3, 2].tolist()
-        u, alpha = math.atan2(zx, -zy), self._angle_of(math.hypot(zx, zy), zz)
+        u, alpha = math.atan2(zx, -zy), self._right(math.atan2(math.hypot(zx, zy), zz))
         along = x * math.cos(u) + y * math.sin(u)
         theta = self._theta(before, u, positive=along > -self._length)
         if abs(_wrapped(theta - before.v - u)) > 0.5 * math.pi:
@@ -344,9 +344,6 @@ class _Lines:
         return self._right(theta)
 
     # Rounding and snapping
-
-    def _angle_of(self, sine: float, cosine: float) -> float:
-        return self._right(math.atan2(sine, cosine))
 
     def _right(self, angle: float) -> float:
         """Return the angle, or the multiple of π/2 within the tolerance of it."""
