@@ -90,8 +90,8 @@ class Reader:
 
     def row(self, found: MotionTexts, i: int) -> float:
         """The left side of an equation of motion, in both notations."""
-        left, right = found.rows[i].plain.split(" = ")
-        latex = found.rows[i].latex.removesuffix(rf" = \tau_{{{i + 1}}}")
+        left, right = found.equations_of_motion[i].plain.split(" = ")
+        latex = found.equations_of_motion[i].latex.removesuffix(rf" = \tau_{{{i + 1}}}")
         assert right == f"tau{i + 1}"
         value = self.value(left)
         assert expressions.latex_value(latex, self.entries, self.words) == pytest.approx(value, rel=1e-11, abs=1e-11)
@@ -131,14 +131,14 @@ def check_by_text(
         np.testing.assert_allclose(read.grid(found.skew), C.T - C, rtol=0, atol=2e-7 * scale)
         left = [read.row(found, i) for i in range(len(q))]
         np.testing.assert_allclose(left, M @ a + C @ v + g, rtol=0, atol=2e-7 * scale)
-        kinetic = sum(read.value(body.kinetic_energy.plain) for body in found.bodies)
+        kinetic = sum(read.value(body.kinetic_energy.plain) for body in found.links)
         assert kinetic == pytest.approx(0.5 * v @ M @ v, abs=1e-7 * scale)
-        heights = sum(read.value(body.potential_energy.plain) for body in found.bodies)
+        heights = sum(read.value(body.potential_energy.plain) for body in found.links)
         frame_0 = replace(
             judge, table=replace(judge.table, base=np.eye(4)), gravity=(dh.base[:3, :3].T @ judge.gravity).tolist()
         )
         assert heights == pytest.approx(frame_0.potential(q), abs=1e-9 * scale)
-        centers = np.array([read.grid(body.center_of_mass)[:, 0] for body in found.bodies])
+        centers = np.array([read.grid(body.center_of_mass)[:, 0] for body in found.links])
         np.testing.assert_allclose(centers, frame_0.centers(q), atol=1e-12)
         for one in found.christoffel:
             wanted = c[one.i - 1, one.j - 1, one.k - 1]
@@ -159,16 +159,16 @@ def test_the_planar_2r_arm_letter_by_letter() -> None:
         ["m2*a1*lc2*s2*qd1", "0"],
     ]
     assert plain(found.gravity_vector) == [["(m1*lc1 + m2*a1)*g0*c1 + m2*g0*lc2*c12"], ["m2*g0*lc2*c12"]]
-    assert found.rows[1].plain == (
+    assert found.equations_of_motion[1].plain == (
         "(m2*(lc2**2 + a1*lc2*c2) + I2)*qdd1 + (m2*lc2**2 + I2)*qdd2 + m2*a1*lc2*s2*qd1**2 + m2*g0*lc2*c12 = tau2"
     )
     assert str(found.mass_matrix.latex).startswith(
         r"\begin{bmatrix} m_{1} l_{c1}^{2} + m_{2} \left(a_{1}^{2} + l_{c2}^{2} + 2 a_{1} l_{c2} c_{2}\right) + I_{1} "
     )
-    assert found.bodies[1].kinetic_energy.plain == (
+    assert found.links[1].kinetic_energy.plain == (
         "(1/2)*m2*(a1**2*qd1**2 + lc2**2*(qd1 + qd2)**2 + 2*a1*lc2*c2*qd1*(qd1 + qd2)) + (1/2)*I2*(qd1 + qd2)**2"
     )
-    assert found.bodies[1].potential_energy.plain == "m2*g0*(a1*s1 + lc2*s12)"
+    assert found.links[1].potential_energy.plain == "m2*g0*(a1*s1 + lc2*s12)"
     assert [(one.i, one.j, one.k, one.plain) for one in found.christoffel] == [
         (1, 1, 2, "-m2*a1*lc2*s2"),
         (1, 2, 2, "-m2*a1*lc2*s2"),
@@ -465,14 +465,14 @@ def test_the_rate_of_m_less_twice_c_is_skew_symmetric(name: str) -> None:
 def test_a_horizontal_arm_has_no_gravity_term_and_the_notes_say_so() -> None:
     solution = worked_solution(PLANAR_2R, dynamics=MassProperties((), Gravity(9.81, (0.0, 0.0, -1.0))))
     assert plain(motion(solution).texts.gravity_vector) == [["0"], ["0"]]
-    assert motion(solution).texts.rows[1].plain.endswith("+ m2*a1*lc2*s2*qd1**2 = tau2")
+    assert motion(solution).texts.equations_of_motion[1].plain.endswith("+ m2*a1*lc2*s2*qd1**2 = tau2")
     assert "plane of motion" in solution.notes[-1]
 
 
 def test_without_gravity_there_is_none_and_nothing_to_note() -> None:
     solution = worked_solution(PLANAR_2R, dynamics=MassProperties((), Gravity(0.0, (0.0, 0.0, 0.0))))
     assert plain(motion(solution).texts.gravity_vector) == [["0"], ["0"]]
-    assert motion(solution).texts.bodies[0].potential_energy.plain == "0"
+    assert motion(solution).texts.links[0].potential_energy.plain == "0"
     assert solution.notes == []
 
 
@@ -586,7 +586,7 @@ def test_a_formula_that_disagrees_with_pinocchio_leaves_out_the_equations_and_no
     def wrong(question: MotionQuestion) -> MotionTexts:
         found = honest(question)
         assert isinstance(found, MotionTexts)
-        values = [replace(one, **{field: (np.array(getattr(one, field)) + 1e-6).tolist()}) for one in found.values]
+        values = [{**one, field: (np.array(one[field]) + 1e-6).tolist()} for one in found.values]
         return replace(found, values=values)
 
     monkeypatch.setattr(worked, "motion", wrong)

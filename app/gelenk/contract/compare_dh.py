@@ -8,7 +8,7 @@ from gelenk.contract.common import Answer, ChainOptions, RobotName
 from gelenk.contract.dh import DhTablePayload
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.pose import Pose, PoseFormat
-from gelenk.dh.compare.words import ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES, Mistake
+from gelenk.dh.compare.words import ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES, Mistake, Unverified
 
 Findable: TypeAlias = Literal["base", "tool", "offsets", "signs"]
 
@@ -80,15 +80,6 @@ class DiagnosisEntry(Answer):
     )
 
 
-class UnverifiedEntry(Answer):
-    """A number that is not checked, because what was found would compensate for any error in it."""
-
-    row: int = Field(description="The row, from 1.")
-    joint: str = Field(description="Of the row.")
-    parameter: Literal["a", "alpha", "d", "theta"] = Field(description="The parameter that is not checked.")
-    absorbed_by: Literal["base", "tool", "offsets"] = Field(description="What would compensate for an error in it.")
-
-
 class CompareAnswer(Answer):
     """Whether the table describes the chain: T_base_tip(q) = base · A_1 ⋯ A_n(signs · q + offsets) · tool."""
 
@@ -111,7 +102,7 @@ class CompareAnswer(Answer):
         description="Mistakes that would each explain the difference, the likeliest first; two together where none "
         "does alone, of tables with at most 8 rows."
     )
-    unverified: list[UnverifiedEntry] = Field(
+    unverified: list[Unverified] = Field(
         description="Numbers that a found base, tool or offset compensates for, so that they could be anything. Give "
         "`base` and `tool` in `dh` to have them checked."
     )

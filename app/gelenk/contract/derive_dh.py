@@ -10,7 +10,14 @@ from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.kinematics import Configuration
 from gelenk.contract.lagrangian import EXAMPLE_MOTION, MAX_CONFIGURATIONS, DynamicsInfo, DynamicsPayload, Grid
 from gelenk.course.steps import Step
-from gelenk.dh.derive.texts import ColumnFormulas, FormulaCertificate, SingularCondition, SymbolEntry
+from gelenk.dh.derive.texts import (
+    ColumnFormulas,
+    FormulaCertificate,
+    NumericCertificate,
+    NumericColumn,
+    SingularCondition,
+    SymbolEntry,
+)
 from gelenk.dh.derive.typeset import Formula, MatrixFormula
 
 
@@ -66,15 +73,6 @@ class DeterminantInfo(Answer):
     factors: list[Formula] = Field(description="The factors of the product beside its number, each one once.")
 
 
-class NumericColumnInfo(Answer):
-    """A column of the Jacobian at a configuration."""
-
-    axis: list[float] = Field(description="z of the joint.")
-    arm: list[float] = Field(description="From the joint's frame to the tip, [m].")
-    linear: list[float] = Field(description="Its upper three numbers, [m per rad or m].")
-    angular: list[float] = Field(description="Its lower three numbers, [rad per rad or m].")
-
-
 class NumericInfo(Answer):
     """The numbers at one configuration."""
 
@@ -84,20 +82,11 @@ class NumericInfo(Answer):
     T_base_tool: Grid = Field(description="Translation in [m].")
     position: list[float] = Field(description="Of the tool in the base, [m].")
     rotation: Grid = Field(description="Of the tool in the base; no unit.")
-    columns: list[NumericColumnInfo]
+    columns: list[NumericColumn]
     jacobian: Grid = Field(description="6 rows, n columns: [m or rad] per [rad or m].")
     singular_values: list[float] = Field(description="Largest first, [m or rad] per [rad or m]: units are mixed.")
     rank: int = Field(description="Singular values above 1e-10 times the largest.")
     determinant: float | None = Field(description="Of the block that `determinant` names; null where none is square.")
-
-
-class NumericCertificate(Answer):
-    """Comparison of the numbers at the given configurations with Pinocchio's."""
-
-    samples: int = Field(description="Configurations that were recomputed.")
-    max_position_error: float = Field(description="Largest distance, [m].")
-    max_orientation_error: float = Field(description="Largest angle, [rad].")
-    max_jacobian_error: float = Field(description="Largest difference of an entry of the Jacobian.")
 
 
 class DeriveAnswer(Answer):

@@ -1,5 +1,6 @@
 """Denavit-Hartenberg tables as payloads, and types that their conversions share."""
 
+from dataclasses import asdict
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -95,14 +96,7 @@ def table_content(table: DhTable) -> dict[str, Any]:
 
     Base and tool are matrices, which keep quarter turns exact, and are left out if they are the identity.
     """
-    joints = []
-    for row in table.joints:
-        optional = {key: getattr(row, key) for key in ("lower", "upper", "velocity", "effort")}
-        content: dict[str, Any] = {key: getattr(row, key) for key in ("name", "type", "a", "alpha", "d", "theta")}
-        content |= {key: value for key, value in optional.items() if value is not None}
-        if row.mimic is not None:
-            content["mimic"] = {key: getattr(row.mimic, key) for key in ("joint", "multiplier", "offset")}
-        joints.append(content)
+    joints = [{key: value for key, value in asdict(row).items() if value is not None} for row in table.joints]
     places = {place: T for place, T in (("base", table.base), ("tool", table.tool)) if not np.array_equal(T, np.eye(4))}
     matrices = {place: {"matrix": T.tolist()} for place, T in places.items()}
     return {"convention": table.convention, "joints": joints, **matrices}

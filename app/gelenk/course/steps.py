@@ -20,12 +20,12 @@ class Step(Result):
 
     title: str
     text: str
-    latex: list[str]
+    latex: tuple[str, ...]
 
 
 def step(title: str, text: str, *latex: str) -> Step:
     """Return a step with any number of formulas."""
-    return Step(title, text, list(latex))
+    return Step(title, text, latex)
 
 
 def tex(value: float, unit: str = "") -> str:

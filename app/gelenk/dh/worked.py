@@ -15,12 +15,12 @@ from typing import Protocol, TypeVar
 import numpy as np
 
 from gelenk.course.steps import Step
-from gelenk.dh.derive.check import Checks, checked_formulas, checked_singularities
+from gelenk.dh.derive.check import SEED, Checks, checked_formulas, checked_singularities
 from gelenk.dh.derive.numeric import NumericSolution, numeric_solution
 from gelenk.dh.derive.steps import steps
 from gelenk.dh.derive.symbolic import formulas, singularities
 from gelenk.dh.derive.table import Numbers4, RowNumbers, TableNumbers
-from gelenk.dh.derive.texts import FormulaCertificate, Formulas, Singularities, SymbolicRequest
+from gelenk.dh.derive.texts import FormulaCertificate, Formulas, NumericCertificate, Singularities, SymbolicRequest
 from gelenk.dh.derive.transforms import MAX_ENTRY_TERMS
 from gelenk.dh.derive.typeset import Style
 from gelenk.dh.lagrangian.bodies import MassProperties
@@ -35,7 +35,6 @@ from gelenk.dh.lagrangian.texts import MotionTexts, NoMotion
 from gelenk.dh.tables.convert import BASE_FRAME, TOOL_FRAME, describe_dh
 from gelenk.errors import InvalidDhTable
 from gelenk.kinematics.judge.judge import certify_jacobians, certify_poses
-from gelenk.kinematics.judge.words import JacobianCertificate, PoseCertificate
 from gelenk.robot.arrays import Array, Configuration
 from gelenk.robot.configuration import configurations
 from gelenk.robot.dh import DhJoint, DhTable
@@ -46,7 +45,6 @@ from gelenk.robot.urdf import read_urdf, write_urdf
 logger = logging.getLogger("gelenk")
 
 SAMPLES = 20
-SEED = 0
 _Question = TypeVar("_Question")
 _Result = TypeVar("_Result")
 
@@ -78,8 +76,7 @@ class WorkedSolution:
         steps: The solution in words.
         notes: Numbers that were read as something else, and what stays numeric and why.
         certificate: Certificate of the formulas; None without formulas.
-        pose_certificate: Certificate of the poses at the configurations, by Pinocchio.
-        jacobian_certificate: Certificate of the Jacobians there, by Pinocchio.
+        numeric_certificate: Certificate of poses and Jacobians at the configurations, by Pinocchio.
     """
 
     joint_names: tuple[str, ...]
@@ -91,8 +88,7 @@ class WorkedSolution:
     steps: list[Step]
     notes: list[str]
     certificate: FormulaCertificate | None
-    pose_certificate: PoseCertificate | None
-    jacobian_certificate: JacobianCertificate | None
+    numeric_certificate: NumericCertificate | None
 
 
 def worked_solution(
@@ -132,17 +128,18 @@ def worked_solution(
     samples = _samples(table)
     question = SymbolicRequest(_numbers(table), style, keeps_symbols, tuple(tuple(q) for q in samples.tolist()))
     notes: list[str] = []
-    found = _timed(run, formulas, question, deadline, 0.5, notes, "the transforms and the Jacobian")
-    asked = None if bodies is None or found is None else motion_question(question, table, bodies[0], SEED)
+    timed = _Timed(run, deadline, notes)
+    found = timed.result(formulas, question, 0.5, "the transforms and the Jacobian")
+    motion_request = None if bodies is None or found is None else motion_question(question, table, bodies)
     what = "the equations of motion", "they are left out"
-    moving = _timed(run, motion, asked, deadline, 0.5, notes, *what) if asked else None
-    singular = _timed(run, singularities, question, deadline, 1.0, notes, "the determinant") if found else None
+    moving = timed.result(motion, motion_request, 0.5, *what) if motion_request else None
+    singular = timed.result(singularities, question, 1.0, "the determinant") if found else None
     checks, solved = Checks(0.0, []), None
     if found is not None:
         notes = [*found.remarks, *_limits(table, found, singular), *notes]
-        as_read = _read_back(table, found.as_read)
-        if asked is not None and bodies is not None and isinstance(moving, MotionTexts):
-            solved = motion_solution(moving, asked, table, as_read, *bodies, qs, SEED, checks)
+        as_read = _read_back(found.as_read)
+        if motion_request is not None and bodies is not None and isinstance(moving, MotionTexts):
+            solved = motion_solution(moving, motion_request, table, as_read, bodies, qs, checks)
         solutions = [numeric_solution(as_read, q) for q in samples]
         found = checked_formulas(found, solutions, checks)
         if singular is not None:
@@ -163,30 +160,36 @@ def worked_solution(
         [*derivation, *(solved.steps if solved is not None else ())],
         [*notes, *(solved.notes if solved is not None else ())],
         None if found is None else FormulaCertificate(len(samples), checks.worst, SEED),
-        *_certified(robot, qs, numeric),
+        _certified(robot, qs, numeric) if numeric else None,
     )
 
 
-def _timed(
-    run: BoundedRunner,
-    function: Callable[[_Question], _Result],
-    question: _Question,
-    deadline: float | None,
-    share: float,
-    notes: list[str],
-    what: str,
-    instead: str = "only numbers are given",
-) -> _Result | None:
-    """Return the result of a symbolic part within its share of the time that is left; None and a note if it fails."""
-    seconds = float("inf") if deadline is None else (deadline - time.monotonic()) * share
-    try:
-        return run(function, question, seconds)
-    except (TimeoutError, MemoryError):
-        notes.append(f"{what} could not be worked out in symbols in the time allowed: {instead}")
-    except ArithmeticError:
-        logger.exception("derived formulas left out: %s failed a check of their own", what)
-        notes.append(f"{what} in symbols failed a check of their own: {instead}")
-    return None
+@dataclass(frozen=True, slots=True)
+class _Timed:
+    """Runs parts of the symbolic side until a deadline, and notes what fails."""
+
+    run: BoundedRunner
+    deadline: float | None
+    notes: list[str]
+
+    def result(
+        self,
+        function: Callable[[_Question], _Result],
+        question: _Question,
+        share: float,
+        what: str,
+        instead: str = "only numbers are given",
+    ) -> _Result | None:
+        """Return the function's result within its share of the time that is left; None and a note if it fails."""
+        seconds = float("inf") if self.deadline is None else (self.deadline - time.monotonic()) * share
+        try:
+            return self.run(function, question, seconds)
+        except (TimeoutError, MemoryError):
+            self.notes.append(f"{what} could not be worked out in symbols in the time allowed: {instead}")
+        except ArithmeticError:
+            logger.exception("derived formulas left out: %s failed a check of their own", what)
+            self.notes.append(f"{what} in symbols failed a check of their own: {instead}")
+        return None
 
 
 def _samples(table: DhTable) -> Array:
@@ -203,10 +206,10 @@ def _tuples(matrix: Array) -> Numbers4:
     return tuple(tuple(row) for row in matrix.tolist())
 
 
-def _read_back(table: DhTable, numbers: TableNumbers) -> DhTable:
+def _read_back(numbers: TableNumbers) -> DhTable:
     """Return the table that the formulas stand for: angles and lengths as they were read."""
     joints = tuple(DhJoint(**asdict(row)) for row in numbers.rows)
-    return DhTable(table.convention, joints, np.array(numbers.base), np.array(numbers.tool))
+    return DhTable(numbers.convention, joints, np.array(numbers.base), np.array(numbers.tool))
 
 
 def _determinant(singular: Singularities | None, solution: NumericSolution) -> float | None:
@@ -215,17 +218,14 @@ def _determinant(singular: Singularities | None, solution: NumericSolution) -> f
     return solution.determinant(range(6), 0) if solution.jacobian.shape[1] == 6 else None
 
 
-def _certified(
-    robot: RobotModel, qs: Array, numeric: Sequence[NumericSolution]
-) -> tuple[PoseCertificate | None, JacobianCertificate | None]:
+def _certified(robot: RobotModel, qs: Array, numeric: Sequence[NumericSolution]) -> NumericCertificate:
     """Compare the numbers at the configurations with Pinocchio's."""
-    if not numeric:
-        return None, None
     chain = robot.chain(None, None)
     positions = np.array([solution.tip[:3, 3] for solution in numeric])
     rotations = np.array([solution.tip[:3, :3] for solution in numeric])
     poses = certify_poses(robot, chain, qs, {TOOL_FRAME: Poses(positions, rotations)})
-    return poses, certify_jacobians(robot, chain, qs, np.array([solution.jacobian for solution in numeric]))
+    jacobians = certify_jacobians(robot, chain, qs, np.array([solution.jacobian for solution in numeric]))
+    return NumericCertificate(poses.samples, poses.max_position_error, poses.max_orientation_error, jacobians.max_error)
 
 
 def _limits(table: DhTable, found: Formulas, singular: Singularities | None) -> list[str]:

@@ -1,5 +1,6 @@
 """Comparison of a Denavit-Hartenberg table with a chain of a robot."""
 
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -33,8 +34,9 @@ def is_heavy(_: CompareRequest) -> bool:
 def _compared(robot: RobotModel, call: CompareRequest) -> dict[str, Any]:
     chain = robot.chain(call.base_frame, call.tip_frame)
     tolerances = call.position_tolerance, call.orientation_tolerance
-    comparison = compare(robot, chain, call.dh.table(), _freedom(call), tolerances, seed=call.random_seed)
-    return _content(chain, call, comparison)
+    freedom = _freedom(call)
+    comparison = compare(robot, chain, call.dh.table(), freedom, tolerances, seed=call.random_seed)
+    return _content(chain, call, freedom, comparison)
 
 
 def _freedom(call: CompareRequest) -> Freedom:
@@ -43,33 +45,35 @@ def _freedom(call: CompareRequest) -> Freedom:
     return Freedom(*(name in call.find for name in Freedom._fields))
 
 
-def _content(chain: Chain, call: CompareRequest, comparison: Comparison) -> dict[str, Any]:
+def _content(chain: Chain, call: CompareRequest, freedom: Freedom, comparison: Comparison) -> dict[str, Any]:
     placement = comparison.placement
     content: dict[str, Any] = dict.fromkeys(
         ("base", "tool", "offsets", "signs", "max_position_error", "max_orientation_error")
     )
     if placement is not None:
-        content["base"] = _pose(placement.table.base, call.pose_format)
-        content["tool"] = _pose(placement.table.tool, call.pose_format)
-        content["offsets"] = placement.offsets.tolist()
-        content["signs"] = placement.signs.astype(int).tolist()
-        content["max_position_error"] = placement.position_error
-        content["max_orientation_error"] = placement.orientation_error
+        content = {
+            "base": _pose(placement.table.base, call.pose_format),
+            "tool": _pose(placement.table.tool, call.pose_format),
+            "offsets": placement.offsets,
+            "signs": placement.signs.astype(int),
+            "max_position_error": placement.position_error,
+            "max_orientation_error": placement.orientation_error,
+        }
     first = comparison.first_difference
     return {
         "equivalent": comparison.equivalent,
         **content,
         "first_difference": None if first is None else _difference(first),
-        "found": [name for name in Freedom._fields if getattr(comparison.freedom, name)],
-        "held": [name for name in Freedom._fields if not getattr(comparison.freedom, name)],
+        "found": [name for name in Freedom._fields if getattr(freedom, name)],
+        "held": [name for name in Freedom._fields if not getattr(freedom, name)],
         "diagnoses": [_diagnosis(each) for each in comparison.diagnoses],
-        "unverified": [each._asdict() for each in comparison.unverified],
+        "unverified": comparison.unverified,
         "notes": [*_replaced(call), *comparison.notes],
         "joint_names": chain.joint_names,
         "base_frame": chain.base_frame,
         "tip_frame": chain.tip_frame,
         "samples": comparison.samples,
-        "random_seed": comparison.seed,
+        "random_seed": call.random_seed,
     }
 
 
@@ -91,15 +95,7 @@ def _diagnosis(diagnosis: Diagnosis) -> dict[str, Any]:
 
 
 def _difference(each: Difference) -> dict[str, Any]:
-    return {
-        "row": each.row,
-        "joint": each.joint,
-        "parameter": each.parameter,
-        "value": each.value,
-        "expected": each.expected,
-        "difference": each.difference,
-        "pointer": _pointer(each),
-    }
+    return {**asdict(each), "difference": each.difference, "pointer": _pointer(each)}
 
 
 def _pointer(each: Difference) -> str | None:

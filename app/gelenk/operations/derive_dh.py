@@ -105,7 +105,7 @@ def _derived(call: DeriveRequest) -> dict[str, Any]:
         "steps": solution.steps,
         "notes": solution.notes,
         "certificate": solution.certificate,
-        "numeric_certificate": _numeric_certificate(solution),
+        "numeric_certificate": solution.numeric_certificate,
     }
 
 
@@ -130,7 +130,7 @@ def _determinant(singular: Singularities) -> dict[str, Any] | None:
         "block": block.kind,
         "rows": [ROW_NAMES[i] for i in block.rows],
         "frame": block.frame,
-        "why": which_block(singular),
+        "why": which_block(block),
         "latex": formula and formula.latex,
         "plain": formula and formula.plain,
         "factors": singular.factors,
@@ -138,7 +138,6 @@ def _determinant(singular: Singularities) -> dict[str, Any] | None:
 
 
 def _numbers(one: NumericSolution, determinant: float | None) -> dict[str, Any]:
-    fields = ("axis", "arm", "linear", "angular")
     numbers: dict[str, Any] = as_lists(
         {
             "joint_positions": one.q,
@@ -147,7 +146,7 @@ def _numbers(one: NumericSolution, determinant: float | None) -> dict[str, Any]:
             "T_base_tool": one.tip,
             "position": one.tip[:3, 3],
             "rotation": one.tip[:3, :3],
-            "columns": [{name: getattr(column, name) for name in fields} for column in one.columns],
+            "columns": one.columns,
             "jacobian": one.jacobian,
             "singular_values": one.singular_values,
             "rank": one.rank,
@@ -157,30 +156,10 @@ def _numbers(one: NumericSolution, determinant: float | None) -> dict[str, Any]:
     return numbers
 
 
-def _numeric_certificate(solution: WorkedSolution) -> dict[str, Any] | None:
-    poses, jacobians = solution.pose_certificate, solution.jacobian_certificate
-    if poses is None or jacobians is None:
-        return None
-    return {
-        "samples": poses.samples,
-        "max_position_error": poses.max_position_error,
-        "max_orientation_error": poses.max_orientation_error,
-        "max_jacobian_error": jacobians.max_error,
-    }
-
-
 def _dynamics(motion: MotionSolution) -> dict[str, Any]:
-    texts = motion.texts
+    names = ("gravity", "links", "mass_matrix", "christoffel", "coriolis", "coriolis_vector", "gravity_vector")
     return {
-        "gravity": texts.gravity,
-        "links": texts.bodies,
-        "mass_matrix": texts.mass_matrix,
-        "christoffel": texts.christoffel,
-        "coriolis": texts.coriolis,
-        "coriolis_vector": texts.coriolis_vector,
-        "gravity_vector": texts.gravity_vector,
-        "skew": texts.skew,
-        "equations_of_motion": texts.rows,
+        **{name: getattr(motion.texts, name) for name in (*names, "skew", "equations_of_motion")},
         "numeric": [_motion_numbers(one) for one in motion.numeric],
         "certificate": motion.certificate,
         "numeric_certificate": motion.numeric_certificate,

@@ -7,7 +7,6 @@
 - `urdf`: untrusted XML → checked description → XML written by this package; `xml` parses it, and detects xacro in it.
 - `chain`: the path from base to tip as flat arrays for the kernels.
 - `configuration`: configurations as callers give them → one array in the chain's order.
-- `appearance`: simple bodies for the links of a DH table, and for URDF links without shapes.
-- `result`: parts of answers.
+- `appearance`: simple bodies for links without shapes. `result`: results that are part of an answer.
 - `robot`: description, chains and Pinocchio model together.
 """

@@ -25,7 +25,7 @@ INVENTED_MASSES = (
 )
 
 _SKELETON_THICKNESS = 0.06
-"""Relative radius of a rod of a skeleton; half that of a DH table's, as it is not the robot's own shape."""
+"""Relative radius of a skeleton's rod, half a DH table's, so that it is not taken for the robot's own shape."""
 _Z: Triple = (0.0, 0.0, 1.0)
 _SMALLEST_RADIUS = 1e-4
 """Minimum radius of a thin cylinder, [m], so that no solid is massless."""

@@ -36,6 +36,10 @@ class FlatChain(NamedTuple):
     joints: Indices
     drives: Array
 
+    def placement(self, i: int) -> Array:
+        """Return a constant placement as a new homogeneous transform; shape (4, 4)."""
+        return transform(self.placements[i, 9:], self.placements[i, :9].reshape(3, 3))
+
 
 @dataclass(frozen=True, eq=False)
 class Chain:
@@ -70,7 +74,7 @@ def build_chain(description: Description, base_frame: str, tip_frame: str) -> Ch
         UnknownFrame: The robot does not have one of the frames.
         UnsupportedJoint: A floating or planar joint lies on the path.
     """
-    upwards, downwards = _way(description, base_frame, tip_frame)
+    upwards, downwards = _path(description, base_frame, tip_frame)
     steps = [(joint, True) for joint in upwards] + [(joint, False) for joint in downwards]
     for joint, _ in steps:
         if joint.type in {"floating", "planar"}:
@@ -79,14 +83,14 @@ def build_chain(description: Description, base_frame: str, tip_frame: str) -> Ch
     drives = [description.drives[joint.name] for joint in moving]
     names = _variables(moving, drives)
     placements = _placements(steps)
-    bounds = [_bounds(description.joint[name]) for name in names]
+    limits = [description.joint[name].limits for name in names]
     return Chain(
         base_frame,
         tip_frame,
         names,
         frozenset(description.drives),
-        np.array([lower for lower, _ in bounds], dtype=float),
-        np.array([upper for _, upper in bounds], dtype=float),
+        np.array([-np.inf if each.lower is None else each.lower for each in limits], dtype=float),
+        np.array([np.inf if each.upper is None else each.upper for each in limits], dtype=float),
         FlatChain(
             np.array([np.append(T[:3, :3], T[:3, 3]) for T in placements]),
             np.array(
@@ -121,7 +125,7 @@ def frame_on_chain(description: Description, chain: Chain, frame: str) -> tuple[
 
 def crossed_joints(description: Description, chain: Chain) -> tuple[Joint, ...]:
     """Return the movable joints on a chain's path, base to tip, mimic joints included: one per row of `flat.joints`."""
-    upwards, downwards = _way(description, chain.base_frame, chain.tip_frame)
+    upwards, downwards = _path(description, chain.base_frame, chain.tip_frame)
     return tuple(joint for joint in (*upwards, *downwards) if joint.type in MOVABLE)
 
 
@@ -138,7 +142,7 @@ def default_ends(description: Description) -> tuple[str, str]:
     return description.root, best
 
 
-def _way(description: Description, base_frame: str, tip_frame: str) -> tuple[list[Joint], list[Joint]]:
+def _path(description: Description, base_frame: str, tip_frame: str) -> tuple[list[Joint], list[Joint]]:
     """Return the joints from the base up to the common ancestor, and those from there down to the tip."""
     for frame in (base_frame, tip_frame):
         if frame not in description.joints_below:
@@ -152,15 +156,12 @@ def _way(description: Description, base_frame: str, tip_frame: str) -> tuple[lis
 
 
 def _variables(moving: list[Joint], drives: list[Drive]) -> tuple[str, ...]:
-    """Return the names of the variables in the order of the path.
-
-    An independent joint keeps its place; a leader off the path comes where a mimic joint first needs it.
-    """
-    on_the_way = {joint.name for joint in moving}
+    """Return the variables in the order of the path; a leader off it comes where a mimic joint first needs it."""
+    on_path = {joint.name for joint in moving}
     names = [
         drive.leader
         for joint, drive in zip(moving, drives, strict=True)
-        if drive.leader == joint.name or drive.leader not in on_the_way
+        if drive.leader == joint.name or drive.leader not in on_path
     ]
     return tuple(dict.fromkeys(names))
 
@@ -201,8 +202,3 @@ def rotation_to_axis(axis: Triple) -> Array:
     x = np.cross(np.eye(3)[smallest], z)
     x /= np.linalg.norm(x)
     return np.column_stack((x, np.cross(z, x), z))
-
-
-def _bounds(joint: Joint) -> tuple[float, float]:
-    lower, upper = joint.limits.lower, joint.limits.upper
-    return (-np.inf if lower is None else lower), (np.inf if upper is None else upper)

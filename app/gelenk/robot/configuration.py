@@ -109,13 +109,8 @@ def check_limits(chain: Chain, qs: Array) -> None:
     outside = (qs < chain.lower) | (qs > chain.upper)
     if outside.any():
         row, column = (int(index) for index in np.argwhere(outside)[0])
-        raise OutsideLimits(
-            chain.joint_names[column],
-            float(qs[row, column]),
-            float(chain.lower[column]),
-            float(chain.upper[column]),
-            row,
-        )
+        value, lower, upper = (float(each) for each in (qs[row, column], chain.lower[column], chain.upper[column]))
+        raise OutsideLimits(chain.joint_names[column], value, lower, upper, row)
 
 
 def _by_name(chain: Chain, index: int, value: Mapping[str, float], field: str) -> list[float]:

@@ -69,8 +69,8 @@ class DhJoint:
         revolute = self.type == "revolute"
         theta = self.theta + position if revolute else self.theta
         d = self.d if revolute else self.d + position
-        turn = _about_z(theta, d)
-        return turn @ _about_x(self.alpha, self.a) if convention == "standard" else _about_x(self.alpha, self.a) @ turn
+        turn, shift = about_z(theta, d), about_x(self.alpha, self.a)
+        return turn @ shift if convention == "standard" else shift @ turn
 
 
 @dataclass(frozen=True)
@@ -159,14 +159,12 @@ class DhTable:
 
 def _check_row(i: int, joint: DhJoint) -> None:
     _check_name(i, joint.name, "name")
-    bounds = {"a": MAX_LENGTH, "d": MAX_LENGTH, "alpha": MAX_ANGLE, "theta": MAX_ANGLE}
-    for parameter, most in bounds.items():
-        if not abs(getattr(joint, parameter)) <= most:
-            raise InvalidDhTable(f"must be a number of magnitude ≤ {most:g}", i, parameter)
     lower, upper = joint.limits
-    for parameter, value in (("lower", lower), ("upper", upper)):
-        if not abs(value) <= MAX_LENGTH:
-            raise InvalidDhTable(f"must be a number of magnitude ≤ {MAX_LENGTH:g}", i, parameter)
+    lengths = {"a": joint.a, "d": joint.d, "lower": lower, "upper": upper}
+    for most, numbers in ((MAX_LENGTH, lengths), (MAX_ANGLE, {"alpha": joint.alpha, "theta": joint.theta})):
+        for parameter, number in numbers.items():
+            if not abs(number) <= most:
+                raise InvalidDhTable(f"must be a number of magnitude ≤ {most:g}", i, parameter)
     if lower > upper:
         raise InvalidDhTable(f"lower = {lower:.17g} is greater than upper = {upper:.17g}", i, "lower")
     for parameter in ("velocity", "effort"):
@@ -191,13 +189,13 @@ def _check_mimic(i: int, mimic: Mimic, followers: set[str]) -> None:
             raise InvalidDhTable(f"{parameter} must be a number of magnitude ≤ {most:g}", i, "mimic")
 
 
-def _about_z(theta: float, d: float) -> Array:
+def about_z(theta: float, d: float) -> Array:
     """Return Rz(θ) Tz(d)."""
     c, s = math.cos(theta), math.sin(theta)
     return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, d], [0, 0, 0, 1]])
 
 
-def _about_x(alpha: float, a: float) -> Array:
+def about_x(alpha: float, a: float) -> Array:
     """Return Tx(a) Rx(α); the order does not matter because the two commute."""
     c, s = math.cos(alpha), math.sin(alpha)
     return np.array([[1, 0, 0, a], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1]])

@@ -8,7 +8,7 @@ import numpy as np
 import pinocchio as pin
 
 from gelenk.errors import FrameNotOnChain, UnknownFrame, UnsupportedJoint
-from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain, build_chain, default_ends, frame_on_chain
 from gelenk.robot.description import MOVABLE, Description, UrdfLimits
 from gelenk.robot.urdf import write_urdf
@@ -50,7 +50,7 @@ class RobotModel:
         self.model = _pinocchio_model(description)
         self.default_chain = default_chain or default_ends(description)
         self._chain = lru_cache(_CHAINS_KEPT)(partial(build_chain, description))
-        self._frame_on = lru_cache(_FRAMES_KEPT)(partial(frame_on_chain, description))
+        self.frame_on = lru_cache(_FRAMES_KEPT)(partial(frame_on_chain, description))
         self.frames_on = lru_cache(_CHAINS_KEPT)(self._frames_on)
         self.expansion = lru_cache(_CHAINS_KEPT)(self._expansion)
         self.data = self.model.createData()
@@ -66,15 +66,6 @@ class RobotModel:
             UnsupportedJoint: A floating or planar joint lies on the path.
         """
         return self._chain(base_frame or self.default_chain[0], tip_frame or self.default_chain[1])
-
-    def frame_on(self, chain: Chain, frame: str) -> tuple[Chain, Indices]:
-        """Return the chain to another frame that `chain` moves, and the indices of its variables in `chain`.
-
-        Raises:
-            UnknownFrame: The robot does not have this frame.
-            FrameNotOnChain: Other joints also move it.
-        """
-        return self._frame_on(chain, frame)
 
     def _frames_on(self, chain: Chain) -> tuple[str, ...]:
         """Return all frames whose pose in the base depends only on the chain's variables, in description order."""

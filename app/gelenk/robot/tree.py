@@ -26,7 +26,8 @@ def check_tree(description: Description, lines: Mapping[str, int]) -> None:
     _check_ends(description, lines)
     _check_roots(description)
     _check_reach(description, lines)
-    _check_mimics(description, lines)
+    for joint in description.joints:
+        _check_mimic(description, joint, lines)
 
 
 def _refuse(reason: str, kind: str, name: str, lines: Mapping[str, int]) -> InvalidUrdf:
@@ -34,10 +35,7 @@ def _refuse(reason: str, kind: str, name: str, lines: Mapping[str, int]) -> Inva
 
 
 def _check_names(description: Description, lines: Mapping[str, int]) -> None:
-    for kind, names in (
-        ("link", description.frames),
-        ("joint", [joint.name for joint in description.joints]),
-    ):
+    for kind, names in (("link", description.frames), ("joint", [joint.name for joint in description.joints])):
         for name in _repeated(names):
             raise _refuse("duplicate name: it is used more than once", kind, name, lines)
 
@@ -53,13 +51,9 @@ def _check_ends(description: Description, lines: Mapping[str, int]) -> None:
             raise _refuse(f"link {quoted(joint.parent)} is its own parent", "joint", joint.name, lines)
         pair = frozenset((joint.parent, joint.child))
         if pair in pairs:
-            raise _refuse(
-                f"links {quoted(joint.parent)} and {quoted(joint.child)} are joined by two joints, "
-                f"this one and {quoted(pairs[pair])}",
-                "joint",
-                joint.name,
-                lines,
-            )
+            ends = f"links {quoted(joint.parent)} and {quoted(joint.child)}"
+            reason = f"{ends} are joined by two joints, this one and {quoted(pairs[pair])}"
+            raise _refuse(reason, "joint", joint.name, lines)
         pairs[pair] = joint.name
     for child in _repeated(joint.child for joint in description.joints):
         above = tuple(joint.name for joint in description.joints if joint.child == child)
@@ -93,12 +87,6 @@ def _check_reach(description: Description, lines: Mapping[str, int]) -> None:
     movable = sum(joint.type in MOVABLE for joint in description.joints)
     if movable > MAX_MOVABLE:
         raise InvalidUrdf(f"the robot has {movable} movable joints; at most {MAX_MOVABLE} are allowed")
-
-
-def _check_mimics(description: Description, lines: Mapping[str, int]) -> None:
-    for joint in description.joints:
-        if joint.mimic is not None:
-            _check_mimic(description, joint, lines)
 
 
 def _check_mimic(description: Description, follower: Joint, lines: Mapping[str, int]) -> None:

@@ -36,8 +36,6 @@ MAX_LINKS = 512
 MAX_SHAPES = 512
 MAX_MAGNITUDE = 1e6
 """Largest length [m], angle [rad] or multiplier: beyond it, a double cannot resolve a nanometre."""
-
-
 UNLIMITED = 1e16
 """A velocity or effort that means "not given", here and in many files: URDF has no notation for that."""
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
@@ -66,6 +64,7 @@ _KNOWN_ATTRIBUTES = {
     "origin": {"xyz", "rpy"},
     "axis": {"xyz"},
 }
+_INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _SHAPE_SIZES = {
     "box": ("size",),
     "cylinder": ("radius", "length"),
@@ -113,24 +112,28 @@ class _DocumentReader:
         self._warnings = warnings
         self._lines: dict[str, int] = {}
         self._shape_count = 0
+        self._where: str | None = None
 
     def robot(self, root: Element) -> Description:
         links = [element for element in root.children if element.tag == "link"]
         joints = [element for element in root.children if element.tag == "joint"]
         if not links:
-            raise InvalidUrdf(without_links(root), None, root.line)
-        self._check_known(root, None)
+            raise self._error(root, without_links(root))
+        self._check_known(root)
         if len(links) > MAX_LINKS:
-            raise InvalidUrdf(f"the robot has {len(links)} links; at most {MAX_LINKS} are allowed", None, root.line)
-        description = Description(
-            root.attributes.get("name", ""),
-            tuple(self._link(element) for element in links),
-            tuple(self._joint(element) for element in joints),
-        )
+            raise self._error(root, f"the robot has {len(links)} links; at most {MAX_LINKS} are allowed")
+        name = root.attributes.get("name", "")
+        description = Description(name, tuple(map(self._link, links)), tuple(map(self._joint, joints)))
         check_tree(description, self._lines)
         self._warn_of_meshes(description)
         self._warn_of_massless(description)
-        return Description(description.name, description.links, description.joints, tuple(self._warnings))
+        return replace(description, warnings=tuple(self._warnings))
+
+    def _error(self, element: Element, reason: str) -> InvalidUrdf:
+        return InvalidUrdf(reason, self._where, element.line)
+
+    def _warn(self, element: Element, oddity: str) -> None:
+        self._warnings.append(f"line {element.line}: {f'{self._where}: ' if self._where else ''}{oddity}")
 
     @contextmanager
     def _harmless(self, consequence: str) -> Iterator[None]:
@@ -144,8 +147,8 @@ class _DocumentReader:
 
     def _warn_of_meshes(self, description: Description) -> None:
         if outside := tuple(mesh for mesh in description.meshes if _ELSEWHERE.search(mesh)):
-            told = "outside the description's folder: not opened there; looked up only in an archive"
-            self._warnings.append(f"{meshes_are(outside)} {told}")
+            consequence = "outside the description's folder: not opened there; looked up only in an archive"
+            self._warnings.append(f"{meshes_are(outside)} {consequence}")
 
     def _warn_of_massless(self, description: Description) -> None:
         moved = {joint.child for joint in description.joints if joint.type in MOVABLE}
@@ -161,39 +164,36 @@ class _DocumentReader:
 
     def _link(self, element: Element) -> Link:
         name = self._name(element)
-        where = f"link {quoted(name)}"
-        self._check_known(element, where)
+        self._check_known(element)
         inertial = None
-        if (found := self._only(element, "inertial", where, is_felt=False)) is not None:
+        if (found := self._only(element, "inertial", is_felt=False)) is not None:
             with self._harmless("the inertial is ignored"):
-                inertial = self._inertial(found, where)
+                inertial = self._inertial(found)
         shapes = [child for child in element.children if child.tag in {"visual", "collision"}]
         self._shape_count += len(shapes)
         if self._shape_count > MAX_SHAPES:
-            raise InvalidUrdf(f"more than {MAX_SHAPES} geometries", where, element.line)
+            raise self._error(element, f"more than {MAX_SHAPES} geometries")
         drawn = []
         for shape in shapes:
             with self._harmless("it is not drawn"):
-                drawn.append(self._shape(shape, where))
+                drawn.append(self._shape(shape))
         return Link(name, inertial, tuple(drawn))
 
-    def _inertial(self, element: Element, where: str) -> Inertial | None:
-        self._check_known(element, where)
-        mass_element, inertia_element = self._only(element, "mass", where), self._only(element, "inertia", where)
+    def _inertial(self, element: Element) -> Inertial | None:
+        self._check_known(element)
+        mass_element, inertia_element = self._only(element, "mass"), self._only(element, "inertia")
         if mass_element is None or inertia_element is None:
             missing = "mass" if mass_element is None else "inertia"
-            self._warnings.append(f"line {element.line}: {where}: inertial without {missing} is ignored")
+            self._warn(element, f"inertial without {missing} is ignored")
             return None
-        mass = _number(mass_element, "value", where, most=MAX_BOUND)
+        mass = self._number(mass_element, "value", most=MAX_BOUND)
         if mass < 0:
-            raise InvalidUrdf(f"mass {mass:g} is negative", where, mass_element.line)
-        ixx, ixy, ixz, iyy, iyz, izz = (
-            _number(inertia_element, key, where, most=MAX_BOUND) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-        )
-        self._warn_of_inertia(mass, (ixx, ixy, ixz, iyy, iyz, izz), where, element.line)
-        return Inertial(self._origin(element, where), mass, (ixx, ixy, ixz, iyy, iyz, izz))
+            raise self._error(mass_element, f"mass {mass:g} is negative")
+        ixx, ixy, ixz, iyy, iyz, izz = (self._number(inertia_element, key, most=MAX_BOUND) for key in _INERTIA)
+        self._warn_of_inertia(element, mass, (ixx, ixy, ixz, iyy, iyz, izz))
+        return Inertial(self._origin(element), mass, (ixx, ixy, ixz, iyy, iyz, izz))
 
-    def _warn_of_inertia(self, mass: float, inertia: tuple[float, ...], where: str, line: int) -> None:
+    def _warn_of_inertia(self, element: Element, mass: float, inertia: tuple[float, ...]) -> None:
         ixx, ixy, ixz, iyy, iyz, izz = inertia
         slack = 1e-9 * max(abs(value) for value in inertia)
         minors = (
@@ -202,42 +202,38 @@ class _DocumentReader:
             ixx * iyy * izz + 2 * ixy * iyz * ixz - ixx * iyz**2 - iyy * ixz**2 - izz * ixy**2,
         )
         if mass == 0.0 and any(inertia):
-            self._warnings.append(f"line {line}: {where}: inertia without mass")
+            self._warn(element, "inertia without mass")
         elif any(minor < -slack for minor in minors):
-            self._warnings.append(f"line {line}: {where}: inertia is not positive definite, which no real body has")
+            self._warn(element, "inertia is not positive definite, which no real body has")
         elif 2 * max(ixx, iyy, izz) > ixx + iyy + izz + slack:
-            self._warnings.append(f"line {line}: {where}: inertia violates the triangle inequality of a real body")
+            self._warn(element, "inertia violates the triangle inequality of a real body")
 
-    def _shape(self, element: Element, where: str) -> Shape:
-        shape = self._geometry(element, where)
+    def _shape(self, element: Element) -> Shape:
+        shape = self._geometry(element)
         role: Literal["visual", "collision"] = "visual" if element.tag == "visual" else "collision"
-        self._check_known(element, where)
-        origin = self._origin(element, where)
+        self._check_known(element)
+        origin = self._origin(element)
         if shape.tag == "mesh":
             filename = shape.attributes.get("filename", "")
             if not filename or not filename.isprintable():
-                raise InvalidUrdf("mesh must have a filename of printable characters", where, shape.line)
-            return Shape(role, origin, "mesh", self._scale(shape, where), filename)
+                raise self._error(shape, "mesh must have a filename of printable characters")
+            return Shape(role, origin, "mesh", self._scale(shape), filename)
         if shape.tag not in _SHAPE_SIZES:
-            raise InvalidUrdf(
-                f"geometry {quoted(shape.tag)} is not known: box, cylinder, capsule, sphere or mesh",
-                where,
-                shape.line,
-            )
+            kinds = "box, cylinder, capsule, sphere or mesh"
+            raise self._error(shape, f"geometry {quoted(shape.tag)} is not known: {kinds}")
         keys = _SHAPE_SIZES[shape.tag]
-        count = 3 if shape.tag == "box" else 1
-        size = tuple(value for key in keys for value in _numbers(shape, key, count, where))
+        size = tuple(value for key in keys for value in self._numbers(shape, key, 3 if shape.tag == "box" else 1))
         if min(size) < 0:
-            raise InvalidUrdf(f"{shape.tag} has a negative {' or '.join(keys)}", where, shape.line)
+            raise self._error(shape, f"{shape.tag} has a negative {' or '.join(keys)}")
         return Shape(role, origin, shape.tag, size)  # type: ignore[arg-type]
 
-    def _geometry(self, element: Element, where: str) -> Element:
+    def _geometry(self, element: Element) -> Element:
         """Return the element of a shape: the only one in its geometry, or else the first one of a known kind."""
-        geometry = self._only(element, "geometry", where, is_felt=False)
+        geometry = self._only(element, "geometry", is_felt=False)
         found = [] if geometry is None else geometry.children
         if len(found) == 1:
             return found[0]
-        error = InvalidUrdf(f"{element.tag} must have one geometry with one shape", where, element.line)
+        error = self._error(element, f"{element.tag} must have one geometry with one shape")
         shapes = [shape for shape in found if shape.tag == "mesh" or shape.tag in _SHAPE_SIZES]
         if not shapes:
             raise error
@@ -245,122 +241,116 @@ class _DocumentReader:
             raise error
         return shapes[0]
 
-    def _scale(self, mesh: Element, where: str) -> Triple:
+    def _scale(self, mesh: Element) -> Triple:
         words = mesh.attributes.get("scale", "1 1 1").split()
         if len(words) > 3:
             with self._harmless("the first three count"):
-                _triple(mesh, "scale", where)
-        return _triple(Element("mesh", {"scale": " ".join(words[:3])}, mesh.line), "scale", where)
+                self._triple(mesh, "scale")
+        return self._triple(Element("mesh", {"scale": " ".join(words[:3])}, mesh.line), "scale")
 
     # Joints
 
     def _joint(self, element: Element) -> Joint:
         name = self._name(element)
-        where = f"joint {quoted(name)}"
-        self._check_known(element, where)
+        self._check_known(element)
         type_ = element.attributes.get("type")
         if type_ not in _JOINT_TYPES:
             given = "no type" if type_ is None else f"unknown type {quoted(type_)}"
-            raise InvalidUrdf(f"{given}; allowed: {', '.join(_JOINT_TYPES)}", where, element.line)
+            raise self._error(element, f"{given}; allowed: {', '.join(_JOINT_TYPES)}")
         if type_ in {"floating", "planar"}:
-            self._warnings.append(f"line {element.line}: {where}: no chain may lead across a {type_} joint")
-        ends = self._end(element, "parent", where), self._end(element, "child", where)
-        joint = Joint(name, cast(JointType, type_), *ends, self._origin(element, where))
+            self._warn(element, f"no chain may lead across a {type_} joint")
+        ends = self._end(element, "parent"), self._end(element, "child")
+        joint = Joint(name, cast(JointType, type_), *ends, self._origin(element))
         with self._harmless("a fixed joint does not move") if type_ == "fixed" else nullcontext():
-            axis, limits = self._axis(element, type_, where), self._limits(element, type_, where)
-            return replace(joint, axis=axis, limits=limits, mimic=self._mimic(element, type_, where))
+            axis, limits = self._axis(element, type_), self._limits(element, type_)
+            return replace(joint, axis=axis, limits=limits, mimic=self._mimic(element, type_))
         return joint
 
-    def _end(self, element: Element, tag: str, where: str) -> str:
-        end = self._only(element, tag, where)
+    def _end(self, element: Element, tag: str) -> str:
+        end = self._only(element, tag)
         if end is None or not end.attributes.get("link"):
-            raise InvalidUrdf(f"must have a {tag} with a link", where, element.line)
+            raise self._error(element, f"must have a {tag} with a link")
         return end.attributes["link"]
 
-    def _axis(self, element: Element, type_: str, where: str) -> Triple:
-        axis = self._only(element, "axis", where)
+    def _axis(self, element: Element, type_: str) -> Triple:
+        axis = self._only(element, "axis")
         if type_ in {"fixed", "floating"}:
             return (1.0, 0.0, 0.0)
         if axis is None:
-            self._warnings.append(f"line {element.line}: {where}: no axis given, so it is 1 0 0")
+            self._warn(element, "no axis given, so it is 1 0 0")
             return (1.0, 0.0, 0.0)
-        self._check_known(axis, where)
-        x, y, z = _numbers(axis, "xyz", 3, where)
+        self._check_known(axis)
+        x, y, z = self._triple(axis, "xyz")
         length = math.hypot(x, y, z)
         if length < 1e-9:
-            raise InvalidUrdf("the axis is zero: it must have a direction", where, axis.line)
+            raise self._error(axis, "the axis is zero: it must have a direction")
         if abs(length - 1.0) <= 1e-15:
             return (x, y, z)
         if abs(length - 1.0) > 1e-6:
-            self._warnings.append(f"line {axis.line}: {where}: axis of length {length:.6g} is taken as a direction")
+            self._warn(axis, f"axis of length {length:.6g} is taken as a direction")
         return (x / length, y / length, z / length)
 
-    def _limits(self, element: Element, type_: str, where: str) -> UrdfLimits:
-        limit = self._only(element, "limit", where)
-        bounded = type_ in {"revolute", "prismatic"}
+    def _limits(self, element: Element, type_: str) -> UrdfLimits:
+        limit = self._only(element, "limit")
         if limit is None:
-            if bounded:
-                raise InvalidUrdf(f"a {type_} joint must have a limit", where, element.line)
+            if type_ in {"revolute", "prismatic"}:
+                raise self._error(element, f"a {type_} joint must have a limit")
             return UrdfLimits()
-        self._check_known(limit, where)
-        lower, upper = self._positions(limit, type_, where)
-        velocity, effort = (self._bound(limit, key, type_, where) for key in ("velocity", "effort"))
-        return UrdfLimits(lower, upper, velocity, effort) if type_ in MOVABLE else UrdfLimits()
+        self._check_known(limit)
+        positions = self._positions(limit, type_)
+        bounds = [self._bound(limit, key, type_) for key in ("velocity", "effort")]
+        return UrdfLimits(*positions, *bounds) if type_ in MOVABLE else UrdfLimits()
 
-    def _positions(self, limit: Element, type_: str, where: str) -> tuple[float | None, float | None]:
-        given = {
-            key: _number(limit, key, where, most=MAX_BOUND) for key in ("lower", "upper") if key in limit.attributes
-        }
+    def _positions(self, limit: Element, type_: str) -> tuple[float | None, float | None]:
+        keys = ("lower", "upper")
+        given = {key: self._number(limit, key, most=MAX_BOUND) for key in keys if key in limit.attributes}
         if type_ not in {"revolute", "prismatic"}:
             if type_ != "fixed" and any(given.values()):
-                self._warnings.append(f"line {limit.line}: {where}: the position limits of a {type_} joint are ignored")
+                self._warn(limit, f"the position limits of a {type_} joint are ignored")
             return None, None
-        for key in ("lower", "upper"):
+        for key in keys:
             if key not in given:
-                self._warnings.append(f"line {limit.line}: {where}: limit without {key}, which is 0 by URDF's rule")
+                self._warn(limit, f"limit without {key}, which is 0 by URDF's rule")
         lower, upper = given.get("lower", 0.0), given.get("upper", 0.0)
         if lower > upper:
-            raise InvalidUrdf(f"limit: lower {lower:g} is greater than upper {upper:g}", where, limit.line)
+            raise self._error(limit, f"limit: lower {lower:g} is greater than upper {upper:g}")
         return lower, upper
 
-    def _bound(self, limit: Element, key: str, type_: str, where: str) -> float | None:
+    def _bound(self, limit: Element, key: str, type_: str) -> float | None:
         if key not in limit.attributes:
             if type_ in MOVABLE:
-                self._warnings.append(f"line {limit.line}: {where}: limit without {key}")
+                self._warn(limit, f"limit without {key}")
             return None
-        value = _number(limit, key, where, most=MAX_BOUND)
+        value = self._number(limit, key, most=MAX_BOUND)
         if value < 0:
-            raise InvalidUrdf(f"limit: {key} {value:g} is negative", where, limit.line)
+            raise self._error(limit, f"limit: {key} {value:g} is negative")
         if value == 0 and type_ in MOVABLE:
-            self._warnings.append(f"line {limit.line}: {where}: limit of zero {key} is taken as not given")
+            self._warn(limit, f"limit of zero {key} is taken as not given")
         return value if 0.0 < value < UNLIMITED else None
 
-    def _mimic(self, element: Element, type_: str, where: str) -> Mimic | None:
-        mimic = self._only(element, "mimic", where)
+    def _mimic(self, element: Element, type_: str) -> Mimic | None:
+        mimic = self._only(element, "mimic")
         if mimic is None:
             return None
         if type_ not in MOVABLE:
             if type_ != "fixed":
-                raise InvalidUrdf(f"a {type_} joint cannot mimic another", where, mimic.line)
-            self._warnings.append(f"line {mimic.line}: {where}: the mimic of a fixed joint is ignored")
+                raise self._error(mimic, f"a {type_} joint cannot mimic another")
+            self._warn(mimic, "the mimic of a fixed joint is ignored")
             return None
-        self._check_known(mimic, where)
+        self._check_known(mimic)
         leader = mimic.attributes.get("joint")
         if not leader:
-            raise InvalidUrdf("mimic must name a joint", where, mimic.line)
-        return Mimic(
-            leader,
-            _number(mimic, "multiplier", where) if "multiplier" in mimic.attributes else 1.0,
-            _number(mimic, "offset", where) if "offset" in mimic.attributes else 0.0,
-        )
+            raise self._error(mimic, "mimic must name a joint")
+        numbers = {key: self._number(mimic, key) for key in ("multiplier", "offset") if key in mimic.attributes}
+        return Mimic(leader, **numbers)
 
     # Shared by links and joints
 
-    def _only(self, element: Element, tag: str, where: str, is_felt: bool = True) -> Element | None:
+    def _only(self, element: Element, tag: str, is_felt: bool = True) -> Element | None:
         """Return the child with a tag; of several, the first if they are equal or kinematics does not depend on it."""
         found = [child for child in element.children if child.tag == tag]
         if len(found) > 1:
-            error = InvalidUrdf(f"{len(found)} elements {quoted(tag)} where one is allowed", where, found[1].line)
+            error = self._error(found[1], f"{len(found)} elements {quoted(tag)} where one is allowed")
             if is_felt and any(child != found[0] for child in found):
                 raise error
             with self._harmless("the first counts"):
@@ -368,74 +358,57 @@ class _DocumentReader:
         return found[0] if found else None
 
     def _name(self, element: Element) -> str:
-        name = element.attributes.get("name", "")
+        """Return the name of a link or joint, where later messages are about."""
+        self._where, name = None, element.attributes.get("name", "")
         if not name.strip():
-            raise InvalidUrdf(f"{element.tag} must have a name", None, element.line)
+            raise self._error(element, f"{element.tag} must have a name")
+        self._where = f"{element.tag} {quoted(name)}"
         if len(name) > MAX_NAME_LENGTH:
-            raise InvalidUrdf(
-                f"the name has {len(name)} characters; at most {MAX_NAME_LENGTH} are allowed",
-                f"{element.tag} {quoted(name)}",
-                element.line,
-            )
+            raise self._error(element, f"the name has {len(name)} characters; at most {MAX_NAME_LENGTH} are allowed")
         if not name.isprintable():
-            raise InvalidUrdf(
-                "control or invisible characters in the name", f"{element.tag} {quoted(name)}", element.line
-            )
+            raise self._error(element, "control or invisible characters in the name")
         self._lines[f"{element.tag} {name}"] = element.line
         return name
 
-    def _origin(self, element: Element, where: str) -> Origin:
-        origin = self._only(element, "origin", where)
+    def _origin(self, element: Element) -> Origin:
+        origin = self._only(element, "origin")
         if origin is None:
             return Origin()
-        self._check_known(origin, where)
-        return Origin(
-            _triple(origin, "xyz", where) if "xyz" in origin.attributes else (0.0, 0.0, 0.0),
-            _triple(origin, "rpy", where) if "rpy" in origin.attributes else (0.0, 0.0, 0.0),
-        )
+        self._check_known(origin)
+        return Origin(**{key: self._triple(origin, key) for key in ("xyz", "rpy") if key in origin.attributes})
 
-    def _check_known(self, element: Element, where: str | None) -> None:
+    def _check_known(self, element: Element) -> None:
         """Warn of attributes and elements that are not part of URDF, often misspelt, and refuse xacro elements."""
-        inside = f"{where}: " if where else ""
         for key in element.attributes:
             if key not in _KNOWN_ATTRIBUTES[element.tag] and ":" not in key:
-                what = f"unknown attribute {quoted(key)} of {element.tag}"
-                self._warnings.append(f"line {element.line}: {inside}{what} is ignored")
+                self._warn(element, f"unknown attribute {quoted(key)} of {element.tag} is ignored")
         for child in element.children:
             if child.tag.startswith("xacro:"):
-                raise InvalidUrdf(
-                    "xacro must be expanded before the upload", f"element {quoted(child.tag)}", child.line
-                )
+                reason = "xacro must be expanded before the upload"
+                raise InvalidUrdf(reason, f"element {quoted(child.tag)}", child.line)
             if child.tag not in _KNOWN_ELEMENTS.get(element.tag, ()):
-                self._warnings.append(f"line {child.line}: {inside}unknown element {quoted(child.tag)} is ignored")
+                self._warn(child, f"unknown element {quoted(child.tag)} is ignored")
 
+    def _number(self, element: Element, key: str, most: float = MAX_MAGNITUDE) -> float:
+        return self._numbers(element, key, 1, most)[0]
 
-def _number(element: Element, key: str, where: str, most: float = MAX_MAGNITUDE) -> float:
-    return _numbers(element, key, 1, where, most)[0]
+    def _triple(self, element: Element, key: str) -> Triple:
+        x, y, z = self._numbers(element, key, 3)
+        return x, y, z
 
-
-def _triple(element: Element, key: str, where: str) -> Triple:
-    x, y, z = _numbers(element, key, 3, where)
-    return x, y, z
-
-
-def _numbers(element: Element, key: str, count: int, where: str, most: float = MAX_MAGNITUDE) -> tuple[float, ...]:
-    """Parse an attribute as exactly `count` finite numbers, none of greater magnitude than `most`."""
-    text = element.attributes.get(key)
-    what = f"{element.tag} {key}"
-    if text is None:
-        raise InvalidUrdf(f"{element.tag} must have the attribute {quoted(key)}", where, element.line)
-    words = text.split()
-    if len(words) != count or not all(_NUMBER.fullmatch(word) for word in words):
-        raise InvalidUrdf(
-            f"{what} is {quoted(text)} but must be {count} finite number{'s' * (count > 1)}",
-            where,
-            element.line,
-        )
-    values = tuple(float(word) for word in words)
-    if not all(abs(value) <= most for value in values):
-        raise InvalidUrdf(f"{what} has a magnitude beyond {most:g}", where, element.line)
-    return values
+    def _numbers(self, element: Element, key: str, count: int, most: float = MAX_MAGNITUDE) -> tuple[float, ...]:
+        """Parse an attribute as exactly `count` finite numbers, none of greater magnitude than `most`."""
+        text, what = element.attributes.get(key), f"{element.tag} {key}"
+        if text is None:
+            raise self._error(element, f"{element.tag} must have the attribute {quoted(key)}")
+        words = text.split()
+        if len(words) != count or not all(_NUMBER.fullmatch(word) for word in words):
+            allowed = f"{count} finite number{'s' * (count > 1)}"
+            raise self._error(element, f"{what} is {quoted(text)} but must be {allowed}")
+        values = tuple(float(word) for word in words)
+        if not all(abs(value) <= most for value in values):
+            raise self._error(element, f"{what} has a magnitude beyond {most:g}")
+        return values
 
 
 # Writing
@@ -471,8 +444,7 @@ def _origin_element(origin: Origin) -> list[str]:
 def _link_body(link: Link) -> list[str]:
     lines: list[str] = []
     if link.inertial is not None:
-        keys = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-        inertia = {key: repr(value) for key, value in zip(keys, link.inertial.inertia, strict=True)}
+        inertia = {key: repr(value) for key, value in zip(_INERTIA, link.inertial.inertia, strict=True)}
         body = _element("mass", {"value": repr(link.inertial.mass)}) + _element("inertia", inertia)
         lines += _element("inertial", {}, _origin_element(link.inertial.origin) + body)
     for shape in link.shapes:
@@ -504,10 +476,6 @@ def _joint_body(joint: Joint) -> list[str]:
             given = {"lower": limits.lower, "upper": limits.upper, **given}
         lines += _element("limit", {key: repr(value) for key, value in given.items()})
     if joint.mimic is not None:
-        mimic = {
-            "joint": joint.mimic.joint,
-            "multiplier": repr(joint.mimic.multiplier),
-            "offset": repr(joint.mimic.offset),
-        }
-        lines += _element("mimic", mimic)
+        numbers = {key: repr(getattr(joint.mimic, key)) for key in ("multiplier", "offset")}
+        lines += _element("mimic", {"joint": joint.mimic.joint, **numbers})
     return lines

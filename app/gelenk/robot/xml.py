@@ -127,18 +127,12 @@ class _TreeBuilder(ContentHandler):
         if len(self._open) >= MAX_DEPTH:
             raise InvalidUrdf(f"elements nested deeper than {MAX_DEPTH}", None, self.line)
         if len(attributes) > MAX_ATTRIBUTES:
-            raise InvalidUrdf(
-                f"element {quoted(name)} has {len(attributes)} attributes; at most {MAX_ATTRIBUTES} are allowed",
-                None,
-                self.line,
-            )
+            reason = f"element {quoted(name)} has {len(attributes)} attributes; at most {MAX_ATTRIBUTES} are allowed"
+            raise InvalidUrdf(reason, None, self.line)
         for key, value in attributes.items():
             if len(value) > MAX_VALUE_LENGTH:
-                raise InvalidUrdf(
-                    f"attribute {quoted(key)} has {len(value)} characters; at most {MAX_VALUE_LENGTH} are allowed",
-                    None,
-                    self.line,
-                )
+                reason = f"attribute {quoted(key)} has {len(value)} characters; at most {MAX_VALUE_LENGTH} are allowed"
+                raise InvalidUrdf(reason, None, self.line)
 
 
 def left_of_xacro(root: Element, ignored: frozenset[str]) -> str | None:

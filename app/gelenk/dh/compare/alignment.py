@@ -51,18 +51,6 @@ class Alignment(NamedTuple):
     signs: Array
 
 
-class _Axes(NamedTuple):
-    """A chain's axes: directions and points, shape (n, 3) each, and which are prismatic."""
-
-    directions: Array
-    points: Array
-    slides: list[bool]
-
-    @classmethod
-    def of(cls, screws: ChainScrews) -> "_Axes":
-        return cls(screws.directions, screws.points, screws.slides.tolist())
-
-
 class _Slack(NamedTuple):
     """An undetermined rotation: about an axis (any if None), due to joint or base `owner`, through points `anchor`."""
 
@@ -99,13 +87,14 @@ def alignments(
     """
     n = len(target)
     most = min(_MOST_BRANCHES, _MOST_STEPS // n)
-    chain, axes = _Axes.of(target), _Axes.of(table)
     held = np.ones(n) if signs is None else signs
     slack = _Slack(None, _BASE, None) if freedom.base else None
     branches = [_Branch(np.eye(3), np.eye(3), np.zeros(n), held, slack, 0.0)]
     for i in range(n):
         senses = (1.0, -1.0) if freedom.signs else (float(held[i]),)
-        followers = [_beyond(branch, i, sense, chain, axes, freedom.offsets) for branch in branches for sense in senses]
+        followers = [
+            _beyond(branch, i, sense, target, table, freedom.offsets) for branch in branches for sense in senses
+        ]
         fitting = [branch for branch in followers if branch.misfit < _MISFIT]
         if strict and not fitting:
             return []
@@ -116,7 +105,9 @@ def alignments(
     return [Alignment(branch.base, branch.offsets, branch.signs) for branch in branches]
 
 
-def _beyond(branch: _Branch, i: int, sense: float, target: _Axes, table: _Axes, free_zeros: bool) -> _Branch:
+def _beyond(
+    branch: _Branch, i: int, sense: float, target: ChainScrews, table: ChainScrews, free_zeros: bool
+) -> _Branch:
     """Extend a branch by joint i."""
     signs = branch.signs.copy()
     signs[i] = sense
@@ -133,7 +124,7 @@ def _beyond(branch: _Branch, i: int, sense: float, target: _Axes, table: _Axes, 
     return replace(branch, slack=slack, misfit=max(branch.misfit, misfit))
 
 
-def _taken_up(branch: _Branch, i: int, target: _Axes, table: _Axes) -> _Branch:
+def _taken_up(branch: _Branch, i: int, target: ChainScrews, table: ChainScrews) -> _Branch:
     """Let joint i fix the slack of a branch, as far as it can."""
     slack = branch.slack
     if slack is None:

@@ -7,8 +7,8 @@ zeros and senses of the joints make the poses of both equal at random configurat
 """
 
 import math
-from dataclasses import dataclass
-from typing import NamedTuple
+from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -27,13 +27,12 @@ from gelenk.dh.compare.screws import (
     BASE_DIRECTIONS,
     PARAMETERS,
     Tables,
-    chain_screws,
     geometry,
     jacobians,
     parameters_of,
 )
 from gelenk.dh.compare.trials import LOOKS, Diagnosis
-from gelenk.dh.compare.words import ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES
+from gelenk.dh.compare.words import ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES, Unverified
 from gelenk.errors import InvalidField, counted, listed, quoted
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain, crossed_joints
@@ -49,43 +48,33 @@ _SPANNED = 1e-7
 _SAME_MULTIPLIER = 1e-9
 
 
-class Unverified(NamedTuple):
-    """A table entry that cannot be checked, because the base, tool or offsets found compensate for its errors."""
-
-    row: int
-    joint: str
-    parameter: str
-    absorbed_by: str
-
-
 @dataclass(frozen=True, slots=True)
 class Comparison:
     """The result of comparing a table with a chain.
 
     Attributes:
         equivalent: Whether the table describes the chain.
-        freedom: The quantities that were found; the others were held.
         placement: The table fitted to the chain as closely as possible, with the errors measured through Pinocchio;
             None if the rows and the joints do not match in number or type.
-        first_difference: The first row and parameter that differ; None if nothing differs.
-        differences: All known differences, including the first.
+        differences: All known differences, the first row and parameter that differ first.
         diagnoses: Single mistakes, or pairs of them, that explain the differences; the likeliest first.
         unverified: Entries that cannot be checked, because something found compensates for them.
         notes: Further remarks, one sentence each.
-        seed: Seed of the random configurations.
         samples: Number of configurations compared.
     """
 
     equivalent: bool
-    freedom: Freedom
     placement: Placement | None
-    first_difference: Difference | None
     differences: tuple[Difference, ...]
     diagnoses: tuple[Diagnosis, ...]
     unverified: tuple[Unverified, ...]
     notes: tuple[str, ...]
-    seed: int
     samples: int
+
+    @property
+    def first_difference(self) -> Difference | None:
+        """The first row and parameter that differ; None if nothing differs."""
+        return self.differences[0] if self.differences else None
 
 
 def compare(
@@ -94,7 +83,6 @@ def compare(
     table: DhTable,
     freedom: Freedom,
     tolerances: tuple[float, float] = (POSITION_TOLERANCE, ORIENTATION_TOLERANCE),
-    samples: int = SAMPLES,
     seed: int = 0,
 ) -> Comparison:
     """Compare a table with a chain.
@@ -105,36 +93,31 @@ def compare(
         table: The table; its base and tool are ignored where they are to be found.
         freedom: The quantities to find.
         tolerances: Position [m] and orientation [rad] within which poses count as equal.
-        samples: Number of configurations to compare.
         seed: Seed of the random configurations.
 
     Raises:
         InvalidField: Zeros or senses are requested for a chain with mimic joints, or with too many joints.
     """
-    target = chain_screws(chain.flat)
     unlike = _unlike(chain, table)
     if unlike is not None:
-        found = _reordered(robot, chain, table, freedom, tolerances, seed)
-        return _refused(unlike, found, freedom, robot, chain, seed)
-    if len(target) != len(chain) and (freedom.offsets or freedom.signs):
-        raise InvalidField(
-            "find", "offsets and signs can only be found for chains without mimic joints; base and tool for any chain"
-        )
-    if len(target) > MAX_ROWS_WITH_SENSES and (freedom.offsets or freedom.signs):
-        raise InvalidField(
-            "find", f"offsets and signs can only be found for tables with at most {MAX_ROWS_WITH_SENSES} rows"
-        )
-    on = subject(robot, chain, target, _senses(chain, table), tolerances, samples, seed)
+        return _refused(unlike, robot, chain, table, freedom, tolerances, seed)
+    rows = len(table.joints)
+    only = "offsets and signs can only be found"
+    if rows != len(chain) and (freedom.offsets or freedom.signs):
+        raise InvalidField("find", f"{only} for chains without mimic joints; base and tool for any chain")
+    if rows > MAX_ROWS_WITH_SENSES and (freedom.offsets or freedom.signs):
+        raise InvalidField("find", f"{only} for tables with at most {MAX_ROWS_WITH_SENSES} rows")
+    on = replace(subject(robot, chain, tolerances, SAMPLES, seed), senses=_senses(chain, table))
     placement = placed(on, table, freedom)
     assert placement is not None  # noqa: S101 - a fit that is not strict always succeeds
     if on.accepts(placement.errors):
         unverified = _unverified(on, placement, freedom)
         notes = (*_plain_notes(table, placement, freedom), *_notes(on, unverified))
-        return Comparison(True, freedom, placement, None, (), (), unverified, notes, seed, samples)
-    return _explained(on, table, freedom, placement, seed)
+        return Comparison(True, placement, (), (), unverified, notes, SAMPLES)
+    return _explained(on, table, freedom, placement)
 
 
-def _explained(on: Subject, table: DhTable, freedom: Freedom, placement: Placement, seed: int) -> Comparison:
+def _explained(on: Subject, table: DhTable, freedom: Freedom, placement: Placement) -> Comparison:
     """Result for a table that matches the joints in number and type but does not describe the chain."""
     signs = placement.signs * on.senses if len(on.chain) == len(on.target) else on.senses
     found: list[Diagnosis] = []
@@ -149,34 +132,28 @@ def _explained(on: Subject, table: DhTable, freedom: Freedom, placement: Placeme
         notes.append("no one or two mistakes explain it; the difference listed is the first one from the base")
     elif len(found) > 1:
         notes.append("each of the diagnoses alone explains it; the first difference is that of the likeliest")
-    first = differences[0] if differences else None
-    samples = len(on.qs)
     shown = tuple(found[:_MOST_DIAGNOSES])
-    return Comparison(False, freedom, placement, first, differences, shown, unverified, tuple(notes), seed, samples)
-
-
-def _reordered(
-    robot: RobotModel, chain: Chain, table: DhTable, freedom: Freedom, tolerances: tuple[float, float], seed: int
-) -> list[Diagnosis]:
-    """Mistakes that explain why rows and joints do not match."""
-    target = chain_screws(chain.flat)
-    if not len(target) or len(chain) != len(target) or any(row.mimic for row in table.joints):
-        return []
-    on = subject(robot, chain, target, np.ones(len(target)), tolerances, LOOKS, seed)
-    return diagnoses_of_rows(on, table, freedom)
+    return Comparison(False, placement, differences, shown, unverified, tuple(notes), SAMPLES)
 
 
 def _refused(
-    unlike: Difference, found: list[Diagnosis], freedom: Freedom, robot: RobotModel, chain: Chain, seed: int
+    unlike: Difference,
+    robot: RobotModel,
+    chain: Chain,
+    table: DhTable,
+    freedom: Freedom,
+    tolerances: tuple[float, float],
+    seed: int,
 ) -> Comparison:
-    """Result for a table whose rows do not match the joints."""
+    """Result for a table whose rows do not match the joints, with mistakes that explain why."""
+    joints, found = crossed_joints(robot.description, chain), list[Diagnosis]()
+    if joints and len(chain) == len(joints) and not any(row.mimic for row in table.joints):
+        found = diagnoses_of_rows(subject(robot, chain, tolerances, LOOKS, seed), table, freedom)
     ends = f"from {quoted(chain.base_frame)} to {quoted(chain.tip_frame)}"
-    joints = crossed_joints(robot.description, chain)
     names = listed(tuple(each.name for each in joints))
     note = f"the chain {ends} has the {counted(len(joints), 'joint')} {names}"
     differences = found[0].differences if found else (unlike,)
-    shown = tuple(found[:_MOST_DIAGNOSES])
-    return Comparison(False, freedom, None, differences[0], differences, shown, (), (note,), seed, 0)
+    return Comparison(False, None, differences, tuple(found[:_MOST_DIAGNOSES]), (), (note,), 0)
 
 
 def _unlike(chain: Chain, table: DhTable) -> Difference | None:
@@ -228,11 +205,14 @@ def _unverified(on: Subject, placement: Placement, freedom: Freedom) -> tuple[Un
     everything = np.arange(BASE_DIRECTIONS + 4 * n)[None]
     J = jacobians(table.convention, geometry(tables), everything, with_tip=not freedom.tool)[0]
     zeros = BASE_DIRECTIONS + 4 * np.arange(n) + variable_columns(on.target)
-    spans = {"tool": np.zeros((len(J), 0)), "base": J[:, :BASE_DIRECTIONS] if freedom.base else np.zeros((len(J), 0))}
-    if freedom.offsets:
-        spans["offsets"] = np.column_stack((spans["base"], J[:, zeros]))
-    changes = J[:, BASE_DIRECTIONS:]
-    absorbed = {name: _lie_in(changes, span).tolist() for name, span in spans.items()}
+    none, changes = np.zeros((len(J), 0)), J[:, BASE_DIRECTIONS:]
+    base = J[:, :BASE_DIRECTIONS] if freedom.base else none
+    offsets = np.column_stack((base, J[:, zeros])) if freedom.offsets else none
+    absorbed: dict[Literal["base", "tool", "offsets"], Flags] = {
+        "tool": _lie_in(changes, none),
+        "base": _lie_in(changes, base),
+        "offsets": _lie_in(changes, offsets),
+    }
     found = []
     for place in range(4 * n):
         by = next((name for name, lie in absorbed.items() if lie[place]), None)

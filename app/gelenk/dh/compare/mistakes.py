@@ -14,8 +14,9 @@ from gelenk.dh.compare.alignment import Freedom
 from gelenk.dh.compare.numbers import MOST_POWERS, Difference, in_words, wrong_numbers
 from gelenk.dh.compare.placement import Subject, placed
 from gelenk.dh.compare.repairs import Repairs
+from gelenk.dh.compare.screws import numbers_of
 from gelenk.dh.compare.several import with_numbers
-from gelenk.dh.compare.trials import LOOKS, Diagnosis, explaining, numbers_of
+from gelenk.dh.compare.trials import LOOKS, Diagnosis, explaining
 from gelenk.dh.compare.words import Mistake
 from gelenk.errors import quoted
 from gelenk.robot.arrays import Array
@@ -62,12 +63,9 @@ def diagnoses_of_rows(on: Subject, table: DhTable, freedom: Freedom) -> list[Dia
     numbers = numbers_of(table)
     one = repairs.without_a_row(numbers) if excess > 0 else repairs.with_a_row(n)
     single = _repairs(on, table, freedom, _POWERS_IN_PAIRS)
-    if excess == 0:
-        found = explaining(on, table, freedom, single)
-    elif abs(excess) == 1:
-        found = _counted(on, table, freedom, one)
-    else:
-        found = []
+    found = []
+    if abs(excess) < 2:
+        found = _counted(on, table, freedom, one if excess else single)
     if found or len(on.target) > ROWS_WITH_PAIRS:
         return found
     if excess == 0:
@@ -84,19 +82,17 @@ def diagnoses_of_rows(on: Subject, table: DhTable, freedom: Freedom) -> list[Dia
 
 def _wrong_numbers(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> list[Diagnosis]:
     found = []
-    for number in wrong_numbers(on, table, freedom, signs):
+    for number, placement in wrong_numbers(on, table, freedom, signs):
         undone = in_words(number)
-        found.append(Diagnosis((undone.mistake,), undone.detail, (number.difference,), number.placement))
+        found.append(Diagnosis((undone.mistake,), undone.detail, (number.difference,), placement))
     return found
 
 
 def _repairs(on: Subject, table: DhTable, freedom: Freedom, powers: int) -> Repairs:
     """Repairs of single mistakes that keep the number of rows."""
-    names = [row.name for row in table.joints]
     # Mimic rows depend on the order of rows through the names of their leaders.
     plain = len(on.chain) == len(on.target) and all(row.mimic is None for row in table.joints)
-    numbers = numbers_of(table)
-    return repairs.of_rows(numbers, table.convention, names, powers, reorder=plain, turn=plain and not freedom.signs)
+    return repairs.of_rows(table, powers, reorder=plain, turn=plain and not freedom.signs)
 
 
 def _pairs(on: Subject, table: DhTable, freedom: Freedom, signs: Array, loosely: bool) -> list[Diagnosis]:

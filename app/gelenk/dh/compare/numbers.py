@@ -26,6 +26,7 @@ from gelenk.dh.compare.screws import (
     polished,
     residuals,
 )
+from gelenk.dh.compare.words import Mistake
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import Convention, DhTable
 
@@ -73,30 +74,15 @@ class Difference:
         return self.value - self.expected
 
 
-@dataclass(frozen=True, slots=True)
-class WrongNumber:
-    """A number whose correction alone makes the table describe the chain.
-
-    Attributes:
-        difference: The number and its correct value.
-        slip: The likely slip; None if the number suggests none.
-        placement: The corrected table fitted to the chain.
-    """
-
-    difference: Difference
-    slip: Slip | None
-    placement: Placement
-
-
 class Candidate(NamedTuple):
-    """A corrected number found by least squares, not yet tested."""
+    """A corrected number found by least squares, and the likely slip; None if the number suggests none."""
 
     difference: Difference
     slip: Slip | None
 
 
-def wrong_numbers(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> list[WrongNumber]:
-    """Find every number whose correction alone makes a table describe a chain; the likeliest first.
+def wrong_numbers(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> list[tuple[Candidate, Placement]]:
+    """Find every number whose correction alone makes a table describe a chain, with the fit; the likeliest first.
 
     Args:
         on: The chain.
@@ -112,7 +98,7 @@ def wrong_numbers(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -
     for number in _candidates(on, table, freedom, signs, n, first):
         placement = placed(on.fewer(_LOOKS), repaired(table, [number.difference]), freedom, strict=True)
         if placement is not None:
-            found.append(WrongNumber(number.difference, number.slip, placement))
+            found.append((number, placement))
     return found
 
 
@@ -165,17 +151,16 @@ def _candidates(on: Subject, table: DhTable, freedom: Freedom, signs: Array, cou
     rows, places = _trials(table, freedom, count, range(first, first + _WINDOW))
     if not places:
         return []
-    held = replace(on, senses=signs[:count])
-    tables = started(held, _unbased(table, freedom), rows[:, :count], freedom._replace(signs=False))
+    tables = _started(on, table, rows, freedom, signs)
     common = unknowns_of(on.target, tables, freedom)
     own = np.array([BASE_DIRECTIONS + place for place in places])
     kept = np.flatnonzero(~np.isin(own, common))
     own = own[kept]
     unknowns = np.column_stack((np.tile(common, (len(own), 1)), own))
-    tables, _ = fit(on.target, tables.only(kept), unknowns, with_tip=not freedom.tool)
-    best: dict[int, Candidate] = {}
     with_tip = not freedom.tool
-    for c in np.flatnonzero(misfits(on, tables, with_tip=not freedom.tool) <= MISFIT):
+    tables, _ = fit(on.target, tables.only(kept), unknowns, with_tip)
+    best: dict[int, Candidate] = {}
+    for c in np.flatnonzero(misfits(on, tables, with_tip) <= MISFIT):
         place = int(own[c]) - BASE_DIRECTIONS
         nearest = polished(on.target, tables.only(np.array([c])), unknowns[[c]], with_tip)
         number = explained(on, table, place, float(nearest.rows[0].ravel()[place]))
@@ -226,8 +211,10 @@ def _counts(table: DhTable, row: int, column: int, count: int, freedom: Freedom)
     return row < count - 1 or (row == count - 1 and column < 2 and table.convention == "modified")
 
 
-def _unbased(table: DhTable, freedom: Freedom) -> DhTable:
-    return replace(table, base=np.eye(4)) if freedom.base else table
+def _started(on: Subject, table: DhTable, rows: Array, freedom: Freedom, signs: Array) -> Tables:
+    """Align the first joints of tables with numbers of their own, their senses held."""
+    count = len(on.target)
+    return started(replace(on, senses=signs[:count]), table, rows[:, :count], freedom._replace(signs=False))
 
 
 def _first_joints(on: Subject, count: int) -> Subject:
@@ -238,10 +225,8 @@ def _first_joints(on: Subject, count: int) -> Subject:
 
 def _start(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> Tables:
     """The first joints of a table fitted to those of a chain, without the tip."""
-    count = len(on.target)
     loose = freedom._replace(tool=True, signs=False)
-    held = replace(on, senses=signs[:count])
-    tables = started(held, _unbased(table, freedom), parameters_of(table)[None, :count], loose)
+    tables = _started(on, table, parameters_of(table)[None], loose, signs)
     return fit(on.target, tables, unknowns_of(on.target, tables, loose)[None], with_tip=False)[0]
 
 
@@ -264,8 +249,7 @@ def _link(on: Subject, table: DhTable, freedom: Freedom, signs: Array, count: in
         turns = np.arange(_ANGLES**2) % _ANGLES if column == 1 else np.arange(_ANGLES**2) // _ANGLES
         if column in {1, 3}:
             rows[:, row, column] += turns * 2.0 * math.pi / _ANGLES
-    held = replace(on, senses=signs[: len(on.target)])
-    tables = started(held, _unbased(table, freedom), rows, freedom._replace(signs=False))
+    tables = _started(on, table, rows, freedom, signs)
     common = unknowns_of(on.target, tables, freedom)
     own = np.array([BASE_DIRECTIONS + place for place in places if BASE_DIRECTIONS + place not in common])
     with_tip = not freedom.tool
@@ -276,7 +260,7 @@ def _link(on: Subject, table: DhTable, freedom: Freedom, signs: Array, count: in
         values = tables.rows[c].ravel()[places].tolist()
         numbers = [explained(on, table, *each).difference for each in zip(places, values, strict=True)]
         answers.append([each for each in numbers if _differs(on, each)])
-    return min(answers, key=lambda differences: (len(differences), _size(differences)), default=[])
+    return min(answers, key=lambda found: (len(found), sum(abs(each.difference or 0.0) for each in found)), default=[])
 
 
 def _places_of_link(table: DhTable, count: int) -> list[int]:
@@ -292,10 +276,6 @@ def _places_of_link(table: DhTable, count: int) -> list[int]:
 def _differs(on: Subject, each: Difference) -> bool:
     tolerance = on.tolerances[1] if each.parameter in {"alpha", "theta"} else on.tolerances[0]
     return each.difference is not None and abs(each.difference) > tolerance
-
-
-def _size(differences: Sequence[Difference]) -> float:
-    return sum(abs(each.difference or 0.0) for each in differences)
 
 
 def explained(on: Subject, table: DhTable, place: int, found: float) -> Candidate:
@@ -334,17 +314,16 @@ def _slip(value: float, expected: float, is_angle: bool, tolerance: float) -> Sl
     return power if fits and 0 < abs(power) <= MOST_POWERS else None
 
 
-def in_words(number: Candidate | WrongNumber) -> Undone:
+def in_words(number: Candidate) -> Undone:
     """Describe a wrong number."""
     each = number.difference
     where, should_be = f"{each.parameter} in row {each.row}", f": it should be {each.expected:.9g}"
-    if number.slip is None:
-        return Undone("number", f"{where} is wrong{should_be}")
     if number.slip == "sign":
         return Undone("sign", f"the sign of {where} is wrong{should_be}")
-    if number.slip == "degrees":
-        return Undone("degrees", f"{where} is in degrees{should_be}")
-    mistake, words = power_of_ten(number.slip)
+    mistake: Mistake = "degrees" if number.slip else "number"
+    words = "in degrees" if number.slip else "wrong"
+    if isinstance(number.slip, int):
+        mistake, words = power_of_ten(number.slip)
     return Undone(mistake, f"{where} is {words}{should_be}")
 
 

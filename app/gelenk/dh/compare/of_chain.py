@@ -32,13 +32,10 @@ def dh_of_chain(
         found = dh_from_chain(robot.description, chain, convention, snap_tolerance, parallel_below)
         exact = snap_tolerance == 0.0 and not found.rounded
         certificate = certify_table(robot, chain, found.table, exact=exact)
-        if not found.rounded or _is_small(certificate):
+        is_near = certificate.max_position_error < POSITION_TOLERANCE
+        if not found.rounded or (is_near and certificate.max_orientation_error < ORIENTATION_TOLERANCE):
             return found.table, (*_notes(found, certificate), *found.notes), certificate
         parallel_below = max(pair.tilt for pair in found.rounded)
-
-
-def _is_small(cost: PoseCertificate) -> bool:
-    return cost.max_position_error < POSITION_TOLERANCE and cost.max_orientation_error < ORIENTATION_TOLERANCE
 
 
 def _notes(found: ChainTable, certificate: PoseCertificate) -> list[str]:

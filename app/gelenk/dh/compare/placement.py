@@ -8,9 +8,11 @@ import numpy as np
 from gelenk.dh.compare.alignment import Alignment, Freedom, alignments
 from gelenk.dh.compare.screws import (
     BASE_DIRECTIONS,
+    STEPS,
     ChainScrews,
     TableAxes,
     Tables,
+    chain_screws,
     fit,
     geometry,
     jacobians,
@@ -30,6 +32,7 @@ _INDEPENDENT = 1e-6
 _ROUNDING = 1e-9
 """Errors that a plain base or tool may always cause, [m] and [rad]."""
 _STEPS_WHERE_IT_FITS = 8
+"""Aligned axes need only a few steps."""
 _LOOSENESS = 30.0
 """Ratio of least-squares error to tolerance up to which a test through Pinocchio is worthwhile."""
 
@@ -39,7 +42,6 @@ class Subject:
     """A chain that tables are compared with.
 
     Attributes:
-        robot: The robot.
         chain: Base → tip.
         target: The screws of its joints.
         senses: -1 where the multipliers of table and chain have opposite signs, else 1; shape (n,).
@@ -48,7 +50,6 @@ class Subject:
         expected: Pinocchio's poses at these configurations.
     """
 
-    robot: RobotModel
     chain: Chain
     target: ChainScrews
     senses: Array
@@ -95,23 +96,13 @@ class Placement:
         return self.position_error, self.orientation_error
 
 
-def subject(
-    robot: RobotModel,
-    chain: Chain,
-    target: ChainScrews,
-    senses: Array,
-    tolerances: tuple[float, float],
-    samples: int,
-    seed: int,
-) -> Subject:
+def subject(robot: RobotModel, chain: Chain, tolerances: tuple[float, float], samples: int, seed: int) -> Subject:
     """Create a subject with random configurations: within ±π for revolute and ±1 m for prismatic joints."""
-    reach = np.full(len(chain), np.pi)
-    for slides, variable in chain.flat.joints:
-        if slides:
-            reach[variable] = 1.0
+    target, reach = chain_screws(chain.flat), np.full(len(chain), np.pi)
+    reach[chain.flat.joints[target.slides, 1]] = 1.0
     qs = np.random.default_rng(seed).uniform(-reach, reach, (samples, len(chain)))
     expected = pinocchio_poses(robot, chain, chain.tip_frame, qs, range(samples))
-    return Subject(robot, chain, target, senses, tolerances, qs, expected)
+    return Subject(chain, target, np.ones(len(target)), tolerances, qs, expected)
 
 
 def placed(
@@ -133,7 +124,8 @@ def placed(
     nearest = _best(on, tables, costs, freedom)
     signs = nearest.signs[0] * on.senses
     offsets = (nearest.rows[0] - parameters_of(table))[np.arange(len(on.target)), variable_columns(on.target)]
-    offsets = _nearest_zero(offsets, on.target)
+    turns = np.remainder(offsets + np.pi, 2.0 * np.pi) - np.pi  # to within half a turn of zero
+    offsets = np.where(on.target.slides, offsets, turns) + 0.0
     if len(on.chain) != len(on.target):
         signs, offsets = np.ones(len(on.chain)), np.zeros(len(on.chain))
     placement = _judged(on, replace(table, base=_within_reach(nearest.bases[0])), offsets, signs, freedom)
@@ -155,7 +147,9 @@ def _judged(on: Subject, table: DhTable, offsets: Array, signs: Array, freedom: 
     if freedom.tool:
         table = replace(table, tool=_within_reach(_tool(on, table.base @ products)))
     found = Placement(table, offsets, signs, *_errors(on, table, products))
-    for plainer in _plainer(table, on.tolerances, freedom):
+    base = plain(table.base, on.tolerances) if freedom.base else table.base
+    tool = plain(table.tool, on.tolerances) if freedom.tool else table.tool
+    for plainer in (replace(table, base=base, tool=tool), replace(table, base=base), replace(table, tool=tool)):
         errors = _errors(on, plainer, products)
         costs_nothing = all(e <= max(_ROUNDING, 10.0 * before) for e, before in zip(errors, found.errors, strict=True))
         if on.accepts(errors) and costs_nothing:
@@ -165,15 +159,12 @@ def _judged(on: Subject, table: DhTable, offsets: Array, signs: Array, freedom: 
 
 def fitted(on: Subject, table: DhTable, freedom: Freedom, strict: bool) -> tuple[Tables, Array]:
     """Fit a table by least squares from each of its alignments; return tables and roots of their sums of squares."""
-    free_base = replace(table, base=np.eye(4)) if freedom.base else table
-    tables = started(on, free_base, parameters_of(table)[None], freedom, strict=strict)
+    tables = started(on, table, parameters_of(table)[None], freedom, strict=strict)
     if not len(tables.rows):
         return tables, np.empty(0)
     unknowns = np.tile(unknowns_of(on.target, tables, freedom), (len(tables.rows), 1))
-    if strict:
-        # Aligned axes need only a few steps.
-        return fit(on.target, tables, unknowns, not freedom.tool, _STEPS_WHERE_IT_FITS)
-    return fit(on.target, tables, unknowns, with_tip=not freedom.tool)
+    steps = _STEPS_WHERE_IT_FITS if strict else STEPS
+    return fit(on.target, tables, unknowns, not freedom.tool, steps)
 
 
 def started(on: Subject, table: DhTable, rows: Array, freedom: Freedom, strict: bool = False) -> Tables:
@@ -181,32 +172,27 @@ def started(on: Subject, table: DhTable, rows: Array, freedom: Freedom, strict: 
 
     Args:
         on: The chain.
-        table: The table that gives convention, types, base and tool of all.
+        table: The table that gives convention, types, base (if it is not free) and tool of all.
         rows: Numbers of the tables; shape (C, n, 4).
         freedom: The quantities that the alignment may change.
         strict: Omit tables that do not fit.
     """
-    plain = Tables(
-        table.convention, on.target.slides, np.ones(rows.shape[:2]), rows, _repeated(table, rows), table.tool
-    )
-    found = geometry(plain)
+    bases = np.tile(np.eye(4) if freedom.base else table.base, (len(rows), 1, 1))
+    unturned = Tables(table.convention, on.target.slides, np.ones(rows.shape[:2]), rows, bases, table.tool)
+    found = geometry(unturned)
     starts: list[tuple[int, Alignment]] = []
     for c in range(len(rows)):
         axes = ChainScrews(found.twists[c], on.target.slides, found.tips[c])
-        starts += [(c, way) for way in alignments(on.target, axes, freedom, on.senses, strict)]
+        starts += [(c, alignment) for alignment in alignments(on.target, axes, freedom, on.senses, strict)]
     chosen = np.array([c for c, _ in starts], dtype=np.int64)
-    tables = plain.only(chosen)
+    tables = unturned.only(chosen)
     if not starts:
         return tables
     turned, bases = tables.rows.copy(), tables.bases.copy()
-    for k, (_, way) in enumerate(starts):
-        turned[k, :, 3] += way.offsets
-        bases[k] = transform(np.zeros(3), way.base) @ bases[k]
-    return tables._replace(rows=turned, bases=bases, signs=np.array([way.signs for _, way in starts]))
-
-
-def _repeated(table: DhTable, rows: Array) -> Array:
-    return np.tile(table.base, (len(rows), 1, 1))
+    for k, (_, alignment) in enumerate(starts):
+        turned[k, :, 3] += alignment.offsets
+        bases[k] = transform(np.zeros(3), alignment.base) @ bases[k]
+    return tables._replace(rows=turned, bases=bases, signs=np.array([alignment.signs for _, alignment in starts]))
 
 
 def variable_columns(target: ChainScrews) -> Indices:
@@ -250,12 +236,6 @@ def independent(vectors: Array, given: Array) -> Indices:
     return np.array(kept, dtype=np.int64)
 
 
-def _nearest_zero(offsets: Array, target: ChainScrews) -> Array:
-    """Offsets, with angles wrapped to within half a turn of zero."""
-    wrapped: Array = np.where(target.slides, offsets, np.remainder(offsets + np.pi, 2.0 * np.pi) - np.pi)
-    return wrapped + 0.0
-
-
 def _errors(on: Subject, table: DhTable, products: Array) -> tuple[float, float]:
     """Largest distance [m] and angle [rad] between Pinocchio's poses and base · products of the rows · tool."""
     Ts = table.base @ products @ table.tool
@@ -274,13 +254,6 @@ def _tool(on: Subject, Ts: Array) -> Array:
     tools = np.array([inverse(T) for T in Ts]) @ on.expected.matrices()
     U, _, Vt = np.linalg.svd(tools[:, :3, :3].mean(axis=0))
     return transform(tools[:, :3, 3].mean(axis=0), U @ np.diag([1.0, 1.0, np.linalg.det(U @ Vt)]) @ Vt)
-
-
-def _plainer(table: DhTable, tolerances: tuple[float, float], freedom: Freedom) -> list[DhTable]:
-    """The table with both or one of base and tool simplified, as far as they are free."""
-    base = plain(table.base, tolerances) if freedom.base else table.base
-    tool = plain(table.tool, tolerances) if freedom.tool else table.tool
-    return [replace(table, base=base, tool=tool), replace(table, base=base), replace(table, tool=tool)]
 
 
 def plain(T: Array, tolerances: tuple[float, float]) -> Array:

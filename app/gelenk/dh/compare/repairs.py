@@ -11,14 +11,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gelenk.dh.compare.screws import PARAMETERS
+from gelenk.dh.compare.screws import PARAMETERS, numbers_of
 from gelenk.dh.compare.words import Mistake
 from gelenk.errors import quoted
 from gelenk.robot.arrays import Array, Flags, Indices
-from gelenk.robot.dh import Convention
+from gelenk.robot.dh import Convention, DhTable
 
+OTHER: dict[Convention, Convention] = {"standard": "modified", "modified": "standard"}
 _CONVENTIONS: dict[Convention, str] = {"standard": "standard", "modified": "modified (Craig)"}
 _DEGREE = np.pi / 180.0
+_DEGREES: list[tuple[Mistake, str, float]] = [("degrees", "in degrees", _DEGREE)]
 _NOWHERE = -1
 """Place of a number that the given table does not have, and row of such numbers."""
 
@@ -52,14 +54,7 @@ class Repairs(NamedTuple):
 
     def only(self, chosen: Indices | Flags) -> "Repairs":
         """Select some repairs."""
-        return Repairs(
-            self.undone[chosen],
-            self.sources[chosen],
-            self.factors[chosen],
-            self.senses[chosen],
-            self.switched[chosen],
-            self.alone[chosen],
-        )
+        return Repairs._make(values[chosen] for values in self)
 
     def numbers(self, table: Array) -> Array:
         """Compute the repaired tables, with zeros in missing rows; shape (n, 4) → (N, m, 4)."""
@@ -70,6 +65,10 @@ class Repairs(NamedTuple):
     def rows(self) -> Indices:
         """Row of the given table that each row comes from, -1 if missing; shape (N, m)."""
         return self.sources[:, ::4] // 4
+
+    def convention(self, table: DhTable) -> Convention:
+        """Return the convention of the repaired tables, the same for all."""
+        return OTHER[table.convention] if self.switched[0] else table.convention
 
     def then(self, others: "Repairs") -> "Repairs":
         """Combine each repair with each of the others; two that each change a single number in one order only."""
@@ -92,28 +91,26 @@ def unchanged(n: int) -> Repairs:
     return _stacked(n, [_Repair("number", "")]).only(np.ones(1, dtype=bool))._replace(undone=np.empty((1, 0), object))
 
 
-def of_rows(
-    table: Array, convention: Convention, names: list[str], powers: int, *, reorder: bool, turn: bool
-) -> Repairs:
+def of_rows(table: DhTable, powers: int, *, reorder: bool, turn: bool) -> Repairs:
     """Return repairs of single mistakes that keep the number of rows; those of a single number come last.
 
     Args:
-        table: The numbers; shape (n, 4).
-        convention: Convention of the table.
-        names: Names of the joints.
+        table: The table.
         powers: Highest power of ten by which lengths may be off.
         reorder: Whether rows may be exchanged.
         turn: Whether a joint may be reversed.
     """
-    n = len(table)
-    found = [_other_convention(convention), *_throughout(powers), *(_reordered(n) if reorder else ())]
+    n, numbers = len(table.joints), numbers_of(table)
+    other, own = _CONVENTIONS[OTHER[table.convention]], _CONVENTIONS[table.convention]
+    detail = f"the numbers are those of a {other} table, read as {own}"
+    found = [_Repair("convention", detail, switched=True), *_throughout(powers), *(_reordered(n) if reorder else ())]
     found += _in_rows(n, powers)
     if turn:
-        for i, name in enumerate(names):
-            detail = f"the joint moves in the opposite direction: {quoted(name)}"
+        for i, row in enumerate(table.joints):
+            detail = f"the joint moves in the opposite direction: {quoted(row.name)}"
             found.append(_Repair("joint_sense", detail, turned=i))
     every = _stacked(n, [*found, *_in_cells(n, powers)])
-    changes = np.count_nonzero(every.numbers(table) != table, axis=(1, 2))
+    changes = np.count_nonzero(every.numbers(numbers) != numbers, axis=(1, 2))
     # A factor of a row or column may change only one number, and such a repair is already among the single numbers.
     news = every.switched | (every.senses < 0.0).any(axis=1) | np.where(every.alone, changes == 1, changes > 1)
     return every.only(news)
@@ -192,20 +189,21 @@ def _powers(highest: int) -> list[int]:
     )
 
 
-def _other_convention(convention: Convention) -> _Repair:
-    other: Convention = "modified" if convention == "standard" else "standard"
-    detail = f"the numbers are those of a {_CONVENTIONS[other]} table, read as {_CONVENTIONS[convention]}"
-    return _Repair("convention", detail, switched=True)
+def _in_units(
+    which: str, what: str, powers: int, among: tuple[int, ...] | None = None, alone: bool = False
+) -> Iterator[_Repair]:
+    """Repairs of lengths in another unit, or of angles in degrees, in some columns."""
+    units = [(*power_of_ten(power), 10.0**-power) for power in _powers(powers)]
+    for mistake, words, factor in units if which in {"a", "d", "a d"} else _DEGREES:
+        yield _Repair(mistake, f"{what} {words}", among=among, factors=_factors(which, factor), alone=alone)
 
 
 def _throughout(powers: int) -> Iterator[_Repair]:
     """Repairs of whole columns."""
-    for which, what in (("alpha theta", "all angles are"), ("alpha", "all alpha are"), ("theta", "all theta are")):
-        yield _Repair("degrees", f"{what} in degrees", factors=_factors(which, _DEGREE))
-    for which, what in (("a d", "all lengths are"), ("a", "all a are"), ("d", "all d are")):
-        for power in _powers(powers):
-            mistake, words = power_of_ten(power)
-            yield _Repair(mistake, f"{what} {words}", factors=_factors(which, 10.0**-power))
+    for which, what in (("alpha theta", "angles"), ("alpha", "alpha"), ("theta", "theta")):
+        yield from _in_units(which, f"all {what} are", powers)
+    for which, what in (("a d", "lengths"), ("a", "a"), ("d", "d")):
+        yield from _in_units(which, f"all {what} are", powers)
     for power in _powers(powers):
         length = 10.0**-power
         words = f"all angles are in degrees and all lengths {power_of_ten(power)[1]}"
@@ -233,12 +231,8 @@ def _in_rows(n: int, powers: int) -> Iterator[_Repair]:
     for i in range(n):
         for columns, names in _EXCHANGES:
             yield _Repair("columns", f"{names} are exchanged in row {i + 1}", columns=columns, among=(i,))
-        for power in _powers(powers):
-            mistake, words = power_of_ten(power)
-            factors = _factors("a d", 10.0**-power)
-            yield _Repair(mistake, f"a and d in row {i + 1} are {words}", among=(i,), factors=factors)
-        factors = _factors("alpha theta", _DEGREE)
-        yield _Repair("degrees", f"alpha and theta in row {i + 1} are in degrees", among=(i,), factors=factors)
+        yield from _in_units("a d", f"a and d in row {i + 1} are", powers, (i,))
+        yield from _in_units("alpha theta", f"alpha and theta in row {i + 1} are", powers, (i,))
 
 
 def _in_cells(n: int, powers: int) -> Iterator[_Repair]:
@@ -246,17 +240,9 @@ def _in_cells(n: int, powers: int) -> Iterator[_Repair]:
     for i in range(n):
         for name in PARAMETERS:
             where = f"{name} in row {i + 1}"
-            yield _cell("sign", f"the sign of {where} is wrong", i, name, -1.0)
-            if name in {"alpha", "theta"}:
-                yield _cell("degrees", f"{where} is in degrees", i, name, _DEGREE)
-                continue
-            for power in _powers(powers):
-                mistake, words = power_of_ten(power)
-                yield _cell(mistake, f"{where} is {words}", i, name, 10.0**-power)
-
-
-def _cell(mistake: Mistake, detail: str, row: int, name: str, factor: float) -> _Repair:
-    return _Repair(mistake, detail, among=(row,), factors=_factors(name, factor), alone=True)
+            factors = _factors(name, -1.0)
+            yield _Repair("sign", f"the sign of {where} is wrong", among=(i,), factors=factors, alone=True)
+            yield from _in_units(name, f"{where} is", powers, (i,), alone=True)
 
 
 def _factors(which: str, factor: float) -> tuple[float, ...]:

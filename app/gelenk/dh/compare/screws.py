@@ -9,7 +9,8 @@ Twists are linear before angular; batches of tables come first in every shape.
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import cached_property
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -18,11 +19,11 @@ from gelenk.robot.chain import FlatChain
 from gelenk.robot.dh import Convention, DhTable
 from gelenk.robot.notations import rotations_from_vectors, vectors_from_rotations
 
-PARAMETERS = ("a", "alpha", "d", "theta")
+PARAMETERS: tuple[Literal["a"], Literal["alpha"], Literal["d"], Literal["theta"]] = ("a", "alpha", "d", "theta")
 BASE_DIRECTIONS = 6
 """Number of unknowns of the base; they come before the parameters, which follow row by row."""
 
-_STEPS = 30
+STEPS = 30
 _CONVERGED = 1e-13
 """Root of the sum of squares below which a fit is complete, [m, rad]."""
 _SETTLED = 1e-6
@@ -35,7 +36,7 @@ _UNDETERMINED = 1e-9
 """Relative singular value below which a direction counts as undetermined."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ChainScrews:
     """The screws and the tip of a chain at position zero.
 
@@ -52,12 +53,12 @@ class ChainScrews:
     def __len__(self) -> int:
         return len(self.twists)
 
-    @property
+    @cached_property
     def directions(self) -> Array:
         """Unit vectors along the axes; shape (n, 3)."""
         return np.where(self.slides[:, None], self.twists[:, :3], self.twists[:, 3:])
 
-    @property
+    @cached_property
     def points(self) -> Array:
         """Point of each axis nearest to the base's origin, zero if prismatic; shape (n, 3), [m]."""
         return np.cross(self.twists[:, 3:], self.twists[:, :3])
@@ -86,10 +87,6 @@ class Tables(NamedTuple):
         """Select some tables."""
         return self._replace(signs=self.signs[chosen], rows=self.rows[chosen], bases=self.bases[chosen])
 
-    def part(self, count: int) -> "Tables":
-        """Keep only the first `count` rows."""
-        return self._replace(slides=self.slides[:count], signs=self.signs[:, :count], rows=self.rows[:, :count])
-
 
 class TableAxes(NamedTuple):
     """Twists of joints and parameters of C tables at zero, n rows each.
@@ -105,9 +102,14 @@ class TableAxes(NamedTuple):
     tips: Array
 
 
+def numbers_of(table: DhTable) -> Array:
+    """Return a, α, d, θ as written in the table, without mimic offsets; shape (n, 4)."""
+    return np.array([[row.a, row.alpha, row.d, row.theta] for row in table.joints])
+
+
 def parameters_of(table: DhTable) -> Array:
     """Return a, α, d, θ of each row, including the offsets of mimic rows; shape (n, 4)."""
-    rows = np.array([[row.a, row.alpha, row.d, row.theta] for row in table.joints])
+    rows = numbers_of(table)
     for i, row in enumerate(table.joints):
         if row.mimic is not None:
             rows[i, 2 if row.type == "prismatic" else 3] += row.mimic.offset
@@ -120,11 +122,11 @@ def chain_screws(flat: FlatChain) -> ChainScrews:
     twists = np.empty((len(flat.joints), 6))
     slides = flat.joints[:, 0] == 1
     for i, offset in enumerate(flat.drives[:, 1]):
-        T = T @ _homogeneous(flat.placements[i])
+        T = T @ flat.placement(i)
         twists[i] = _twists(T[None], 2, bool(slides[i]))[0]
         motion = _about_z(np.zeros(1), np.array([offset])) if slides[i] else _about_z(np.array([offset]), np.zeros(1))
         T = T @ motion[0]
-    return ChainScrews(twists, slides, T @ _homogeneous(flat.placements[-1]))
+    return ChainScrews(twists, slides, T @ flat.placement(-1))
 
 
 def geometry(tables: Tables) -> TableAxes:
@@ -191,7 +193,7 @@ def moved_joints(convention: Convention, n: int) -> Flags:
 
 
 def fit(
-    target: ChainScrews, tables: Tables, unknowns: Indices, with_tip: bool, steps: int = _STEPS
+    target: ChainScrews, tables: Tables, unknowns: Indices, with_tip: bool, steps: int = STEPS
 ) -> tuple[Tables, Array]:
     """Fit tables to a chain by least squares over their unknowns.
 
@@ -337,10 +339,3 @@ def _about_x(alpha: Array, a: Array) -> Array:
     Ts[:, 0, 0] = Ts[:, 3, 3] = 1.0
     Ts[:, 0, 3] = a
     return Ts
-
-
-def _homogeneous(placement: Array) -> Array:
-    """A placement of a flat chain as a homogeneous transform; shape (12,) → (4, 4)."""
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = placement[:9].reshape(3, 3), placement[9:]
-    return T

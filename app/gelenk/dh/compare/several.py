@@ -16,8 +16,8 @@ from gelenk.dh.compare.invariants import Invariants
 from gelenk.dh.compare.numbers import MISFIT, explained, in_words, is_absorbed, misfits
 from gelenk.dh.compare.placement import Subject, unknowns_of
 from gelenk.dh.compare.repairs import Repairs
-from gelenk.dh.compare.screws import BASE_DIRECTIONS, PARAMETERS, Tables, fit, geometry, polished
-from gelenk.dh.compare.trials import Diagnosis, by_convention, judged, numbers_of, parameters, table_of
+from gelenk.dh.compare.screws import BASE_DIRECTIONS, PARAMETERS, Tables, fit, geometry, numbers_of, polished
+from gelenk.dh.compare.trials import Diagnosis, by_convention, judged, parameters, table_of
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.dh import Convention, DhTable
 
@@ -49,12 +49,13 @@ def with_numbers(on: Subject, table: DhTable, freedom: Freedom, repairs: Repairs
     """
     invariants = Invariants(on, freedom)
     found: list[Diagnosis] = []
-    for convention, some in by_convention(on, table, repairs):
-        rows = parameters(table, some)
+    for some in by_convention(on, table, repairs):
+        rows, convention = parameters(table, some), some.convention(table)
         axes = invariants.axes(convention, rows, some.senses * on.senses, table)
-        jobs = _jobs(on, convention, freedom, some, invariants.misfits(axes), invariants.straddles, count)
+        open_links = [invariants.straddles[misfit] for misfit in invariants.misfits(axes)]
+        jobs = _jobs(convention, freedom, some, open_links, count)
         for _, same in itertools.groupby(sorted(itertools.islice(jobs, _MOST_JOBS), key=_size), key=_size):
-            found += _found(on, table, convention, freedom, some, rows, list(same))
+            found += _found(on, table, freedom, some, rows, list(same))
     return sorted(found, key=lambda diagnosis: "number" in diagnosis.mistakes)
 
 
@@ -63,24 +64,18 @@ def _size(job: _Job) -> int:
 
 
 def _jobs(
-    on: Subject,
-    convention: Convention,
-    freedom: Freedom,
-    repairs: Repairs,
-    misfits: Flags,
-    straddles: Flags,
-    count: int,
+    convention: Convention, freedom: Freedom, repairs: Repairs, open_links: Sequence[Flags], count: int
 ) -> Iterator[_Job]:
-    """Jobs for the numbers between parts that agree."""
-    n = len(on.target)
+    """Jobs for the numbers between parts that agree; of each repair the links that each violated invariant spans."""
+    n = repairs.rows.shape[1]
     places = [p for p in range(4 * n) if not is_absorbed(convention, n, freedom, *divmod(p, 4))]
     # Craig's a and α lead to the joint of their row, all other numbers to the next one.
     links = {p: p // 4 + (0 if convention == "modified" and p % 4 < 2 else 1) for p in range(4 * n)}
-    for c, row in enumerate(repairs.rows.tolist()):
+    for c, (row, left) in enumerate(zip(repairs.rows.tolist(), open_links, strict=True)):
         missing = tuple(p for p in places if row[p // 4] < 0)
         bridged = {links[p] for p in range(4 * n) if row[p // 4] < 0}
-        left = straddles[misfits[c]]
-        left = left[~left[:, sorted(bridged)].any(axis=1)] if bridged else left
+        if bridged:
+            left = left[~left[:, sorted(bridged)].any(axis=1)]  # noqa: PLW2901
         for wrong_links in itertools.combinations_with_replacement(range(n + 1), count):
             if left[:, list(wrong_links)].any(axis=1).all():
                 among = [[p for p in places if links[p] == link and p not in missing] for link in wrong_links]
@@ -90,13 +85,7 @@ def _jobs(
 
 
 def _found(
-    on: Subject,
-    table: DhTable,
-    convention: Convention,
-    freedom: Freedom,
-    repairs: Repairs,
-    rows: Array,
-    jobs: Sequence[_Job],
+    on: Subject, table: DhTable, freedom: Freedom, repairs: Repairs, rows: Array, jobs: Sequence[_Job]
 ) -> list[Diagnosis]:
     """Diagnoses from the jobs that succeed, at most `_MOST_FOUND`."""
     origins, starts = [], []
@@ -110,7 +99,7 @@ def _found(
     repair = np.array([job.repair for job in jobs])[of]
     senses = repairs.senses[repair] * on.senses
     bases = np.repeat((np.eye(4) if freedom.base else table.base)[None], len(of), axis=0)
-    tables = Tables(convention, on.target.slides, senses, np.array(starts), bases, table.tool)
+    tables = Tables(repairs.convention(table), on.target.slides, senses, np.array(starts), bases, table.tool)
     if freedom.base:
         tables = tables._replace(bases=_bases(on, tables))
     common = unknowns_of(on.target, tables, held)
@@ -131,7 +120,7 @@ def _found(
         if of[c] not in found and len(found) < _MOST_FOUND:
             nearest = polished(on.target, tables.only(np.array([c])), unknowns[[c]], with_tip).rows[0]
             job = jobs[of[c]]
-            diagnosis = _diagnosis(on, table, convention, freedom, repairs.only(np.array([job.repair])), job, nearest)
+            diagnosis = _diagnosis(on, table, freedom, repairs.only(np.array([job.repair])), job, nearest)
             if diagnosis is not None:
                 found[of[c]] = diagnosis
     return list(found.values())
@@ -142,7 +131,7 @@ def _starts(rows: Array, places: Sequence[int]) -> Iterator[Array]:
     angles = [p for p in places if p % 4 in {1, 3}]
     turns = {0: 1, 1: 8, 2: 6}.get(len(angles), 4)
     for steps in itertools.product(range(turns), repeat=len(angles)):
-        start = rows.ravel().copy()
+        start = rows.flatten()
         start[angles] += 2.0 * np.pi / turns * np.array(steps)
         yield start.reshape(rows.shape)
 
@@ -159,17 +148,17 @@ def _bases(on: Subject, tables: Tables) -> Array:
 
 
 def _diagnosis(
-    on: Subject, table: DhTable, convention: Convention, freedom: Freedom, repair: Repairs, job: _Job, rows: Array
+    on: Subject, table: DhTable, freedom: Freedom, repair: Repairs, job: _Job, rows: Array
 ) -> Diagnosis | None:
     """Diagnosis from the numbers found, if the table with them describes the chain."""
-    before = table_of(on, table, convention, repair, repair.numbers(numbers_of(table))[0])
+    before = table_of(on, table, repair, repair.numbers(numbers_of(table))[0])
     numbers, further = numbers_of(before), []
     for place in (*job.missing, *job.wrong):
         number = explained(on, before, place, float(rows.ravel()[place]))
         numbers[divmod(place, 4)] = number.difference.expected
         if place in job.wrong:
             further.append(in_words(number))
-    repaired = table_of(on, table, convention, repair, numbers)
+    repaired = table_of(on, table, repair, numbers)
     diagnosis = judged(on, table, freedom, repair, repaired, further)
     if diagnosis is None:
         return None

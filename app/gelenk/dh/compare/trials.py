@@ -10,10 +10,10 @@ from gelenk.dh.compare.invariants import Invariants
 from gelenk.dh.compare.numbers import Difference, wrapped
 from gelenk.dh.compare.placement import Placement, Subject, placed
 from gelenk.dh.compare.repairs import Repairs, Undone
-from gelenk.dh.compare.screws import PARAMETERS, parameters_of
+from gelenk.dh.compare.screws import PARAMETERS, numbers_of, parameters_of
 from gelenk.dh.compare.words import Mistake
 from gelenk.robot.arrays import Array
-from gelenk.robot.dh import Convention, DhJoint, DhTable
+from gelenk.robot.dh import DhJoint, DhTable
 
 LOOKS = 24
 """Number of configurations at which a repaired table is tested."""
@@ -38,21 +38,15 @@ class Diagnosis:
     placement: Placement
 
 
-def numbers_of(table: DhTable) -> Array:
-    """Return a, α, d, θ as written in the table, without mimic offsets; shape (n, 4)."""
-    return np.array([[row.a, row.alpha, row.d, row.theta] for row in table.joints])
-
-
-def by_convention(on: Subject, table: DhTable, repairs: Repairs) -> Iterator[tuple[Convention, Repairs]]:
+def by_convention(on: Subject, table: DhTable, repairs: Repairs) -> Iterator[Repairs]:
     """Group by convention the repairs whose rows match the chain's joint types."""
     slides = np.array([row.type == "prismatic" for row in table.joints])
     rows = repairs.rows
     fits = ((slides[rows] == on.target.slides) | (rows < 0)).all(axis=1)
-    other: Convention = "modified" if table.convention == "standard" else "standard"
-    for switched, convention in ((False, table.convention), (True, other)):
+    for switched in (False, True):
         chosen = np.flatnonzero(fits & (repairs.switched == switched))
         if len(chosen):
-            yield convention, repairs.only(chosen)
+            yield repairs.only(chosen)
 
 
 def parameters(table: DhTable, repairs: Repairs) -> Array:
@@ -69,17 +63,16 @@ def explaining(on: Subject, table: DhTable, freedom: Freedom, repairs: Repairs) 
     invariants = Invariants(on, freedom)
     found: list[Diagnosis] = []
     tried: set[tuple[str, bytes, bytes]] = set()
-    for convention, some in by_convention(on, table, repairs):
-        axes = invariants.axes(convention, parameters(table, some), some.senses * on.senses, table)
+    for some in by_convention(on, table, repairs):
+        axes = invariants.axes(some.convention(table), parameters(table, some), some.senses * on.senses, table)
         for one in invariants.agreeing(axes).tolist():
             repair = some.only(np.array([one]))
             numbers = repair.numbers(numbers_of(table))[0]
-            key = convention, (np.round(numbers, 9) + 0.0).tobytes(), repair.senses.tobytes()
+            key = some.convention(table), (np.round(numbers, 9) + 0.0).tobytes(), repair.senses.tobytes()
             if key in tried or len(tried) >= _MOST_LOOKS:
                 continue
             tried.add(key)
-            repaired = table_of(on, table, convention, repair, numbers)
-            diagnosis = judged(on, table, freedom, repair, repaired)
+            diagnosis = judged(on, table, freedom, repair, table_of(on, table, repair, numbers))
             found += [] if diagnosis is None else [diagnosis]
     return found
 
@@ -97,14 +90,14 @@ def judged(
     return Diagnosis(tuple(each.mistake for each in undone), detail, differences, placement)
 
 
-def table_of(on: Subject, table: DhTable, convention: Convention, repair: Repairs, numbers: Array) -> DhTable:
+def table_of(on: Subject, table: DhTable, repair: Repairs, numbers: Array) -> DhTable:
     """Create a repaired table with the given numbers; shape (m, 4)."""
     joints = []
     for i, (source, row) in enumerate(zip(repair.rows[0].tolist(), numbers.tolist(), strict=True)):
         missing = DhJoint(f"missing row {i + 1}", "prismatic" if on.target.slides[i] else "revolute", *row)
         joint = missing if source < 0 else table.joints[source]
         joints.append(replace(joint, **dict(zip(PARAMETERS, row, strict=True))))
-    return replace(table, convention=convention, joints=tuple(joints))
+    return replace(table, convention=repair.convention(table), joints=tuple(joints))
 
 
 def between(table: DhTable, repaired: DhTable, rows: Sequence[int], senses: Array) -> tuple[Difference, ...]:

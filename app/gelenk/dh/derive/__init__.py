@@ -6,7 +6,7 @@
 - `jacobian`: the columns z × p, and the square block that has a determinant.
 - `factors`: a determinant as the product that a textbook prints.
 - `singular`: the configurations at which a factor vanishes.
-- `typeset`: LaTeX and plain text; `legend`: what the symbols stand for.
+- `typeset`: LaTeX and plain text.
 - `texts`: input and output of the symbolic part, as plain data.
 - `symbolic`: all of it for one table, as text and as values at samples; it loads neither NumPy nor Pinocchio.
 - `numeric`: the same quantities at given configurations, from the table's own product of transforms.

@@ -170,12 +170,8 @@ def angle_sum(left: Angle, right: Angle, sign: int = 1) -> Angle:
 
 def cosine(angle: Angle, quarters: int = 0) -> Polynomial:
     """Return cos(angle + quarters · π/2)."""
-    if quarters % 4 == 1:
-        return -sine(angle)
-    if quarters % 4 == 2:
-        return -cosine(angle)
-    if quarters % 4 == 3:
-        return sine(angle)
+    if quarters % 4:
+        return -sine(angle, quarters - 1)
     if not angle:
         return ONE
     return symbol(Atom(TRIGONOMETRIC, angle if angle[0] > 0 else tuple(-index for index in angle), "c"))

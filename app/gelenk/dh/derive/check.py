@@ -15,6 +15,8 @@ from gelenk.robot.dh import DhTable
 
 logger = logging.getLogger("gelenk")
 
+SEED = 0
+"""Random seed of the samples at which formulas are compared."""
 TOLERANCE = 1e-9
 """Allowed difference of formulas and numbers, absolute and relative to the largest number compared."""
 ROUNDING = 1e-13

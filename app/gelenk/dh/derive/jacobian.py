@@ -198,14 +198,14 @@ def square_block(table: Table, structure: ZeroPattern) -> Block | None:
     n = len(table.rows)
     if n == 6:
         return Block("full", tuple(range(6)), 0)
-    candidates = []
-    for frame in (0,) if table.is_standard else (0, 1):
-        moving = [i for i, row in enumerate(structure.pattern(frame, None)) if any(row)]
-        linear, angular = [i for i in moving if i < 3], [i for i in moving if i >= 3]
-        kinds: tuple[tuple[Kind, list[int]], ...] = (("moving", moving), ("linear", linear), ("angular", angular))
-        candidates += [Block(kind, tuple(rows), frame) for kind, rows in kinds if len(rows) == n]
-    order = ("moving", "linear", "angular")
-    candidates.sort(key=lambda block: order.index(block.kind))
+    kinds: tuple[tuple[Kind, range], ...] = (("moving", range(6)), ("linear", range(3)), ("angular", range(3, 6)))
+    patterns = [structure.pattern(frame, None) for frame in ((0,) if table.is_standard else (0, 1))]
+    blocks = [
+        Block(kind, tuple(i for i in rows if any(pattern[i])), frame)
+        for kind, rows in kinds
+        for frame, pattern in enumerate(patterns)
+    ]
+    candidates = [block for block in blocks if len(block.rows) == n]
     regular = [block for block in candidates if structure.is_regular(block.rows, block.frame)]
     return next(iter(regular or candidates), None)
 

@@ -5,28 +5,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gelenk.dh.derive.texts import NumericColumn
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable
 
 RANK_TOLERANCE = 1e-10
 """A singular value counts if it exceeds this times the largest."""
-
-
-@dataclass(frozen=True, slots=True)
-class NumericColumn:
-    """A column of the geometric Jacobian in the axes of the base.
-
-    Attributes:
-        axis: z of the joint; shape (3,).
-        arm: Vector from the joint's frame to the tip; shape (3,), [m].
-        linear: Velocity of the tip; shape (3,), [m per rad or m].
-        angular: Angular velocity; shape (3,), [rad per rad or m].
-    """
-
-    axis: Array
-    arm: Array
-    linear: Array
-    angular: Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,9 +65,9 @@ def numeric_solution(table: DhTable, q: Array) -> NumericSolution:
     columns = []
     for row, T, point in zip(table.joints, axes, _tips(table, rows), strict=True):
         z, arm = T[:3, 2], T[:3, :3] @ point
-        turning = row.type == "revolute"
-        columns.append(NumericColumn(z, arm, np.cross(z, arm) if turning else z, z if turning else np.zeros(3)))
-    J = np.array([np.concatenate((column.linear, column.angular)) for column in columns]).T
+        linear, angular = (np.cross(z, arm), z) if row.type == "revolute" else (z, np.zeros(3))
+        columns.append(NumericColumn(*(vector.tolist() for vector in (z, arm, linear, angular))))
+    J = np.array([[*column.linear, *column.angular] for column in columns]).T
     sigmas = np.linalg.svd(J, compute_uv=False)
     rank = int(np.sum((sigmas > RANK_TOLERANCE * sigmas[0]) & (sigmas > 0.0)))
     return NumericSolution(np.array(values), rows, frames[1:], in_base, tip, columns, J, sigmas, rank)

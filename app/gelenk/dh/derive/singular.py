@@ -6,7 +6,6 @@ that; any other stays an equation. Each gets a configuration that fulfils it, al
 
 import math
 import re
-from collections.abc import Callable
 from random import Random
 from typing import NamedTuple
 
@@ -221,21 +220,13 @@ def _zero_along(factor: Polynomial, table: Table, q: tuple[float, ...], index: i
 
     grid = [-reach + 2 * reach * k / _STEPS for k in range(_STEPS + 1)]
     heights = [value(x) for x in grid]
-    for k in range(_STEPS):
-        if heights[k] * heights[k + 1] < 0:
-            return _bisected(value, grid[k], grid[k + 1], heights[k])
+    for low, high, height, next_height in zip(grid, grid[1:], heights, heights[1:], strict=False):
+        if height * next_height < 0:
+            for _ in range(_HALVINGS):
+                middle = (low + high) / 2
+                low, high = (middle, high) if value(middle) * height > 0 else (low, middle)  # noqa: PLW2901
+            return (low + high) / 2
     return None
-
-
-def _bisected(value: Callable[[float], float], low: float, high: float, at_low: float) -> float:
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        at_middle = value(middle)
-        if at_middle * at_low > 0:
-            low = middle
-        else:
-            high = middle
-    return (low + high) / 2
 
 
 def _principal(angle: float) -> float:

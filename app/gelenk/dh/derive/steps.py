@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from gelenk.course.steps import Step
+from gelenk.dh.derive.jacobian import Block
 from gelenk.dh.derive.texts import Formulas, SingularCondition, Singularities
 from gelenk.dh.derive.typeset import MatrixFormula
 
@@ -14,7 +15,7 @@ def steps(convention: str, found: Formulas, singular: Singularities | None) -> l
     standard = convention == "standard"
     all_ = [_table(standard, found), _rows(standard, found), _position(found), _pose(found), _jacobian(standard, found)]
     if singular is not None and singular.block is not None:
-        all_ += [_determinant(singular), _singular(singular)]
+        all_ += [_determinant(singular, singular.block), _singular(singular)]
     return [step for step in all_ if step is not None]
 
 
@@ -90,12 +91,10 @@ def _jacobian(standard: bool, found: Formulas) -> Step | None:
     return Step("Geometric Jacobian", text, (*lines, f"J = {found.jacobian.latex}"))
 
 
-def _determinant(singular: Singularities) -> Step | None:
-    block, setting = singular.block, singular.setting
-    if block is None:
-        return None
+def _determinant(singular: Singularities, block: Block) -> Step:
+    setting = singular.setting
     rows = ", ".join(_ROWS[i] for i in block.rows)
-    text = which_block(singular)
+    text = which_block(block)
     if setting is None:
         text += " A part of it vanishes for every configuration, and so does its determinant."
     elif len(setting.parts) > 1:
@@ -110,11 +109,8 @@ def _determinant(singular: Singularities) -> Step | None:
     return Step("Determinant", text, (rf"\det J_{{({rows})}} = {singular.formula.latex}",))
 
 
-def which_block(singular: Singularities) -> str:
+def which_block(block: Block) -> str:
     """Say which block of the Jacobian has the determinant, and why that one."""
-    block = singular.block
-    if block is None:
-        return "No block of the Jacobian is square."
     count, rows = len(block.rows), "row" if len(block.rows) == 1 else "rows"
     differ = f"{rows} that ever differ from zero, written in frame {block.frame}, are as many as the joints"
     words = {

@@ -12,6 +12,9 @@ from functools import lru_cache, partial
 from typing import Any
 
 from gelenk.dh.derive.algebra import (
+    CONSTANT,
+    LENGTH,
+    ROOT,
     TRIGONOMETRIC,
     Atom,
     Group,
@@ -34,12 +37,30 @@ from gelenk.dh.derive.jacobian import (
     relative_jacobian,
     square_block,
 )
-from gelenk.dh.derive.legend import legend
 from gelenk.dh.derive.singular import singular_condition
 from gelenk.dh.derive.table import Table, Transform, read_table
-from gelenk.dh.derive.texts import ColumnFormulas, Formulas, Grid, Singularities, SymbolicRequest, Values
+from gelenk.dh.derive.texts import (
+    ColumnFormulas,
+    Formulas,
+    Grid,
+    Singularities,
+    SymbolEntry,
+    SymbolicRequest,
+    Values,
+    symbol_entry,
+)
 from gelenk.dh.derive.transforms import MAX_ENTRY_TERMS, composed, frames_from, row_transforms
-from gelenk.dh.derive.typeset import Formula, MatrixFormula, Notation, Style, decimal, indexed, multiple_of_pi, summed
+from gelenk.dh.derive.typeset import (
+    Formula,
+    MatrixFormula,
+    Notation,
+    Style,
+    decimal,
+    function_of,
+    indexed,
+    multiple_of_pi,
+    summed,
+)
 
 MAX_FACTOR_TERMS = 40
 """Maximum number of terms of a factor of a determinant: a longer one is not written out."""
@@ -115,11 +136,7 @@ def notation_of(table: Table, group: Group, style: Style, numbers: Mapping[Atom,
 
 
 def _product(table: Table, setting: Setting) -> tuple[Fraction, list[Polynomial]]:
-    """Return the determinant as a number and factors; zero without factors if it vanishes identically.
-
-    Raises:
-        TooManyTerms: The determinant, or one of its factors, is too long.
-    """
+    """Return the determinant as a number and factors; zero without factors if it vanishes identically."""
     matrix = relative_jacobian(table, setting)
     number_before, found = Fraction(setting.sign), list[Polynomial]()
     for part in setting.parts:
@@ -162,11 +179,7 @@ def _columns(table: Table, tip: Transform) -> list[Column] | None:
 
 
 def _chain(table: Table, tip: Transform, notation: Notation) -> list[MatrixFormula] | None:
-    """Return A_1 (A_2 ( … (A_n p))): the tip's position in each frame from the last to the first, one matrix at a time.
-
-    Raises:
-        ArithmeticError: The result differs from the product of matrices from left to right, which never happens.
-    """
+    """Return A_1 (A_2 ( … (A_n p))): the tip's position in each frame, from the last to the first."""
     point, found = table.tool.position, [notation.vector("p", table.tool.position)]
     try:
         for row in reversed(row_transforms(table)):
@@ -229,3 +242,55 @@ def _values(
 def grid_of(rows: Iterable[Iterable[Polynomial]], known: Mapping[Atom, float]) -> Grid:
     """Evaluate polynomials row by row."""
     return [[entry.value(known) for entry in row] for row in rows]
+
+
+def legend(atoms: Iterable[Atom], table: Table, notation: Notation) -> list[SymbolEntry]:
+    """Return an entry for every symbol: parameters, then variables, then sines and cosines."""
+    atoms, found, known = sorted(atoms), list[SymbolEntry](), set[tuple[object, ...]]()
+    for atom in atoms:
+        if atom in notation.numbers or atom.kind == ROOT:
+            continue
+        key = (atom.kind, atom.indices, atom.kind in {LENGTH, CONSTANT} and atom.name.replace("ca", "sa"))
+        if key not in known:
+            known.add(key)
+            found += _entries(atom, table, notation)
+    angles = {abs(index) for atom in atoms if atom.kind == TRIGONOMETRIC for index in atom.indices}
+    for index in sorted(angles & set(notation.offset_angles)):
+        row = table.rows[index - 1]
+        own = decimal(row.offset)
+        meaning = summed((indexed("q", "q", index), own)) if row.is_revolute else own
+        found.append(symbol_entry(notation.angle_name(index), meaning))
+    return found
+
+
+def _entries(atom: Atom, table: Table, notation: Notation) -> list[SymbolEntry]:
+    """Return the entry of a symbol, or both entries of an angle."""
+    if atom.kind == TRIGONOMETRIC:
+        if notation.style == "full" or len(set(atom.indices)) < len(atom.indices):
+            return []
+        angle, names = notation.angle(atom.indices), ("c", "s")
+    elif atom.name in {"ca", "sa"}:
+        index = atom.indices[0]
+        angle, names = indexed(r"\alpha", "alpha", index), ("ca", "sa")
+        if notation.style == "full":
+            row = index if table.is_standard else index + 1
+            return [symbol_entry(angle, f"twist alpha of row {row}, in rad", table.as_read.rows[row - 1].alpha)]
+    else:
+        return [symbol_entry(notation.atom(atom), _words(atom, table), table.values.get(atom))]
+    both = [atom._replace(name=name) for name in names]
+    return [symbol_entry(notation.atom(one), function_of(one.name, angle), table.values.get(one)) for one in both]
+
+
+def _words(atom: Atom, table: Table) -> str:
+    index = atom.indices[0]
+    row = index if table.is_standard or atom.name != "a" else index + 1
+    named = {
+        "a": f"length a of row {row}, in m",
+        "d": f"length d of row {row}, in m",
+        "q": f"variable of the prismatic joint {index}, in m",
+        "pb": "position of frame 0 in the base, in m",
+        "pt": "position of the tool in the last frame, in m",
+        "rb": "entry of the base's rotation matrix",
+        "rt": "entry of the tool's rotation matrix",
+    }
+    return named[atom.name]

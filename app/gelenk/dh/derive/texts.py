@@ -137,6 +137,40 @@ class FormulaCertificate(Result):
 
 
 @dataclass(frozen=True, slots=True)
+class NumericCertificate(Result):
+    """Comparison of the numbers at the given configurations with Pinocchio's.
+
+    Attributes:
+        samples: Configurations that were recomputed.
+        max_position_error: Largest distance, [m].
+        max_orientation_error: Largest angle, [rad].
+        max_jacobian_error: Largest difference of an entry of the Jacobian.
+    """
+
+    samples: int
+    max_position_error: float
+    max_orientation_error: float
+    max_jacobian_error: float
+
+
+@dataclass(frozen=True, slots=True)
+class NumericColumn(Result):
+    """A column of the Jacobian at a configuration.
+
+    Attributes:
+        axis: z of the joint.
+        arm: From the joint's frame to the tip, [m].
+        linear: Its upper three numbers, [m per rad or m].
+        angular: Its lower three numbers, [rad per rad or m].
+    """
+
+    axis: list[float]
+    arm: list[float]
+    linear: list[float]
+    angular: list[float]
+
+
+@dataclass(frozen=True, slots=True)
 class SingularValue(Result):
     """A value at which a factor vanishes.
 

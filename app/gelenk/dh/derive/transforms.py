@@ -6,7 +6,7 @@ occur: the result is what a textbook prints.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from gelenk.dh.derive.algebra import (
@@ -46,14 +46,11 @@ class Moving:
 
     def turn_z(self, angle: Angle, quarters: int, sign: Literal[1, -1]) -> "Moving":
         """Multiply by Rz(± angle)."""
-        return Moving(
-            self.turned, angle_sum(self.angle, angle, sign), (self.quarters + sign * quarters) % 4, self.position
-        )
+        return replace(self, angle=angle_sum(self.angle, angle, sign), quarters=(self.quarters + sign * quarters) % 4)
 
     def slide_z(self, d: Polynomial) -> "Moving":
         """Multiply by Tz(d)."""
-        moved = plus(self.position, scaled(d, column(self.turned, 2))) if d else self.position
-        return Moving(self.turned, self.angle, self.quarters, moved)
+        return replace(self, position=plus(self.position, scaled(d, column(self.turned, 2)))) if d else self
 
     def slide_x(self, a: Polynomial) -> "Moving":
         """Multiply by Tx(a)."""
@@ -61,7 +58,7 @@ class Moving:
             return self
         c, s = cosine(self.angle, self.quarters), sine(self.angle, self.quarters)
         along = plus(scaled(a * c, column(self.turned, 0)), scaled(a * s, column(self.turned, 1)))
-        return Moving(self.turned, self.angle, self.quarters, plus(self.position, along))
+        return replace(self, position=plus(self.position, along))
 
     def turn_x(self, twist: Twist, sign: Literal[1, -1]) -> "Moving":
         """Multiply by Rx(± α); half a turn only changes the sign of the angles, and nothing is multiplied out."""

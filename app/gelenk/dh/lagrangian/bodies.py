@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 from gelenk.dh.derive.table import LENGTH_TOLERANCE, RowNumbers
 
 if TYPE_CHECKING:  # the symbolic part shares nothing with the numeric one, not even types
-    from gelenk.robot.arrays import Configuration
+    from gelenk.robot.arrays import Array, Configuration
     from gelenk.robot.dh import DhJoint
 
 Row: TypeAlias = "RowNumbers | DhJoint"
@@ -90,4 +90,4 @@ class MassProperties:
 
     bodies: tuple[LinkBody, ...]
     gravity: Gravity
-    velocities: Sequence["Configuration"] | None = None
+    velocities: "Sequence[Configuration] | Array | None" = None

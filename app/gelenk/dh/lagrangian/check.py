@@ -4,8 +4,8 @@ Pinocchio's recursive algorithms use neither T nor Christoffel symbols. The symb
 velocities: with h(v) the torque that velocity v costs, 2 c_ijk = h_i(e_j + e_k) - h_i(e_j) - h_i(e_k).
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import pinocchio as pin
@@ -13,7 +13,7 @@ import pinocchio as pin
 from gelenk.dh.derive.check import TOLERANCE
 from gelenk.dh.lagrangian.bodies import LinkBody
 from gelenk.dh.lagrangian.numeric import NumericMotion, centers_in_frames
-from gelenk.dh.lagrangian.texts import EquationsCertificate, MotionSample, MotionValues
+from gelenk.dh.lagrangian.texts import EquationsCertificate, MotionSample
 from gelenk.errors import CertificationFailed
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable
@@ -29,10 +29,11 @@ class Judge:
     """
 
     def __init__(self, table: DhTable, bodies: Sequence[LinkBody], gravity: Array) -> None:
-        self.model, self._scales = pin.Model(), _scales(table, bodies, gravity)
+        self.model, centers = pin.Model(), centers_in_frames(table, bodies)
+        self._scales = _Scales(table, bodies, np.array(centers), gravity)
         self._levers: list[Array] = []  # Pinocchio stores none for a body without mass
         standard, joint, placement = table.convention == "standard", 0, table.base
-        for row, body, center in zip(table.joints, bodies, centers_in_frames(table, bodies), strict=True):
+        for row, body, center in zip(table.joints, bodies, centers, strict=True):
             A = row.transform(0.0, table.convention)
             kind = pin.JointModelRZ() if row.type == "revolute" else pin.JointModelPZ()
             before, behind = (placement, A) if standard else (placement @ A, np.eye(4))
@@ -72,10 +73,6 @@ class Judge:
         costs: Array = bias - g
         return costs
 
-    def torques(self, q: Array, v: Array, a: Array) -> Array:
-        """Compute joint torques by inverse dynamics; shape (n,)."""
-        return np.array(pin.rnea(self.model, self.data, q, v, a)).reshape(-1)
-
     def bodies(self, q: Array, v: Array) -> tuple[Array, Array, Array, Array]:
         """Return centres of mass in the base, their velocities, kinetic and potential energies, one row per body."""
         pin.forwardKinematics(self.model, self.data, q, v)
@@ -114,7 +111,7 @@ class Judge:
             self.compare("the gravity vector", g, self.gravity_vector(q), weight),
         )
 
-    def energies_error(self, sample: MotionSample, value: MotionValues) -> None:
+    def energies_error(self, sample: MotionSample, value: Mapping[str, Any]) -> None:
         """Compare the quantities that M, C and g are derived from, and those that follow from them.
 
         Raises:
@@ -123,48 +120,38 @@ class Judge:
         q, v, a = np.array(sample.q), np.array(sample.v), np.array(sample.a)
         inertia, weight = self._scales.at(q)
         centers, velocities, kinetic, potential = self.bodies(q, v)
-        self.compare("a centre of mass", value.centers, centers, self._scales.reach)
-        self.compare("the velocity of a centre of mass", value.velocities, velocities, self._scales.reach)
-        self.compare("a kinetic energy", value.kinetic, kinetic, inertia)
-        self.compare("a potential energy", value.potential, potential, weight)
         M, C = self.mass_matrix(q), self.christoffel(q) @ v
         rate = C + C.T  # Ṁ, as the Christoffel symbols give it
-        self.compare("the Coriolis matrix", value.coriolis, C, inertia)
-        self.compare("the Coriolis vector", value.coriolis_vector, C @ v, inertia)
-        self.compare("Ṁ - 2C", value.skew, rate - 2.0 * C, inertia)
-        self.compare("the torques", value.torques, self.torques(q, v, a), inertia + weight + float(np.abs(M).max()))
+        self.compare("a centre of mass", value["centers"], centers, self._scales.reach)
+        self.compare("the velocity of a centre of mass", value["velocities"], velocities, self._scales.reach)
+        self.compare("a kinetic energy", value["kinetic"], kinetic, inertia)
+        self.compare("a potential energy", value["potential"], potential, weight)
+        self.compare("the Coriolis matrix", value["coriolis"], C, inertia)
+        self.compare("the Coriolis vector", value["coriolis_vector"], C @ v, inertia)
+        self.compare("Ṁ - 2C", value["skew"], rate - 2.0 * C, inertia)
+        torques = np.array(pin.rnea(self.model, self.data, q, v, a)).reshape(-1)
+        self.compare("the torques", value["torques"], torques, inertia + weight + float(np.abs(M).max()))
 
 
-@dataclass(frozen=True, slots=True)
 class _Scales:
     """Sizes of the terms that add up: rounding grows with them, even if they cancel."""
 
-    reach: float
-    mass: float
-    inertia: float
-    gravity: float
-    slides: tuple[bool, ...]
+    def __init__(self, table: DhTable, bodies: Sequence[LinkBody], centers: Array, gravity: Array) -> None:
+        lengths = sum(abs(row.a) + abs(row.d) for row in table.joints) + float(np.abs(table.base[:3, 3]).sum())
+        self.reach = lengths + float(np.abs(centers).sum())
+        self._mass = sum(body.mass or 0.0 for body in bodies)
+        self._inertia = sum(body.inertia or 0.0 for body in bodies)
+        self._gravity = float(np.linalg.norm(gravity))
+        self._slides = [row.type == "prismatic" for row in table.joints]
 
     def at(self, q: Array) -> tuple[float, float]:
         """Return the largest sum of inertias, [kg m²], and of weights, [N m], at a configuration."""
-        reach = max(1.0, self.reach + float(np.abs(q[list(self.slides)]).sum()))
-        return self.mass * reach**2 + self.inertia, self.mass * self.gravity * reach
-
-
-def _scales(table: DhTable, bodies: Sequence[LinkBody], gravity: Array) -> _Scales:
-    lengths = sum(abs(row.a) + abs(row.d) for row in table.joints) + float(np.abs(table.base[:3, 3]).sum())
-    centers = sum(float(np.abs(center).sum()) for center in centers_in_frames(table, bodies))
-    return _Scales(
-        lengths + centers,
-        sum(body.mass or 0.0 for body in bodies),
-        sum(body.inertia or 0.0 for body in bodies),
-        float(np.linalg.norm(gravity)),
-        tuple(row.type == "prismatic" for row in table.joints),
-    )
+        reach = max(1.0, self.reach + float(np.abs(q[self._slides]).sum()))
+        return self._mass * reach**2 + self._inertia, self._mass * self._gravity * reach
 
 
 def certify_formulas(
-    table: DhTable, gravity: Array, samples: Sequence[MotionSample], values: Sequence[MotionValues], seed: int
+    table: DhTable, gravity: Array, samples: Sequence[MotionSample], values: Sequence[Mapping[str, Any]], seed: int
 ) -> EquationsCertificate:
     """Compare every formula with Pinocchio at the samples.
 
@@ -181,7 +168,7 @@ def certify_formulas(
     worst = np.zeros(3)
     for sample, value in zip(samples, values, strict=True):
         judge = Judge(table, sample.bodies, gravity)
-        found = judge.errors(np.array(sample.q), value.mass_matrix, value.christoffel, value.gravity_vector)
+        found = judge.errors(np.array(sample.q), value["mass_matrix"], value["christoffel"], value["gravity_vector"])
         judge.energies_error(sample, value)
         worst = np.maximum(worst, found)
     return _certificate(len(samples), worst, seed)

@@ -7,9 +7,9 @@ With this C, Ṁ - 2C is skew symmetric, which is checked term by term [Spong202
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from fractions import Fraction
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from gelenk.dh.derive.algebra import (
     CONSTANT,
@@ -30,7 +30,7 @@ from gelenk.dh.derive.algebra import (
 )
 from gelenk.dh.derive.table import exact_number
 from gelenk.dh.lagrangian.bodies import Gravity, LinkBody
-from gelenk.dh.lagrangian.plane import PlanarArm, one_group, shortened
+from gelenk.dh.lagrangian.plane import PlanarArm, one_group, quantity
 
 Rows: TypeAlias = list[list[Polynomial]]
 
@@ -76,10 +76,11 @@ class Equations:
     @property
     def all(self) -> list[Polynomial]:
         """All polynomials that are written out."""
-        vectors = (self.gravity, *self.centers, *self.velocities)
-        grids = (*self.mass_matrix, *self.coriolis, *self.skew, *(row for rows in self.christoffel for row in rows))
-        lists = (self.turns, self.kinetic, self.potential, self.coriolis_vector, self.gravity_vector, self.torques)
-        return [entry for group in (*vectors, *grids, *lists) for entry in group]
+        return [entry for field in fields(self) for entry in _polynomials(getattr(self, field.name))]
+
+
+def _polynomials(entries: Any) -> list[Polynomial]:
+    return [entries] if isinstance(entries, Polynomial) else [one for entry in entries for one in _polynomials(entry)]
 
 
 def equations(arm: PlanarArm, bodies: Sequence[LinkBody], gravity: Gravity, values: dict[Atom, float]) -> Equations:
@@ -96,8 +97,8 @@ def equations(arm: PlanarArm, bodies: Sequence[LinkBody], gravity: Gravity, valu
         ArithmeticError: Ṁ - 2C is not skew symmetric, which never happens.
     """
     joints = range(1, len(arm.senses) + 1)
-    masses = [_quantity("m", i, body.mass, values) for i, body in zip(joints, bodies, strict=True)]
-    inertias = [_quantity("I", i, body.inertia, values) for i, body in zip(joints, bodies, strict=True)]
+    masses = [quantity(Atom(MASS, (i,), "m"), body.mass, values) for i, body in zip(joints, bodies, strict=True)]
+    inertias = [quantity(Atom(MASS, (i,), "I"), body.inertia, values) for i, body in zip(joints, bodies, strict=True)]
     fall = _free_fall(gravity, values)
     slides = tuple(not sense for sense in arm.senses)
     columns = [[_along(center, j, slides) for j in joints] for center in arm.centers]
@@ -138,30 +139,17 @@ def rate(index: int, order: int = 1) -> Polynomial:
     return symbol(Atom(RATE, (index,), "q" + "d" * order))
 
 
-def _quantity(name: str, index: int, value: float | None, values: dict[Atom, float]) -> Polynomial:
-    """Return a mass or an inertia; one of zero vanishes."""
-    if value == 0.0:
-        return ZERO
-    atom = Atom(MASS, (index,), name)
-    if value is not None:
-        values[atom] = value
-    return symbol(atom)
-
-
 def _free_fall(gravity: Gravity, values: dict[Atom, float]) -> Vector:
     """Return g_0 times a unit vector; components that are no exact numbers are symbols."""
     if gravity.size == 0.0:
         return ZERO, ZERO, ZERO
-    size = Atom(GRAVITY, (0,), "g")
-    values[size] = gravity.size
-    parts = []
+    size, parts = quantity(Atom(GRAVITY, (0,), "g"), gravity.size, values), []
     for index, (letter, component) in enumerate(zip("xyz", gravity.direction, strict=True), start=1):
         exact = exact_number(component)
         if exact is None:
-            atom = Atom(CONSTANT, (index,), f"gamma{letter}")
-            values[atom], exact = component, symbol(atom)
-        parts.append(exact * symbol(size))
-    return parts[0], parts[1], parts[2]
+            exact = quantity(Atom(CONSTANT, (index,), f"gamma{letter}"), component, values)
+        parts.append(exact * size)
+    return tuple(parts)
 
 
 def _short(polynomial: Polynomial) -> Polynomial:
@@ -170,14 +158,13 @@ def _short(polynomial: Polynomial) -> Polynomial:
 
 def _along(vector: Vector, index: int, slides: Sequence[bool]) -> Vector:
     """Return ∂/∂q of a vector for one joint."""
-    x, y, z = (derivative(entry, index, slides=slides[index - 1]) for entry in vector)
-    return x, y, z
+    return tuple(derivative(entry, index, slides=slides[index - 1]) for entry in vector)
 
 
 def _combined(columns: Sequence[Vector], joints: Sequence[int]) -> Vector:
     """Return Σ_j ∂p/∂q_j q̇_j."""
-    x, y, z = (total(column[k] * rate(j) for column, j in zip(columns, joints, strict=True)) for k in range(3))
-    return shortened((x, y, z))
+    entries = zip(*columns, strict=True)
+    return tuple(_short(total(x * rate(j) for x, j in zip(entry, joints, strict=True))) for entry in entries)
 
 
 def _mass_matrix(

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gelenk.course.steps import Step
-from gelenk.dh.derive.check import Checks
+from gelenk.dh.derive.check import SEED, Checks
 from gelenk.dh.derive.table import ROOTS, exact_number
 from gelenk.dh.derive.texts import SymbolicRequest
 from gelenk.dh.lagrangian.bodies import LinkBody, MassProperties
@@ -44,10 +44,8 @@ class MotionSolution:
     numeric_certificate: EquationsCertificate | None
 
 
-def checked_dynamics(
-    table: DhTable, chain: Chain, dynamics: MassProperties, count: int
-) -> tuple[MassProperties, Array | None]:
-    """Return the dynamics with a body per row, and velocities in the chain's order; shape (count, n), [rad/s or m/s].
+def checked_dynamics(table: DhTable, chain: Chain, dynamics: MassProperties, count: int) -> MassProperties:
+    """Return the dynamics with a body per row, and `count` velocities in the chain's order, if any.
 
     Raises:
         InvalidField: There is not one link per row, or not one entry of velocities per configuration.
@@ -65,23 +63,21 @@ def checked_dynamics(
         if len(velocities) != count:
             reason = f"has {counted(len(velocities), 'entry')} where joint_positions has {count}: one per configuration"
             raise InvalidField(VELOCITIES, reason)
-    return replace(dynamics, bodies=dynamics.bodies or (LinkBody(),) * n), velocities
+    return replace(dynamics, bodies=dynamics.bodies or (LinkBody(),) * n, velocities=velocities)
 
 
-def motion_question(question: SymbolicRequest, table: DhTable, dynamics: MassProperties, seed: int) -> MotionQuestion:
+def motion_question(question: SymbolicRequest, table: DhTable, dynamics: MassProperties) -> MotionQuestion:
     """Return the input of the symbolic part: gravity in frame 0, and samples with a number for every symbol."""
     x, y, z = (_snapped(float(x)) for x in table.base[:3, :3].T @ dynamics.gravity.direction)
     gravity = replace(dynamics.gravity, direction=(x, y, z))
-    random = np.random.default_rng(seed)
+    random = np.random.default_rng(SEED)
     samples = []
     for q in question.samples:
         v, a = random.uniform(-2.0, 2.0, (2, len(q))).tolist()
         numbers = random.uniform(0.1, 1.0, (len(q), 3)).tolist()
         bodies = tuple(_filled(body, *row) for body, row in zip(dynamics.bodies, numbers, strict=True))
         samples.append(MotionSample(q, tuple(v), tuple(a), bodies))
-    return MotionQuestion(
-        question.table, question.style, question.keeps_symbols, dynamics.bodies, gravity, tuple(samples)
-    )
+    return MotionQuestion(question, dynamics.bodies, gravity, tuple(samples))
 
 
 def _snapped(component: float) -> float:
@@ -104,9 +100,7 @@ def motion_solution(
     table: DhTable,
     as_read: DhTable,
     dynamics: MassProperties,
-    velocities: Array | None,
     qs: Array,
-    seed: int,
     checks: Checks,
 ) -> MotionSolution | None:
     """Certify formulas and numbers; return None if a formula differs from Pinocchio.
@@ -118,10 +112,8 @@ def motion_solution(
         question: Input of the symbolic part.
         table: Table as given.
         as_read: Table as the formulas read it.
-        dynamics: Dynamics with one body per row.
-        velocities: Joint velocities at the configurations, shape (N, n), [rad/s or m/s]; or None.
+        dynamics: Dynamics with one body per row, and velocities at the configurations in order.
         qs: Configurations at which the numbers are wanted; shape (N, n), [rad or m].
-        seed: Random seed of the samples.
         checks: Collects a formula that fails.
 
     Raises:
@@ -130,7 +122,7 @@ def motion_solution(
     in_frame_0 = replace(as_read, base=np.eye(4))
     fall = np.array(question.gravity.vector)
     try:
-        certificate = certify_formulas(in_frame_0, fall, question.samples, texts.values, seed)
+        certificate = certify_formulas(in_frame_0, fall, question.samples, texts.values, SEED)
     except CertificationFailed as failure:
         quantity = f"{failure.quantity} of the equations of motion in symbols"
         checks.left_out(replace(failure, quantity=quantity), "the equations of motion are left out")
@@ -138,7 +130,7 @@ def motion_solution(
     notes, numeric = _notes(texts, question, len(qs)), list[NumericMotion]()
     gravity = np.array(dynamics.gravity.vector)
     if not texts.missing:
-        rows = [None] * len(qs) if velocities is None else velocities
+        rows = [None] * len(qs) if dynamics.velocities is None else np.asarray(dynamics.velocities)
         numeric = [numeric_motion(table, dynamics.bodies, gravity, q, v) for q, v in zip(qs, rows, strict=True)]
     judged = certify_numbers(table, dynamics.bodies, gravity, numeric) if numeric else None
     return MotionSolution(texts, numeric, motion_steps(texts), notes, certificate, judged)

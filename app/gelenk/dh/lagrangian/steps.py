@@ -11,7 +11,7 @@ def motion_steps(found: MotionTexts) -> list[Step]:
 
 def _centers(found: MotionTexts) -> Step:
     lines = []
-    for i, body in enumerate(found.bodies, start=1):
+    for i, body in enumerate(found.links, start=1):
         lines.append(
             rf"p_{{c{i}}} = {body.center_of_mass.latex},\quad "
             rf"v_{{c{i}}} = \dot{{p}}_{{c{i}}} = {body.velocity.latex},\quad "
@@ -27,7 +27,7 @@ def _centers(found: MotionTexts) -> Step:
 def _energies(found: MotionTexts) -> Step:
     rule = r"T_i = \frac{1}{2} m_i\, v_{ci}^{\mathsf T} v_{ci} + \frac{1}{2} I_i\, \omega_i^{2}"
     lines = [rf"{rule},\quad U_i = -m_i\, g^{{\mathsf T}} p_{{ci}}", f"g = {found.gravity.latex}"]
-    for i, body in enumerate(found.bodies, start=1):
+    for i, body in enumerate(found.links, start=1):
         lines += [f"T_{{{i}}} = {body.kinetic_energy.latex}", f"U_{{{i}}} = {body.potential_energy.latex}"]
     lines.append(r"L = \sum_i T_i - \sum_i U_i")
     text = (
@@ -75,5 +75,5 @@ def _gravity(found: MotionTexts) -> Step:
 def _rows(found: MotionTexts) -> Step:
     rule = r"\frac{d}{dt} \frac{\partial L}{\partial \dot{q}} - \frac{\partial L}{\partial q} = \tau"
     lines = [rf"{rule} \;\Leftrightarrow\; M(q)\, \ddot{{q}} + C(q, \dot{{q}})\, \dot{{q}} + g(q) = \tau"]
-    lines += [row.latex for row in found.rows]
+    lines += [row.latex for row in found.equations_of_motion]
     return Step("Equations of motion", "Lagrange's equations, one row per joint.", tuple(lines))

@@ -4,13 +4,13 @@ Input and output are plain data, so that this can run in another process; the la
 from the very polynomials that are written out.
 """
 
-from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import fields, replace
 from functools import lru_cache
+from typing import Any
 
 from gelenk.dh.derive.algebra import GRAVITY, LENGTH, MASS, RATE, Atom, Polynomial, TooManyTerms
-from gelenk.dh.derive.legend import legend
-from gelenk.dh.derive.symbolic import grid_of, notation_of
+from gelenk.dh.derive.symbolic import legend, notation_of
 from gelenk.dh.derive.table import Table, read_table
 from gelenk.dh.derive.texts import SymbolEntry, symbol_entry
 from gelenk.dh.derive.typeset import Formula, MatrixFormula, Notation, indexed, matrix_of, summed
@@ -23,7 +23,6 @@ from gelenk.dh.lagrangian.texts import (
     MotionQuestion,
     MotionSample,
     MotionTexts,
-    MotionValues,
     NoMotion,
 )
 from gelenk.dh.lagrangian.writing import BY_ENERGY, BY_HEIGHT, BY_MASS, BY_WAVE, BY_WEIGHT, Manner, written
@@ -38,7 +37,8 @@ _MOVING = {"m", "I", "g", "lc", "xc", "yc", "zc", "gammax", "gammay", "gammaz", 
 @lru_cache(maxsize=16)
 def motion(question: MotionQuestion) -> MotionTexts | NoMotion:
     """Return the equations of motion, or why there are none."""
-    table, values = read_table(question.table), dict[Atom, float]()
+    request = question.formulas
+    table, values = read_table(request.table), dict[Atom, float]()
     if len(table.rows) > MAX_JOINTS:
         return NoMotion(f"the equations of motion are written out for up to {MAX_JOINTS} joints")
     try:
@@ -49,7 +49,7 @@ def motion(question: MotionQuestion) -> MotionTexts | NoMotion:
     except TooManyTerms:
         return NoMotion("the equations of motion have too many terms to be written out")
     known = {**table.values, **values}
-    notation = notation_of(table, one_group, question.style, {} if question.keeps_symbols else known)
+    notation = notation_of(table, one_group, request.style, {} if request.keeps_symbols else known)
     of_motion = [entry for row in (*found.mass_matrix, *found.coriolis, found.gravity_vector) for entry in row]
     needed = {atom for entry in of_motion for atom in entry.atoms if atom.name in _MOVING - {"qd"}}
 
@@ -68,7 +68,7 @@ def motion(question: MotionQuestion) -> MotionTexts | NoMotion:
             written(found.kinetic[i], notation, BY_ENERGY),
             written(found.potential[i], notation, BY_HEIGHT),
         )
-        for i, row in enumerate(question.table.rows)
+        for i, row in enumerate(request.table.rows)
     ]
     return MotionTexts(
         _legend(found, arm.lines, replace(table, values=known), notation),
@@ -141,28 +141,18 @@ def _words(atom: Atom, lines: Sequence[Line]) -> str:
     return f"{atom.name[-1]} of the unit vector of gravity in frame 0"
 
 
-def _values(found: Equations, table: Table, values: dict[Atom, float], sample: MotionSample) -> MotionValues:
+def _values(found: Equations, table: Table, values: dict[Atom, float], sample: MotionSample) -> dict[str, Any]:
     """Evaluate every formula at a sample."""
     known = {**table.values, **values, **_sampled(sample)}
     atoms = {atom for entry in found.all for atom in entry.atoms}
     known = replace(table, values=known).atom_values(sample.q, atoms)
+    return {field.name: _evaluated(getattr(found, field.name), known) for field in fields(found)}
 
-    def row(entries: Iterable[Polynomial]) -> list[float]:
-        return [entry.value(known) for entry in entries]
 
-    return MotionValues(
-        grid_of(found.centers, known),
-        grid_of(found.velocities, known),
-        row(found.kinetic),
-        row(found.potential),
-        grid_of(found.mass_matrix, known),
-        [grid_of(rows, known) for rows in found.christoffel],
-        grid_of(found.coriolis, known),
-        row(found.coriolis_vector),
-        row(found.gravity_vector),
-        grid_of(found.skew, known),
-        row(found.torques),
-    )
+def _evaluated(entries: Any, known: Mapping[Atom, float]) -> Any:
+    if isinstance(entries, Polynomial):
+        return entries.value(known)
+    return [_evaluated(entry, known) for entry in entries]
 
 
 def _sampled(sample: MotionSample) -> dict[Atom, float]:

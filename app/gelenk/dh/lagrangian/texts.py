@@ -1,10 +1,10 @@
 """Input and output of the symbolic part of the equations of motion, as plain data."""
 
 from dataclasses import dataclass
+from typing import Any
 
-from gelenk.dh.derive.table import TableNumbers
-from gelenk.dh.derive.texts import Configuration, Grid, SymbolEntry
-from gelenk.dh.derive.typeset import Formula, MatrixFormula, Style
+from gelenk.dh.derive.texts import Configuration, SymbolEntry, SymbolicRequest
+from gelenk.dh.derive.typeset import Formula, MatrixFormula
 from gelenk.dh.lagrangian.bodies import Gravity, LinkBody
 from gelenk.robot.result import Result
 
@@ -31,17 +31,13 @@ class MotionQuestion:
     """The request as plain data.
 
     Attributes:
-        table: The table.
-        style: `short` for c_{12}, `full` for cos(q_1 + q_2).
-        keeps_symbols: Whether lengths and masses stay symbols; otherwise the formulas contain the given values.
+        formulas: The table, and how to write its formulas.
         bodies: One per joint.
         gravity: Free fall in the axes of frame 0.
         samples: States at which the formulas are also evaluated.
     """
 
-    table: TableNumbers
-    style: Style
-    keeps_symbols: bool
+    formulas: SymbolicRequest
     bodies: tuple[LinkBody, ...]
     gravity: Gravity
     samples: tuple[MotionSample, ...]
@@ -107,53 +103,36 @@ class EquationsCertificate(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class MotionValues:
-    """All quantities at one sample; vectors in frame 0, Christoffel symbols as c[i][j][k]."""
-
-    centers: Grid
-    velocities: Grid
-    kinetic: list[float]
-    potential: list[float]
-    mass_matrix: Grid
-    christoffel: list[Grid]
-    coriolis: Grid
-    coriolis_vector: list[float]
-    gravity_vector: list[float]
-    skew: Grid
-    torques: list[float]
-
-
-@dataclass(frozen=True, slots=True)
 class MotionTexts:
     """The equations of motion as text.
 
     Attributes:
         legend: Symbols beyond those of the transforms.
         gravity: The acceleration of free fall in frame 0.
-        bodies: One per joint.
+        links: One per joint.
         mass_matrix: M.
         christoffel: The symbols that differ from zero.
         coriolis: C.
         coriolis_vector: C q̇.
         gravity_vector: g.
         skew: Ṁ - 2C.
-        rows: M q̈ + C q̇ + g = τ, row by row.
+        equations_of_motion: M q̈ + C q̇ + g = τ, row by row.
         missing: Symbols of M, C and g that have no value.
-        values: Values at each sample.
+        values: Values at each sample of all quantities of `Equations`, by name.
     """
 
     legend: list[SymbolEntry]
     gravity: MatrixFormula
-    bodies: list[LinkFormulas]
+    links: list[LinkFormulas]
     mass_matrix: MatrixFormula
     christoffel: list[ChristoffelSymbol]
     coriolis: MatrixFormula
     coriolis_vector: MatrixFormula
     gravity_vector: MatrixFormula
     skew: MatrixFormula
-    rows: list[Formula]
+    equations_of_motion: list[Formula]
     missing: tuple[str, ...]
-    values: list[MotionValues]
+    values: list[dict[str, Any]]
 
 
 @dataclass(frozen=True, slots=True)

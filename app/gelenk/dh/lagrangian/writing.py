@@ -197,13 +197,8 @@ class _Writer:
                     found += self._summands(group, keys[i + 1 :]) if self._product(group).is_a_sum else [group]
                 return found
         root, rest = square_within(polynomial)
-        if root:
-            return [root * root, *(_groups(rest, _is_anything))]
-        return _groups(polynomial, _is_anything)
-
-
-def _is_anything(atom: Atom) -> bool:  # noqa: ARG001
-    return True
+        squares = [root * root] if root else []
+        return [*squares, *(Polynomial({m: rest.terms[m]}) for m in sorted(rest.terms, key=place_of))]
 
 
 def _is_small(value: Fraction, most: int = 1) -> bool:

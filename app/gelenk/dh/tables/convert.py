@@ -20,7 +20,7 @@ from gelenk.errors import quoted
 from gelenk.robot.appearance import Solid, Stock, inertial_of
 from gelenk.robot.arrays import Array
 from gelenk.robot.description import MAX_BOUND, Description, Joint, Link, UrdfLimits
-from gelenk.robot.dh import MAX_LENGTH, Convention, DhJoint, DhTable
+from gelenk.robot.dh import MAX_LENGTH, Convention, DhJoint, DhTable, about_x, about_z
 from gelenk.robot.notations import origin_of
 
 BASE_FRAME = "base"
@@ -60,8 +60,7 @@ def _around_motion(row: DhJoint, convention: Convention) -> tuple[Array, Array]:
     """Return the constant parts of A_i before and after the joint's motion."""
     if convention == "modified":
         return row.transform(0.0, convention), np.eye(4)
-    turn, shift = replace(row, a=0.0, alpha=0.0), replace(row, d=0.0, theta=0.0)
-    return turn.transform(0.0, convention), shift.transform(0.0, convention)
+    return about_z(row.theta, row.d), about_x(row.alpha, row.a)
 
 
 def _moving(row: DhJoint, parent: str, child: str, T: Array) -> Joint:
@@ -131,12 +130,12 @@ def _links(table: DhTable, leaders: int) -> tuple[Link, ...]:
     beside = [f"frame_{i}" for i in range(1, n)]
     rotors = {f"leader_{k}": [stock.hub()] for k in range(1, leaders + 1)}
     moving = {f"link_{i}" for i in range(1, n + 1)}
-    links = [_link(name, bodies.get(name, []), name in moving) for name in (BASE_FRAME, *chain, *beside)]
+    links = []
+    for name in (BASE_FRAME, *chain, *beside):
+        solids = bodies.get(name, [])
+        inertial = inertial_of(solids) if name in moving else None
+        links.append(Link(name, inertial, tuple(solid.shape() for solid in solids)))
     return (*links, *(Link(name, inertial_of(solids)) for name, solids in rotors.items()))
-
-
-def _link(name: str, solids: Sequence[Solid], moves: bool) -> Link:
-    return Link(name, inertial_of(solids) if moves else None, tuple(solid.shape() for solid in solids))
 
 
 def _bodies(table: DhTable, stock: Stock) -> Mapping[str, list[Solid]]:
@@ -201,26 +200,21 @@ def converted(table: DhTable, convention: Convention) -> DhTable:
     if table.convention == convention:
         return table
     none = (0.0, 0.0)
-    between = [(row.a, row.alpha) for row in table.joints]
+    between = [(row.alpha, row.a) for row in table.joints]
     base, tool = table.base, table.tool
     if convention == "modified":
         first = _along_x(base)
         before = [first or none, *between[:-1]]
-        base, tool = (np.eye(4) if first else base), _about_x(*between[-1]) @ tool
+        base, tool = (np.eye(4) if first else base), about_x(*between[-1]) @ tool
     else:
         last = _along_x(tool)
         before = [*between[1:], last or none]
-        base, tool = base @ _about_x(*between[0]), (np.eye(4) if last else tool)
-    rows = tuple(replace(row, a=a, alpha=alpha) for row, (a, alpha) in zip(table.joints, before, strict=True))
+        base, tool = base @ about_x(*between[0]), (np.eye(4) if last else tool)
+    rows = tuple(replace(row, a=a, alpha=alpha) for row, (alpha, a) in zip(table.joints, before, strict=True))
     return DhTable(convention, rows, base, tool)
 
 
-def _about_x(a: float, alpha: float) -> Array:
-    """Return Tx(a) Rx(α), exact where α is zero; shape (4, 4)."""
-    return DhJoint("x", "revolute", a, alpha, 0.0, 0.0).transform(0.0, "modified")
-
-
 def _along_x(T: Array) -> tuple[float, float] | None:
-    """Return (a, α) if a transform is Tx(a) Rx(α) and nothing else."""
-    a, alpha = float(T[0, 3]), math.atan2(T[2, 1], T[2, 2])
-    return (a, alpha) if np.abs(T - _about_x(a, alpha)).max() <= _EXACT else None
+    """Return (α, a) if a transform is Tx(a) Rx(α) and nothing else."""
+    alpha, a = math.atan2(T[2, 1], T[2, 2]), float(T[0, 3])
+    return (alpha, a) if np.abs(T - about_x(alpha, a)).max() <= _EXACT else None

@@ -36,8 +36,18 @@ from gelenk.errors import InvalidDhTable, InvalidField, listed, quoted
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain, crossed_joints
 from gelenk.robot.description import Description, Joint, Mimic, UrdfLimits
-from gelenk.robot.dh import MAX_JOINTS, MAX_LENGTH, MAX_SNAP_TOLERANCE, Convention, DhJoint, DhTable, JointType
-from gelenk.robot.poses import inverse, transform
+from gelenk.robot.dh import (
+    MAX_JOINTS,
+    MAX_LENGTH,
+    MAX_SNAP_TOLERANCE,
+    Convention,
+    DhJoint,
+    DhTable,
+    JointType,
+    about_x,
+    about_z,
+)
+from gelenk.robot.poses import inverse
 
 ROUNDING = 4e-15
 """Angles [rad], and lengths relative to the robot's size, that count as zero: the rounding of a few products."""
@@ -98,20 +108,15 @@ class ChainTable:
 
 @dataclass(frozen=True, slots=True)
 class _Normal:
-    """A placement decomposed along its common normal as in the module docstring; angles [rad], lengths [m]."""
+    """A placement decomposed along its common normal as in the module docstring; angles [rad], lengths [m].
+
+    v and t fix x and the origin on the axis behind it.
+    """
 
     u: float
     s: float
     a: float
     alpha: float
-    v: float
-    t: float
-
-
-@dataclass(frozen=True, slots=True)
-class _Before:
-    """v [rad] and t [m] of the placement before a joint: they fix x and the origin on its axis."""
-
     v: float
     t: float
 
@@ -157,20 +162,13 @@ def dh_from_chain(
 
 
 class _Lines:
-    """The axes of one chain, and the frames placed on them.
-
-    Args:
-        chain: The chain.
-        joints: The movable joints on its path.
-        snap_tolerance: See `dh_from_chain`.
-        parallel_below: See `dh_from_chain`.
-    """
+    """The axes of one chain, and the frames placed on them; its arguments are those of `dh_from_chain`."""
 
     def __init__(self, chain: Chain, joints: Sequence[Joint], snap_tolerance: float, parallel_below: float) -> None:
         self._ends = chain.base_frame, chain.tip_frame
         self._names = [joint.name for joint in joints]
         self._slides = [joint.type == "prismatic" for joint in joints]
-        self._Ps = [_matrix(row) for row in chain.flat.placements]
+        self._Ps = [chain.flat.placement(i) for i in range(len(chain.flat.placements))]
         self.reach = sum(math.hypot(*P[:3, 3]) for P in self._Ps)
         self.rounded: list[FarNormal] = []
         self.far: list[FarNormal] = []
@@ -195,17 +193,16 @@ class _Lines:
             last = i + 1 == len(self._names)
             if not last and self._slides[i + 1] and not on_next[i + 1]:
                 self._put_through(i + 1, -before.t)
-            theta, d, normal = self._normal(i, before)
-            found.append((theta, d, normal))
-            before = _Before(normal.v, normal.t)
+            found.append(self._normal(i, before))
+            before = found[-1][2]
         between = [(normal.a, normal.alpha) for _, _, normal in found]
         if convention == "modified":
             between = [(0.0, 0.0), *between[:-1]]
         end = found[-1][2]
-        last_frame = _screw(end.u, end.s)
+        last_frame = about_z(end.u, end.s)
         if convention == "standard":
-            last_frame = last_frame @ _twist(end.a, end.alpha)
-        base = self._cleaned(self._Ps[0] @ _screw(-first.v, -first.t))
+            last_frame = last_frame @ about_x(end.alpha, end.a)
+        base = self._cleaned(self._Ps[0] @ about_z(-first.v, -first.t))
         tool = self._cleaned(inverse(last_frame) @ self._Ps[-1])
         return base, [(a, alpha, d, theta) for (a, alpha), (theta, d, _) in zip(between, found, strict=True)], tool
 
@@ -247,25 +244,21 @@ class _Lines:
 
     # Where the frames are
 
-    def _first(self) -> _Before:
+    def _first(self) -> _Normal:
         """Place frame 0 at the foot of the base's origin on the first axis, x along the base's x or ±z_base × z_0."""
         P = self._Ps[0]
         zx, zy, zz = P[:3, 2].tolist()
         tilt, u = math.hypot(zx, zy), 0.0
         alpha = 0.0 if zz > 0.0 else math.pi
         if tilt > self._angle:
-            u, alpha = math.atan2(zx, -zy), self._angle_of(tilt, zz)
+            u, alpha = math.atan2(zx, -zy), self._right(math.atan2(tilt, zz))
             x, y = math.cos(u), math.sin(u)
             if x < -_TIE or (abs(x) <= _TIE and y < 0.0):
                 u, alpha = u + math.pi, -alpha
-        return _Before(_left_over(P, u, alpha), float(P[:3, 2] @ P[:3, 3]))
+        return _Normal(0.0, 0.0, 0.0, 0.0, _left_over(P, u, alpha), float(P[:3, 2] @ P[:3, 3]))
 
-    def _normal(self, i: int, before: _Before) -> tuple[float, float, _Normal]:
-        """Return θ and d of a joint, and the normal from its axis to the next.
-
-        Raises:
-            InvalidField: The normal is too far away.
-        """
+    def _normal(self, i: int, before: _Normal) -> tuple[float, float, _Normal]:
+        """Return θ and d of a joint, and the normal from its axis to the next, if that is not too far away."""
         last = i + 1 == len(self._names)
         P = self._Ps[i + 1]
         tilt = math.hypot(P[0, 2], P[1, 2])
@@ -299,7 +292,7 @@ class _Lines:
         )
         return InvalidField("snap_tolerance", reason)
 
-    def _parallel(self, i: int, before: _Before) -> tuple[float, float, _Normal]:
+    def _parallel(self, i: int, before: _Normal) -> tuple[float, float, _Normal]:
         """Return θ, d and the normal of parallel axes, through the previous origin or (last axis) through the tip."""
         last = i + 1 == len(self._names)
         P = self._Ps[i + 1]
@@ -323,12 +316,12 @@ class _Lines:
         t = (z - s) * math.cos(alpha)
         return theta, d, _Normal(u, s, a, alpha, _left_over(P, u, alpha), t)
 
-    def _skew(self, i: int, before: _Before) -> tuple[float, float, _Normal]:
+    def _skew(self, i: int, before: _Normal) -> tuple[float, float, _Normal]:
         """Return θ, d and the normal of axes that are not parallel; only its direction comes from z × z'."""
         P = self._Ps[i + 1]
         x, y, z = P[:3, 3].tolist()
         zx, zy, zz = P[:3, 2].tolist()
-        u, alpha = math.atan2(zx, -zy), self._angle_of(math.hypot(zx, zy), zz)
+        u, alpha = math.atan2(zx, -zy), self._right(math.atan2(math.hypot(zx, zy), zz))
         along = x * math.cos(u) + y * math.sin(u)
         theta = self._theta(before, u, positive=along > -self._length)
         if abs(_wrapped(theta - before.v - u)) > 0.5 * math.pi:
@@ -341,7 +334,7 @@ class _Lines:
         d = self._zero(before.t + z - t * math.cos(alpha))
         return theta, d, _Normal(u, d - before.t, a, alpha, _left_over(P, u, alpha), t)
 
-    def _theta(self, before: _Before, u: float, *, positive: bool) -> float:
+    def _theta(self, before: _Normal, u: float, *, positive: bool) -> float:
         """Return θ for a normal along u or its opposite: the smaller |θ|; on a tie, along u only if `positive`."""
         theta = _wrapped(before.v + u)
         excess = abs(theta) - 0.5 * math.pi
@@ -351,9 +344,6 @@ class _Lines:
         return self._right(theta)
 
     # Rounding and snapping
-
-    def _angle_of(self, sine: float, cosine: float) -> float:
-        return self._right(math.atan2(sine, cosine))
 
     def _right(self, angle: float) -> float:
         """Return the angle, or the multiple of π/2 within the tolerance of it."""
@@ -427,13 +417,11 @@ def _row(
     mimic = None if drive.leader == joint.name else Mimic(drive.leader, drive.multiplier, drive.offset)
     if mimic is not None and drive.leader not in {other.name for other in joints}:
         limits = _image(description.joint[drive.leader].limits, mimic)
-    lower, upper = (None if end is None else min(max(end, -MAX_LENGTH), MAX_LENGTH) for end in _ends(limits))
+    lower, upper = (
+        None if end is None else min(max(end, -MAX_LENGTH), MAX_LENGTH) for end in (limits.lower, limits.upper)
+    )
     type_: JointType = "prismatic" if joint.type == "prismatic" else "revolute"
     return DhJoint(joint.name, type_, *parameters, lower, upper, limits.velocity, limits.effort, mimic)
-
-
-def _ends(limits: UrdfLimits) -> tuple[float | None, float | None]:
-    return limits.lower, limits.upper
 
 
 def _image(limits: UrdfLimits, mimic: Mimic) -> UrdfLimits:
@@ -468,21 +456,6 @@ def _joint_notes(description: Description, joints: Sequence[Joint], rows: Sequen
 
 
 # Transforms
-
-
-def _matrix(flat: Array) -> Array:
-    """Return a placement of a flat chain as a new homogeneous transform; shape (12,) → (4, 4)."""
-    return transform(flat[9:].copy(), flat[:9].reshape(3, 3).copy())
-
-
-def _screw(angle: float, length: float) -> Array:
-    """Return Rz(angle) Tz(length)."""
-    return DhJoint("z", "revolute", 0.0, 0.0, length, angle).transform(0.0, "standard")
-
-
-def _twist(a: float, alpha: float) -> Array:
-    """Return Tx(a) Rx(α)."""
-    return DhJoint("x", "revolute", a, alpha, 0.0, 0.0).transform(0.0, "standard")
 
 
 def _left_over(P: Array, u: float, alpha: float) -> float:
