@@ -1,6 +1,7 @@
 """What compiling must not do: take time from a limit, or end a program that can write nowhere."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -19,6 +20,7 @@ from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.ik.verdict.result import InverseKinematics
 from gelenk.kinematics.poses.forward import forward_kinematics
+from gelenk.robot import compilation
 from gelenk.robot.compilation import clock, when_compiling
 from tests.robots import robot
 
@@ -53,6 +55,15 @@ def test_a_limit_of_time_does_not_count_compiling(
     monkeypatch.setattr(solve, "_answered", cold)
     found = inverse_kinematics(machine, chain, targets, qs - 0.02, Options(**options, time_limit=LIMIT))
     assert found.statuses == ["solved"]
+
+
+def test_the_cache_knows_every_source_that_kernels_are_made_of() -> None:
+    """A change of any of them is a new folder: numba itself looks at the file of a function alone."""
+    package = Path(compilation.__file__).parents[1]
+    decorated = re.compile(r"^@(compiled|unmanaged|inlined)$", re.MULTILINE)
+    defining = {str(p.relative_to(package)) for p in package.rglob("*.py") if decorated.search(p.read_text("utf-8"))}
+    assert len(defining) >= 10
+    assert defining <= compilation.kernel_sources().keys()
 
 
 @pytest.mark.slow

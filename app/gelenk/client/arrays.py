@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from gelenk.client.call import NPY, ROBOT, Awaited, Blocking, Call, Sent, documented
 from gelenk.client.exchange import encoded, packed, query_of, segment, unpacked
 from gelenk.contract.dynamics import DynamicsOptions
-from gelenk.contract.endpoints import ROBOT_ENDPOINTS
+from gelenk.contract.endpoints import BY_NAME
 from gelenk.contract.fk import ForwardOptions
 from gelenk.contract.ik import InverseOptions
 from gelenk.contract.jacobian import JacobianOptions
@@ -81,7 +81,7 @@ def _batch(
         return Call("POST", path, read, query_of(fields), packed(array), NPY, accept=NPY)
 
     array = inspect.Parameter("array", inspect.Parameter.POSITIONAL_ONLY, annotation=Array)
-    body = next(endpoint.npy_body for endpoint in ROBOT_ENDPOINTS if endpoint.name == name)
+    body = BY_NAME[name].npy_body
     return Sent(documented(describe, options, f"The operation `{name}` of a batch. The array: {body}", ROBOT, array))
 
 

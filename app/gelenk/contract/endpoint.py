@@ -115,9 +115,9 @@ class Endpoint(Route, Generic[P, A]):
     robot_field: str = ""
     picture: str = ""
     npy_answer: str = ""
-    batch: str = "joint_positions"
+    batch: str = ""
     options: type[BaseModel] | None = None
-    npy_body: str = "`joint_positions` as an array of shape (N, n)."
+    npy_body: str = ""
     npy_holds_more: bool = False
     table: str = ""
     job: str = ""
@@ -126,10 +126,12 @@ class Endpoint(Route, Generic[P, A]):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotEndpoint(Endpoint[P, A]):
-    """POST /v1/robots/{robot}/{name}: an operation on a robot."""
+    """POST /v1/robots/{robot}/{name}: an operation on a robot, most often at a batch of configurations."""
 
     path: str = ""
     tag: Tag = "Kinematics"
+    batch: str = "joint_positions"
+    npy_body: str = "`joint_positions` as an array of shape (N, n)."
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "path", f"v1/robots/{{robot}}/{self.name}")

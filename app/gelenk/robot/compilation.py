@@ -18,16 +18,18 @@ from platformdirs import user_cache_path
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _KERNEL = re.compile(rb"^@(compiled|unmanaged|inlined)$", re.MULTILINE)
+_ROOMS = ("robot", "kinematics", "ik")
+"""Where kernels are."""
 _IMPORT = re.compile(rb"^\s*from gelenk\.([\w.]+) import", re.MULTILINE)
 
 
-def _kernel_digest() -> str:
-    """Return a digest of the sources that define kernels and of all modules that these import.
+def kernel_sources() -> dict[str, bytes]:
+    """Return the sources that define kernels and all modules that these import, by their paths in the package.
 
     `errors` is excluded: kernels raise none of them, and a new error is no reason to recompile.
     """
     package = Path(__file__).parents[1]
-    texts = {path: path.read_bytes() for path in package.glob("[mk]*/**/*.py")}
+    texts = {path: path.read_bytes() for room in _ROOMS for path in package.glob(f"{room}/**/*.py")}
     waiting = [path for path, text in texts.items() if _KERNEL.search(text)]
     sources: set[Path] = set()
     while waiting:
@@ -36,9 +38,13 @@ def _kernel_digest() -> str:
             sources.add(path)
             imported = (name.decode().replace(".", "/") for name in _IMPORT.findall(texts[path]))
             waiting += [package / f"{name}.py" for name in imported]
+    return {str(path.relative_to(package)): texts[path] for path in sorted(sources)}
+
+
+def _kernel_digest() -> str:
     digest = hashlib.sha256()
-    for path in sorted(sources):
-        digest.update(str(path.relative_to(package)).encode() + texts[path])
+    for path, text in kernel_sources().items():
+        digest.update(path.encode() + text)
     return digest.hexdigest()[:16]
 
 
