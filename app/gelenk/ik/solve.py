@@ -18,25 +18,18 @@ from gelenk.ik.search.descent import descend
 from gelenk.ik.search.null_space import settle
 from gelenk.ik.search.problem import DescentRule, Objective, Options, TargetProblem
 from gelenk.ik.search.retrace import retrace
-from gelenk.ik.search.search import (
-    ITERATIONS_PER_START,
-    MAX_ITERATIONS,
-    Found,
-    nothing_found,
-    search,
-    start_of,
-)
+from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS, Found, nothing_found, search, start_of
 from gelenk.ik.search.task import FULL_POSE
 from gelenk.ik.search.words import BlockingJoint, IterationPath, StepMethod
 from gelenk.ik.verdict.branches import SEARCHED, TRUNCATED, Branches, all_branches, wound, wound_near
 from gelenk.ik.verdict.fixed import held_chain, narrowed, widened_answer
 from gelenk.ik.verdict.judge import assembled, judged
-from gelenk.ik.verdict.nearest import polished
 from gelenk.ik.verdict.result import COUNTED, InverseKinematics
 from gelenk.ik.verdict.verdict import (
     ENOUGH_STARTS,
     blocking_joints,
     explain,
+    polished,
     refused,
     solved_without_limits,
     verdict_on_path,

@@ -86,13 +86,9 @@ def search(
 
 
 def gather(flat: FlatChain, goal: Goal, target: Array, seed: Array) -> Array:
-    """Return the configurations to which starts of one target converge, in order of convergence; shape (k, n).
+    """Return the configurations to which starts of one target, shape (12,), converge, in that order; shape (k, n).
 
-    Args:
-        flat: The chain.
-        goal: Task, tolerances and bounds.
-        target: Rotation row by row, then position; shape (12,).
-        seed: The first start; shape (n,).
+    The seed is the first start; for the others see `search`.
     """
     arguments: tuple[Any, ...] = (*flat, *goal, target, seed)
     found: Array = _gather(*arguments)

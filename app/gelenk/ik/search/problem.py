@@ -129,8 +129,8 @@ class TargetProblem:
         return self.options.position_tolerance, self.options.orientation_tolerance
 
     @property
-    def limits(self) -> tuple[Array, Array]:
-        """Lower and upper limits of the variables, infinite if they do not count; shape (n,) each, [rad or m]."""
+    def limits(self) -> Array:
+        """Lower and upper limits of the variables, infinite if they do not count; shape (2, n), [rad or m]."""
         return limits_of(self.chain, self.options.respect_limits)
 
     @property
