@@ -201,14 +201,19 @@ def _searched(problem: TargetProblem) -> tuple[Found, Flags, dict[int, tuple[Blo
     """
     options = problem.options
     budget = options.max_iterations or MAX_ITERATIONS
-    too_far, found = problem.too_far(), nothing_found(len(problem), len(problem.chain))
-    for rows, most in ((~too_far, budget), (too_far, min(budget, _FAR_ITERATIONS))):
-        if rows.any():
-            found.put(rows, search(problem.taken(rows), most))
+    too_far = problem.too_far()
+    if too_far.any():
+        found = nothing_found(len(problem), len(problem.chain))
+        found.put(~too_far, search(problem.taken(~too_far), budget))
+        found.put(too_far, search(problem.taken(too_far), min(budget, _FAR_ITERATIONS)))
+    else:
+        found = search(problem, budget)
     left = ~found.solved & ~too_far
     if max(problem.tolerances) > _LOOSE and left.any():
         found.put(left, search(problem.taken(left), budget, _SLACK))
     unsolved = np.flatnonzero(~found.solved & found.in_time)
+    if not len(unsolved):
+        return found, too_far, {}
     for i in unsolved.tolist():
         if not problem.is_over:
             found.qs[i] = polished(problem, i, found.qs[i])
