@@ -169,7 +169,8 @@ def solve_quickly(problem: TargetProblem, starts: int, *, by_form: bool = False)
     judgement = judged(problem, qs)
     if False in judgement[0].tolist():
         return None
-    return assembled(count, np.arange(count), qs, judgement, {"iterations": iterations, "restarts": winners})
+    none = np.zeros(count, dtype=np.int64)
+    return InverseKinematics(qs, *judgement[1:], iterations, winners, none - 1, none, np.arange(count + 1))
 
 
 def _one(problem: TargetProblem) -> InverseKinematics:
