@@ -12,7 +12,7 @@ from gelenk.ik.closed.subproblem_chains import GENERAL, MOST
 from gelenk.ik.count.continuation import system_of, within_limits
 from gelenk.ik.search.bounds import free_variables
 from gelenk.ik.search.problem import TargetProblem
-from gelenk.ik.search.search import in_pieces, processors
+from gelenk.ik.search.search import in_pieces
 from gelenk.ik.search.words import DIRECTIONS
 from gelenk.ik.verdict.branches import SEARCHED, SPACING, all_branches, by_distance, thin_out, wound
 from gelenk.ik.verdict.judge import assembled, judged
@@ -58,7 +58,7 @@ def nearest(problem: TargetProblem, form: ClosedForm) -> InverseKinematics:
             rows = part.start + np.flatnonzero(np.diff(table.firsts))
             qs[rows], labels[0, rows], labels[1, rows] = table.qs, table.codes, table.free
 
-    in_pieces(solve, count, _PIECE, problem.deadline is not None, processors())
+    in_pieces(solve, count, _PIECE, problem.deadline is not None)
     if form.has_free_elbow and elbow_angle is None:
         for i in np.flatnonzero(labels[0] < 0).tolist():
             if problem.is_over:

@@ -18,25 +18,18 @@ from gelenk.ik.search.descent import descend
 from gelenk.ik.search.null_space import settle
 from gelenk.ik.search.problem import DescentRule, Objective, Options, TargetProblem
 from gelenk.ik.search.retrace import retrace
-from gelenk.ik.search.search import (
-    ITERATIONS_PER_START,
-    MAX_ITERATIONS,
-    Found,
-    nothing_found,
-    search,
-    start_of,
-)
+from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS, Found, nothing_found, search, start_of
 from gelenk.ik.search.task import FULL_POSE
 from gelenk.ik.search.words import BlockingJoint, IterationPath, StepMethod
 from gelenk.ik.verdict.branches import SEARCHED, TRUNCATED, Branches, all_branches, wound, wound_near
 from gelenk.ik.verdict.fixed import held_chain, narrowed, widened_answer
 from gelenk.ik.verdict.judge import assembled, judged
-from gelenk.ik.verdict.nearest import polished
 from gelenk.ik.verdict.result import COUNTED, InverseKinematics
 from gelenk.ik.verdict.verdict import (
     ENOUGH_STARTS,
     blocking_joints,
     explain,
+    polished,
     refused,
     solved_without_limits,
     verdict_on_path,
@@ -176,7 +169,8 @@ def solve_quickly(problem: TargetProblem, starts: int, *, by_form: bool = False)
     judgement = judged(problem, qs)
     if False in judgement[0].tolist():
         return None
-    return assembled(count, np.arange(count), qs, judgement, {"iterations": iterations, "restarts": winners})
+    none = np.zeros(count, dtype=np.int64)
+    return InverseKinematics(qs, *judgement[1:], iterations, winners, none - 1, none, np.arange(count + 1))
 
 
 def _one(problem: TargetProblem) -> InverseKinematics:
@@ -208,14 +202,19 @@ def _searched(problem: TargetProblem) -> tuple[Found, Flags, dict[int, tuple[Blo
     """
     options = problem.options
     budget = options.max_iterations or MAX_ITERATIONS
-    too_far, found = problem.too_far(), nothing_found(len(problem), len(problem.chain))
-    for rows, most in ((~too_far, budget), (too_far, min(budget, _FAR_ITERATIONS))):
-        if rows.any():
-            found.put(rows, search(problem.taken(rows), most))
+    too_far = problem.too_far()
+    if too_far.any():
+        found = nothing_found(len(problem), len(problem.chain))
+        found.put(~too_far, search(problem.taken(~too_far), budget))
+        found.put(too_far, search(problem.taken(too_far), min(budget, _FAR_ITERATIONS)))
+    else:
+        found = search(problem, budget)
     left = ~found.solved & ~too_far
     if max(problem.tolerances) > _LOOSE and left.any():
         found.put(left, search(problem.taken(left), budget, _SLACK))
     unsolved = np.flatnonzero(~found.solved & found.in_time)
+    if not len(unsolved):
+        return found, too_far, {}
     for i in unsolved.tolist():
         if not problem.is_over:
             found.qs[i] = polished(problem, i, found.qs[i])

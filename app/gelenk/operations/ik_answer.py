@@ -9,7 +9,7 @@ from gelenk.contract.ik import MAX_TRACE, InverseRequest
 from gelenk.contract.pose import PoseFormat
 from gelenk.ik.search.words import IterationPath
 from gelenk.ik.verdict.fixed import narrowed
-from gelenk.ik.verdict.result import COUNTED, InverseKinematics, UnsolvedTarget
+from gelenk.ik.verdict.result import COLUMNS, COUNTED, InverseKinematics, UnsolvedTarget
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.operations.ik_request import task_of
 from gelenk.operations.pose_arrays import pose_list
@@ -68,7 +68,7 @@ def results_to_json(chain: Chain, pose_format: PoseFormat, result: InverseKinema
 def _solutions(result: InverseKinematics) -> list[dict[str, Any]]:
     """Return each solution with its method, its branch, and the joints that a singularity leaves free."""
     form, solutions = result.form, []
-    rows = zip(*(column.tolist() for column in result.rows(slice(None)).values()), strict=True)
+    rows = zip(*[getattr(result, name).tolist() for name in COLUMNS], strict=True)
     for q, position_error, orientation_error, iterations, restarts, code, free in rows:
         is_named = form is not None and code >= 0
         solution = {

@@ -278,8 +278,7 @@ def _solve(
                 if _wound(flat, limits, seed, own):
                     error = work.state[_POSITION * LANES + lane] + work.state[_ORIENTATION * LANES + lane]
                     kept.errors[MOST], kept.labels[0, MOST] = error, found.codes[first + lane]
-                    free = _unmoved(flat, plan, found, work, first + lane, lane)
-                    kept.labels[1, MOST] = _mask(free, n, plan.backwards)
+                    kept.labels[1, MOST] = _unmoved(flat, plan, found, work, first + lane, lane)
                     solutions = _insert(kept, solutions, flat, seed)
     return _without_near_misses(kept, solutions)
 
@@ -415,25 +414,13 @@ def _wound(flat: FlatChain, limits: Array, seed: Array, q: Array) -> bool:
 
 @unmanaged
 def _unmoved(flat: FlatChain, plan: SubproblemPlan, found: Candidates, work: Work, row: int, lane: int) -> int:
-    """Bits of a candidate's free joints, in solving order, without those that polishing has moved."""
-    n = found.values.shape[1]
-    free: int = found.free[row]
+    """Bits of the variables whose joints are free in a candidate and have not been moved by polishing."""
+    n, mask = found.values.shape[1], 0
     for j in range(n):
         i = n - 1 - j if plan.backwards else j
         reached = flat.drives[j, 0] * work.previous[j * LANES + lane] + flat.drives[j, 1]
-        if abs(reached - found.values[row, i]) > _MOVED:
-            free &= ~(1 << i)
-    return free
-
-
-@inlined
-def _mask(free: int, n: int, backwards: int) -> int:
-    """Convert bits of joints in solving order to bits of variables."""
-    if not backwards:
-        return free
-    mask = 0
-    for j in range(n):
-        mask |= ((free >> j) & 1) << (n - 1 - j)
+        if (found.free[row] >> i) & 1 and not abs(reached - found.values[row, i]) > _MOVED:
+            mask |= 1 << j
     return mask
 
 

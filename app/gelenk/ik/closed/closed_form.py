@@ -98,11 +98,11 @@ class ClosedForm:
         """
         chain = self.chain
         goal = make_goal(chain, self.task, tolerances, False, 1)
-        angles = np.zeros(1) if elbow_angles is None else np.atleast_1d(np.asarray(elbow_angles, dtype=float))
-        if elbow_angles is None and self.has_free_elbow:
-            angles = self.elbow_angles(seeds)
+        if elbow_angles is None:
+            elbow_angles = self.elbow_angles(seeds) if self.has_free_elbow else 0.0
+        angles = np.atleast_1d(np.asarray(elbow_angles, dtype=float))
         rows = _in_reach_of(self, target_rows(targets))
-        limits = _limit_rows(chain, respect_limits)
+        limits = limits_of(chain, respect_limits)
         return branches(chain.flat, self.plan, goal, limits, rows, np.ascontiguousarray(seeds), angles, most)
 
     @property
@@ -179,7 +179,11 @@ class Choice:
     turns: bool = False
 
 
-_VALUES = {"shoulder": ("front", "back"), "elbow": ("up", "down"), "wrist": ("no_flip", "flip")}
+_VALUES: dict[str, tuple[str, str]] = {
+    "shoulder": ("front", "back"),
+    "elbow": ("up", "down"),
+    "wrist": ("no_flip", "flip"),
+}
 
 
 def closed_form(chain: Chain, task: Task = FULL_POSE) -> ClosedForm | None:
@@ -238,12 +242,6 @@ def screws_of_six(chain: Chain) -> "JointScrews | None":
     if len(chain) != 6 or not _is_simple(chain) or not _is_independent(chain, FULL_POSE):
         return None
     return _screws(chain, _NEARLY)
-
-
-@lru_cache(maxsize=256)
-def _limit_rows(chain: Chain, respect_limits: bool) -> Array:
-    """Lower and upper limits of the variables, infinite if they do not count; shape (2, n), [rad or m]."""
-    return np.stack(limits_of(chain, respect_limits))
 
 
 def _is_simple(chain: Chain) -> bool:
@@ -618,33 +616,23 @@ def _choices(form: ClosedForm) -> tuple[Choice, ...]:
     for name, bit in roots.items():
         if len(np.unique(all_codes & bit)) < 2:
             continue  # The two roots always coincide.
-        set_ = (codes & bit) != 0
+        is_set, turned_by, turns = (codes & bit) != 0, 0, False
         if name == "shoulder":
-            choices.append(_named(name, bit, _share(set_, _near_middle(form, qs)) > 0.5))
+            # The tenth of the configurations that is nearest to mid-range.
+            distances = np.square(qs - mid_range(form.chain)).sum(axis=1)
+            first = _mostly(is_set[distances <= np.quantile(distances, 0.1)])
         elif name == "wrist":
-            choices.append(_named(name, bit, _share(set_, _middle_of_wrist(form, qs) > 0.0) > 0.5))
+            first = _mostly(is_set[_middle_of_wrist(form, qs) > 0.0])
         else:
-            higher = _elbow_heights(form, qs, codes, bit)
-            back = (codes & shoulder) != 0
-            first, second = _share(set_, higher & ~back) > 0.5, _share(set_, higher & back) > 0.5
-            turns = first != second and bool(shoulder)
-            choices.append(replace(_named(name, bit, first), turned_by=shoulder, turns=turns))
+            higher, back, turned_by = _elbow_heights(form, qs, codes, bit), (codes & shoulder) != 0, shoulder
+            first = _mostly(is_set[higher & ~back])
+            turns = bool(shoulder) and first != _mostly(is_set[higher & back])
+        choices.append(Choice(name, bit, _VALUES[name][::-1] if first else _VALUES[name], turned_by, turns))
     return tuple(choices)
 
 
-def _named(name: str, bit: int, first_where_set: bool) -> Choice:
-    values = _VALUES[name]
-    return Choice(name, bit, values[::-1] if first_where_set else values)
-
-
-def _share(flags: Flags, among: Flags) -> float:
-    return float(flags[among].mean()) if among.any() else 0.0
-
-
-def _near_middle(form: ClosedForm, qs: Array) -> Flags:
-    """Flag the tenth of the configurations that is nearest to mid-range; shape (N,)."""
-    distances = np.square(qs - mid_range(form.chain)).sum(axis=1)
-    return np.asarray(distances <= np.quantile(distances, 0.1))
+def _mostly(flags: Flags) -> bool:
+    return bool(len(flags)) and float(flags.mean()) > 0.5
 
 
 def _middle_of_wrist(form: ClosedForm, qs: Array) -> Array:

@@ -128,17 +128,14 @@ _AXIS, _POINT, _SQUARE, _LEVEL, _ALONG, _ACROSS, _SOLVE, _CENTRE, _LEVER = 0, 3,
 
 @unmanaged
 def compose(plan: SubproblemPlan, target: Array, seed: Array, elbow_angle: float, found: Candidates) -> int:
-    """Compute the candidates of one target.
+    """Compute the candidates of one target, T_base_tip as rotation row by row, then position; return their number.
 
     Args:
         plan: The arm.
-        target: T_base_tip, rotation row by row, then position; shape (12,).
+        target: The target; shape (12,).
         seed: Joint values that free joints keep, in solving order; shape (n,), [rad or m].
         elbow_angle: Desired angle of the elbow on its circle, [rad]; used by `ELBOW` alone.
         found: Output.
-
-    Returns:
-        Number of candidates.
     """
     M = _displacement(plan, target)
     found.doubtful[0] = 0
@@ -467,14 +464,7 @@ def _by_turn(
 
 
 @unmanaged
-def _by_slide(
-    plan: SubproblemPlan,
-    reached: _Third,
-    k1: float,
-    k2: float,
-    seed: Array,
-    found: Candidates,
-) -> int:
+def _by_slide(plan: SubproblemPlan, reached: _Third, k1: float, k2: float, seed: Array, found: Candidates) -> int:
     """Solve joints 2 and 3 if joint 2 is prismatic: u = v + q_2 h_2."""
     L, slides = plan.lines, _third_slides(plan)
     v0, v1, v2, square = reached
@@ -700,11 +690,7 @@ def _planar(
     h3 = row(plan.axes, 2)
     arm, base, reach = _flattened(h, minus(o4, o3)), _flattened(h, minus(o3, o2)), _flattened(h, minus(p4, o2))
     middle, half, good = turns_at(
-        (
-            dot(base, base) + dot(arm, arm) - dot(reach, reach),
-            2.0 * dot(base, arm),
-            2.0 * dot(base, cross(h3, arm)),
-        )
+        (dot(base, base) + dot(arm, arm) - dot(reach, reach), 2.0 * dot(base, arm), 2.0 * dot(base, cross(h3, arm)))
     )
     if not good:
         return count

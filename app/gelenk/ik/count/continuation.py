@@ -128,7 +128,7 @@ class Continuation:
 
     def _ends(self, arm: Arm, goal: ComplexArray, tries: tuple[float, ...]) -> tuple[ComplexArray, ComplexArray]:
         """Follow an arm's solutions to a target; return the isolated ends, and all ends of all tries."""
-        found, places = _Ends.none(), []
+        found, places = _Ends(), []
         for longest in tries:
             ends, steps = follow(
                 np.stack((arm.screws, arm.screws)), np.stack((arm.target, goal)), arm.slides, arm.starts, longest, _FAR
@@ -172,22 +172,17 @@ class Continuation:
 class _Ends(NamedTuple):
     """Ends of paths, the lengths of their last Newton steps [rad or sizes of the arm], and flags of isolated ends."""
 
-    qs: ComplexArray
-    steps: Array
-    alone: Flags
-
-    @staticmethod
-    def none() -> "_Ends":
-        return _Ends(np.empty((0, JOINTS), dtype=complex), np.empty(0), np.zeros(0, dtype=bool))
+    qs: ComplexArray = np.empty((0, JOINTS), dtype=complex)
+    steps: Array = np.empty(0)
+    alone: Flags = np.zeros(0, dtype=bool)
 
     def joined(self, qs: ComplexArray, steps: Array, slides: Indices) -> "_Ends":
         """Merge further ends and their conjugates, which also solve a real target, without duplicates."""
         good = np.isfinite(steps)
-        qs, steps = qs[good], steps[good]
-        order = np.argsort(np.concatenate((self.steps, steps, steps)), kind="stable")
-        qs = np.concatenate((self.qs, qs, qs.conj()))[order]
-        steps = np.concatenate((self.steps, steps, steps))[order]
-        chosen = _distinct(qs, steps, slides)
+        qs = np.concatenate((self.qs, qs[good], qs[good].conj()))
+        steps = np.concatenate((self.steps, steps[good], steps[good]))
+        order = np.argsort(steps, kind="stable")
+        chosen = order[_distinct(qs[order], steps[order], slides)]
         qs, steps = qs[chosen], steps[chosen]
         far = np.exp(2.0 * np.abs(qs.imag * (slides == 0)).max(axis=1, initial=0.0))
         return _Ends(qs, steps, steps <= np.minimum(_ALONE * far, _ALONE_FAR))

@@ -25,11 +25,11 @@ def mid_range(chain: Chain) -> Array:
 
 
 @lru_cache(maxsize=256)
-def limits_of(chain: Chain, respect_limits: bool) -> tuple[Array, Array]:
-    """Lower and upper limits of the variables, infinite if they are not respected; shape (n,) each, [rad or m]."""
+def limits_of(chain: Chain, respect_limits: bool) -> Array:
+    """Lower and upper limits of the variables, infinite if they are not respected; shape (2, n), [rad or m]."""
     if respect_limits:
-        return chain.lower, chain.upper
-    return np.full(len(chain), -np.inf), np.full(len(chain), np.inf)
+        return np.stack((chain.lower, chain.upper))
+    return np.repeat([[-np.inf], [np.inf]], len(chain), axis=1)
 
 
 @lru_cache(maxsize=256)

@@ -26,8 +26,6 @@ from gelenk.ik.search.iteration import (
     linearise,
     read_lane,
     set_target,
-    squares,
-    within,
     workspace,
     wound,
 )
@@ -86,13 +84,9 @@ def search(
 
 
 def gather(flat: FlatChain, goal: Goal, target: Array, seed: Array) -> Array:
-    """Return the configurations to which starts of one target converge, in order of convergence; shape (k, n).
+    """Return the configurations to which starts of one target, shape (12,), converge, in that order; shape (k, n).
 
-    Args:
-        flat: The chain.
-        goal: Task, tolerances and bounds.
-        target: Rotation row by row, then position; shape (12,).
-        seed: The first start; shape (n,).
+    The seed is the first start; for the others see `search`.
     """
     arguments: tuple[Any, ...] = (*flat, *goal, target, seed)
     found: Array = _gather(*arguments)
@@ -402,16 +396,17 @@ def _improve(
     least, idle = lanes(np.inf), 0
     for round_ in range(rounds):
         e = linearise(flat, goal, work, as_angles)
-        position, orientation = squares(e)
+        position = e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
+        orientation = e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
         error = position + orientation
         better = error <= least
         idle = 0 if bits(error < least - 1e-9 * min_lanes(least, 1.0)) else idle + 1
         if idle == _IDLE:
             break
         least = where(better, error, least)
+        within = (position <= goal.position_tolerance**2) & (orientation <= goal.chord_tolerance**2)
         reached = load(work.state, REACHED)
-        first = within(goal, position, orientation) & (reached < 0.5)
-        store(work.state, REACHED, where(first, float(round_ + 1), reached))
+        store(work.state, REACHED, where(within & (reached < 0.5), float(round_ + 1), reached))
         store(work.state, _POSITION, where(better, position, load(work.state, _POSITION)))
         store(work.state, _ORIENTATION, where(better, orientation, load(work.state, _ORIENTATION)))
         damping = where(better, max_lanes(0.25 * damping, FLOOR), min_lanes(10.0 * damping, 1e6))
@@ -504,8 +499,9 @@ def _judge(flat: FlatChain, goal: Goal, work: Work) -> tuple[int, Error, Lanes]:
     """Return bits of the lanes that have ended at `q`, see `_iterate`, and error and damping of the next step."""
     state = work.state
     e = linearise(flat, goal, work)
-    position, orientation = squares(e)
-    error, good = position + orientation, within(goal, position, orientation)
+    position, orientation = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
+    error = position + orientation
+    within = (position <= goal.position_tolerance**2) & (orientation <= goal.chord_tolerance**2)
     if goal.slack > 0.0:
         a = _shortening(position, goal.slack * goal.position_tolerance)
         b = _shortening(orientation, goal.slack * goal.chord_tolerance)
@@ -522,13 +518,13 @@ def _judge(flat: FlatChain, goal: Goal, work: Work) -> tuple[int, Error, Lanes]:
     given_up = (since >= float(_STAGNATION)) | (count >= float(LONGEST))
     # One more step than needed takes the error from the tolerance to rounding.
     near = (position <= (CLOSE * goal.position_tolerance) ** 2) & (orientation <= (CLOSE * goal.chord_tolerance) ** 2)
-    converged = good & ((load(state, REACHED) > 0.5) | given_up | near)
+    converged = within & ((load(state, REACHED) > 0.5) | given_up | near)
     store(state, ERROR, error)
     store(state, FIRST, where(load(state, FIRST) < 0.0, error, load(state, FIRST)))
     store(state, BEST, where(halved, error, load(state, BEST)))
     store(state, SINCE, since)
     store(state, COUNT, count)
-    store(state, REACHED, where(good, 1.0, 0.0))
+    store(state, REACHED, where(within, 1.0, 0.0))
     return bits(converged | given_up) | (bits(converged) << LANES), e, DAMPING * error + FLOOR
 
 

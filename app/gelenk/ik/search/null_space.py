@@ -30,7 +30,7 @@ def settle(problem: TargetProblem, qs: Array, objective: Objective) -> Array:
     solution becomes worse. A solution without freedom stays unchanged.
     """
     chain, targets, task = problem.chain, problem.targets, problem.task
-    bounds = np.array(problem.limits)
+    bounds = problem.limits
     best = qs.copy()
     values = _value(chain, targets, best, objective, task)
     sizes = np.full(len(qs), 0.5)

@@ -1,7 +1,7 @@
 """A problem of inverse kinematics: targets for a chain, and how they are to be solved."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -129,8 +129,8 @@ class TargetProblem:
         return self.options.position_tolerance, self.options.orientation_tolerance
 
     @property
-    def limits(self) -> tuple[Array, Array]:
-        """Lower and upper limits of the variables, infinite if they do not count; shape (n,) each, [rad or m]."""
+    def limits(self) -> Array:
+        """Lower and upper limits of the variables, infinite if they do not count; shape (2, n), [rad or m]."""
         return limits_of(self.chain, self.options.respect_limits)
 
     @property
@@ -174,7 +174,8 @@ class TargetProblem:
     def taken(self, rows: Flags | Indices | slice) -> "TargetProblem":
         """Return the problem for some of the targets only."""
         targets = Poses(self.targets.positions[rows], self.targets.rotations[rows])
-        return replace(self, targets=targets, seeds=self.seeds[rows] if len(self.seeds) > 1 else self.seeds)
+        seeds = self.seeds[rows] if len(self.seeds) > 1 else self.seeds
+        return TargetProblem(self.robot, self.chain, targets, seeds, self.options, self.deadline)
 
     def linearised(self, i: int, qs: Array) -> tuple[Array, Array]:
         """Errors of configurations to one target, shape (N, m), and their Jacobians (N, m, n), see `linearise`."""

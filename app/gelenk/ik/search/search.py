@@ -87,7 +87,7 @@ def search(
             found.qs[part], winners[part], found.iterations[part], found.followed[part] = outcome
             found.in_time[part] = True
 
-    in_pieces(solve, count, chunk_of(chain), problem.deadline is not None, threads or processors())
+    in_pieces(solve, count, chunk_of(chain), problem.deadline is not None, threads)
     return replace(found, solved=winners >= 0, restarts=np.maximum(winners, 0))
 
 
@@ -110,11 +110,15 @@ def chunk_of(chain: Chain) -> int:
     return max(1, _CHUNK * 7 // max(7, len(chain)))
 
 
-def in_pieces(work: Callable[[slice], None], count: int, chunk: int, small: bool, threads: int) -> None:
+def in_pieces(work: Callable[[slice], None], count: int, chunk: int, small: bool, threads: int | None = None) -> None:
     """Work on a batch in threads: a few pieces for each, or small ones if the clock is checked between them."""
+    if count <= chunk:
+        work(slice(0, count))
+        return
+    threads = threads or processors()
     size = chunk if small else max(chunk, -(-count // (4 * threads)))
     parts = [slice(first, min(first + size, count)) for first in range(0, count, size)]
-    for _ in map(work, parts) if min(threads, len(parts)) <= 1 else _pool(threads).map(work, parts):
+    for _ in map(work, parts) if threads == 1 else _pool(threads).map(work, parts):
         pass
 
 

@@ -58,13 +58,7 @@ class Task:
     def errors(self, targets: Poses, poses: Poses) -> Array:
         """Distance [m] and angle [rad] from each pose to its target in the directions that count; shape (2, N)."""
         errors: Array = task_errors(
-            self.weights,
-            self.kind,
-            self.axis,
-            targets.positions,
-            targets.rotations,
-            poses.positions,
-            poses.rotations,
+            self.weights, self.kind, self.axis, targets.positions, targets.rotations, poses.positions, poses.rotations
         )
         return errors
 

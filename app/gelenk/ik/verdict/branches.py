@@ -115,7 +115,7 @@ def _converged(problem: TargetProblem, i: int) -> Array:
     qs = wound_near(chain, np.concatenate(found), seed, lower, upper)
     # A solution at a limit may miss it by rounding.
     within = ((qs >= lower - _ROUNDING) & (qs <= upper + _ROUNDING)).all(axis=1)
-    return np.clip(qs[within], lower, upper)
+    return np.asarray(np.clip(qs[within], lower, upper))
 
 
 def wound_near(chain: Chain, qs: Array, seed: Array, lower: Array, upper: Array) -> Array:

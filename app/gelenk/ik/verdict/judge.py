@@ -64,11 +64,19 @@ def assembled(
         labels: Their iterations, restarts, codes and bit masks of free joints, as far as there are any; shape (M,).
         rest: The fields of the answer that are not per solution.
     """
-    solved, *errors = judgement
+    solved, position_errors, orientation_errors = judgement
     none = np.zeros(len(qs), dtype=np.int64)
-    columns: dict[str, Any] = {"iterations": none, "restarts": none, "codes": none - 1, "free": none, **labels}
-    columns.update(qs=qs, position_errors=errors[0], orientation_errors=errors[1])
-    if not solved.all():
+    columns: dict[str, Any] = {
+        "qs": qs,
+        "position_errors": position_errors,
+        "orientation_errors": orientation_errors,
+        "iterations": none,
+        "restarts": none,
+        "codes": none - 1,
+        "free": none,
+        **labels,
+    }
+    if np.count_nonzero(solved) < len(solved):
         owners, columns = owners[solved], {name: column[solved] for name, column in columns.items()}
     return InverseKinematics(**columns, firsts=firsts_of(owners, count), **rest)
 

@@ -110,12 +110,13 @@ class InverseKinematics:
 
     def rows(self, rows: Indices | slice) -> dict[str, Any]:
         """Return some rows of the table, by column."""
-        return {name: getattr(self, name)[rows] for name in _COLUMNS}
+        return {name: getattr(self, name)[rows] for name in COLUMNS}
 
 
-_COLUMNS = ("qs", "position_errors", "orientation_errors", "iterations", "restarts", "codes", "free")
+COLUMNS = ("qs", "position_errors", "orientation_errors", "iterations", "restarts", "codes", "free")
+"""The fields of `InverseKinematics` with a row for each solution."""
 
 
 def firsts_of(owners: Indices, count: int) -> Indices:
     """Return the first row of each of a number of targets, and the end, from the ascending targets of the rows."""
-    return np.searchsorted(owners, np.arange(count + 1))
+    return owners.searchsorted(np.arange(count + 1))
