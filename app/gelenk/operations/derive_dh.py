@@ -1,6 +1,7 @@
 """The worked solution of a DH table. What is not derived in time stays numeric."""
 
 import signal
+import threading
 import time
 from collections.abc import Callable, Sequence
 from itertools import chain
@@ -38,7 +39,10 @@ def is_heavy(_: DeriveRequest) -> bool:
 
 
 def in_time(function: Callable[[_Question], _Result], question: _Question, seconds: float) -> _Result:
-    """Run a function in this process's main thread, and break it off in time, though never while it imports a module.
+    """Run a function, and break it off in time, though never while it imports a module.
+
+    Only a main thread can be broken off, as a worker's is; in another one, as at the command line, the function ends
+    by itself.
 
     Raises:
         TimeoutError: The function takes longer.
@@ -55,6 +59,8 @@ def in_time(function: Callable[[_Question], _Result], question: _Question, secon
 
     if seconds <= 0.0:
         raise TimeoutError
+    if threading.current_thread() is not threading.main_thread():
+        return function(question)
     signal.signal(signal.SIGALRM, stop)
     try:
         try:
