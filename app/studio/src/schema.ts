@@ -2,48 +2,32 @@
 
 export type ArrayInfo = { shape: number[]; columns: string[] };
 
-export type AuditInfo = {
+export type Audit = {
   passed: boolean;
-  velocity: TrajectoryPeakInfo | null;
-  acceleration: TrajectoryPeakInfo | null;
-  jerk: TrajectoryPeakInfo | null;
-  way_error: WayErrorInfo | null;
-  path_deviation: TrajectoryPeakInfo | null;
-  orientation_deviation: TrajectoryPeakInfo | null;
-  continuity: ContinuityInfo;
-  min_singular_value: SmallestInfo | null;
-  limit_margin: MarginInfo | null;
+  velocity: Peak | null;
+  acceleration: Peak | null;
+  jerk: Peak | null;
+  path_deviation: Peak | null;
+  orientation_deviation: Peak | null;
+  continuity: Continuity;
+  min_singular_value: SmallestSingularValue | null;
+  limit_margin: LimitMargin | null;
   ends: Record<string, number>;
-  tip: TipPeaksInfo;
-  certificate: CertificateInfo;
-  reasons: ReasonInfo[];
+  tip: TipPeaks;
+  certificate: PoseCertificate;
+  way_error: PathError | null;
+  reasons: Reason[];
 };
 
-export type BlockingJointInfo = { name: string; position: number; lower: number; upper: number; excess: number };
-
-export type BodyInfo = {
-  joint: string;
-  center_of_mass: MatrixInfo;
-  velocity: MatrixInfo;
-  angular_velocity: FormulaInfo;
-  kinetic_energy: FormulaInfo;
-  potential_energy: FormulaInfo;
-};
+export type BlockingJoint = { name: string; position: number; lower: number; upper: number; excess: number };
 
 export type BoxInfo = { lower: number[]; upper: number[] };
 
 export type BoxShape = { type: "box"; size: number[] };
 
-export type CertificateInfo = {
-  samples: number;
-  max_position_error: number;
-  max_orientation_error: number;
-  seed: number;
-};
-
 export type ChainEnds = { base_frame: string; tip_frame: string };
 
-export type ChristoffelInfo = { latex: string; plain: string; i: number; j: number; k: number };
+export type ChristoffelSymbol = { i: number; j: number; k: number; latex: string; plain: string };
 
 export type CircleSegment = {
   limits?: TrajectoryLimits | null;
@@ -57,50 +41,43 @@ export type CircleSegment = {
   orientation?: "axis_angle" | "zyz" | "zyz_other";
 };
 
-export type ColumnInfo = {
+export type ColumnFormulas = {
   joint: string;
-  axis: MatrixInfo;
-  arm: MatrixInfo | null;
-  linear: MatrixInfo;
-  angular: MatrixInfo;
+  axis: MatrixFormula;
+  arm: MatrixFormula | null;
+  linear: MatrixFormula;
+  angular: MatrixFormula;
 };
 
 export type Configuration = number[] | JointValues;
 
-export type ContinuityInfo = {
-  position: JumpInfo | null;
-  velocity: JumpInfo | null;
-  acceleration: JumpInfo | null;
-  jerk: JumpInfo | null;
-};
+export type Continuity = { position: Jump | null; velocity: Jump | null; acceleration: Jump | null; jerk: Jump | null };
 
 export type CylinderShape = { type: "cylinder"; radius: number; length: number };
 
-export type DampingInfo = { distance: number; angle: number };
+export type Damping = { distance: number; angle: number };
 
 export type DeriveAnswer = {
   convention: "standard" | "modified";
   joint_names: string[];
   notation: "short" | "full";
   symbolic: boolean;
-  legend: LegendEntry[];
-  A: MatrixInfo[];
-  T_0: MatrixInfo[];
-  T_base_tool: MatrixInfo | null;
-  position: MatrixInfo | null;
-  rotation: MatrixInfo | null;
+  legend: SymbolEntry[];
+  A: MatrixFormula[];
+  T_0: MatrixFormula[];
+  T_base_tool: MatrixFormula | null;
+  position: MatrixFormula | null;
+  rotation: MatrixFormula | null;
   jacobian: JacobianInfo | null;
   determinant: DeterminantInfo | null;
-  singularities: SingularConditionInfo[];
+  singularities: SingularCondition[];
   dynamics: DynamicsInfo | null;
   numeric: NumericInfo[];
-  steps: StepInfo[];
+  steps: Step[];
   notes: string[];
-  certificate: DeriveCertificate | null;
+  certificate: FormulaCertificate | null;
   numeric_certificate: NumericCertificate | null;
 };
-
-export type DeriveCertificate = { samples: number; max_error: number; seed: number };
 
 export type DeterminantInfo = {
   block: "full" | "moving" | "linear" | "angular";
@@ -109,7 +86,7 @@ export type DeterminantInfo = {
   why: string;
   latex: string | null;
   plain: string | null;
-  factors: FormulaInfo[];
+  factors: Formula[];
 };
 
 export type DexterityInfo = {
@@ -147,21 +124,21 @@ export type DhTablePayload = {
 };
 
 export type DynamicsInfo = {
-  gravity: MatrixInfo;
-  links: BodyInfo[];
-  mass_matrix: MatrixInfo;
-  christoffel: ChristoffelInfo[];
-  coriolis: MatrixInfo;
-  coriolis_vector: MatrixInfo;
-  gravity_vector: MatrixInfo;
-  skew: MatrixInfo;
-  equations_of_motion: FormulaInfo[];
+  gravity: MatrixFormula;
+  links: LinkFormulas[];
+  mass_matrix: MatrixFormula;
+  christoffel: ChristoffelSymbol[];
+  coriolis: MatrixFormula;
+  coriolis_vector: MatrixFormula;
+  gravity_vector: MatrixFormula;
+  skew: MatrixFormula;
+  equations_of_motion: Formula[];
   numeric: MotionNumbers[];
   certificate: EquationsCertificate;
   numeric_certificate: EquationsCertificate | null;
 };
 
-export type EllipsoidCertificateInfo = {
+export type EllipsoidCertificate = {
   samples: number;
   max_error: number;
   max_time_variation_error: number | null;
@@ -181,22 +158,15 @@ export type EquationsCertificate = {
 
 export type ExitInfo = { joint: string; direction: number[]; rate: number };
 
-export type FailureInfo = {
-  reason: "out_of_reach" | "joint_limit" | "singularity" | "branch_change";
-  segment: number;
-  time: number;
-  position: number[];
-  joint: string | null;
-  detail: string;
-};
-
-export type FamilyInfo = { free_joints: string[]; relation: string | null; text: string; sweep: number[][] };
+export type Family = { free_joints: string[]; relation: string | null; text: string; sweep: number[][] };
 
 export type ForceLimit = { direction: number[]; alone: number | null; component: number | null };
 
 export type ForcePolytope = { along: ForceLimit[]; vertices: number[][] | null };
 
-export type FormulaInfo = { latex: string; plain: string };
+export type Formula = { latex: string; plain: string };
+
+export type FormulaCertificate = { samples: number; max_error: number; seed: number };
 
 export type ForwardAnswer = {
   joint_names: string[];
@@ -204,7 +174,7 @@ export type ForwardAnswer = {
   tip_frame: string;
   poses: Pose[];
   frames?: Record<string, Pose>[] | null;
-  certificate: CertificateInfo;
+  certificate: PoseCertificate;
 };
 
 export type ForwardRequest = {
@@ -269,17 +239,17 @@ export type InverseResult = {
   solutions: SolutionInfo[];
   reason: string | null;
   nearest?: NearestInfo | null;
-  blocking_joints?: BlockingJointInfo[] | null;
+  blocking_joints?: BlockingJoint[] | null;
   unserved_directions?: number[][] | null;
   complete?: boolean | null;
-  families?: FamilyInfo[] | null;
+  families?: Family[] | null;
   stop_reason?:
     "converged" | "stagnated" | "near_singular" | "at_limits" | "diverged" | "time_limit" | "iterations" | null;
-  trace?: IterationInfo[] | null;
+  trace?: Iterate[] | null;
   note?: string | null;
 };
 
-export type IterationInfo = {
+export type Iterate = {
   error: number;
   min_singular_value: number;
   step_length: number | null;
@@ -300,17 +270,17 @@ export type JacobianAnswer = {
   rank_tolerance: number;
   time_variations?: number[][][] | null;
   hessians?: number[][][][] | null;
-  certificate: JacobianCertificateInfo;
+  certificate: JacobianCertificate;
 };
 
-export type JacobianCertificateInfo = {
+export type JacobianCertificate = {
   samples: number;
   max_error: number;
   max_time_variation_error: number | null;
   seed: number;
 };
 
-export type JacobianInfo = { matrix: MatrixInfo; columns: ColumnInfo[] };
+export type JacobianInfo = { matrix: MatrixFormula; columns: ColumnFormulas[] };
 
 export type JobError = { type: string; detail: string; facts: Record<string, unknown> };
 
@@ -350,15 +320,9 @@ export type JointSegment = {
 
 export type JointValues = Record<string, number>;
 
-export type JumpInfo = { value: number; joint: string | null; time: number };
+export type Jump = { value: number; joint: string | null; time: number };
 
-export type LegendEntry = {
-  latex: string;
-  plain: string;
-  meaning_latex: string;
-  meaning: string;
-  value: number | null;
-};
+export type LimitMargin = { value: number; joint: string; bound: "lower" | "upper"; time: number };
 
 export type LimitSourcesInfo = {
   joint_velocity: ("request" | "robot" | "assumed")[];
@@ -382,6 +346,15 @@ export type LineSegment = {
   orientation?: "axis_angle" | "zyz" | "zyz_other";
 };
 
+export type LinkFormulas = {
+  joint: string;
+  center_of_mass: MatrixFormula;
+  velocity: MatrixFormula;
+  angular_velocity: Formula;
+  kinetic_energy: Formula;
+  potential_energy: Formula;
+};
+
 export type LinkShape = { link: string; shape: BoxShape | CylinderShape; pose: Pose };
 
 export type LostDirectionInfo = { twist: number[]; wrench: number[]; lost_here: boolean };
@@ -398,14 +371,12 @@ export type ManipulabilityAnswer = {
   joints_without_velocity_limit?: string[] | null;
   joints_without_effort_limit?: string[] | null;
   results: ManipulabilityInfo[];
-  certificate: EllipsoidCertificateInfo;
+  certificate: EllipsoidCertificate;
 };
 
 export type ManipulabilityInfo = { translation: PartInfo | null; rotation: PartInfo | null; combined: PartInfo | null };
 
-export type MarginInfo = { value: number; joint: string; bound: "lower" | "upper"; time: number };
-
-export type MatrixInfo = { name: string; latex: string | null; plain: string[][] | null };
+export type MatrixFormula = { name: string; latex: string | null; plain: string[][] | null };
 
 export type MeasureInfo = {
   directions: number[][];
@@ -461,7 +432,7 @@ export type NumericCertificate = {
   max_jacobian_error: number;
 };
 
-export type NumericColumnInfo = { axis: number[]; arm: number[]; linear: number[]; angular: number[] };
+export type NumericColumn = { axis: number[]; arm: number[]; linear: number[]; angular: number[] };
 
 export type NumericInfo = {
   joint_positions: number[];
@@ -470,7 +441,7 @@ export type NumericInfo = {
   T_base_tool: number[][];
   position: number[];
   rotation: number[][];
-  columns: NumericColumnInfo[];
+  columns: NumericColumn[];
   jacobian: number[][];
   singular_values: number[];
   rank: number;
@@ -492,7 +463,20 @@ export type PartInfo = {
   force_polytope?: ForcePolytope | null;
 };
 
+export type PathError = { velocity: number | null; acceleration: number | null; jerk: number | null };
+
+export type Peak = { ratio: number | null; value: number; joint: string | null; time: number };
+
 export type PlaneInfo = { origin: number[]; normal: number[]; thickness: number };
+
+export type PlanningFailure = {
+  reason: "out_of_reach" | "joint_limit" | "singularity" | "branch_change";
+  segment: number;
+  time: number;
+  position: number[];
+  joint: string | null;
+  detail: string;
+};
 
 export type PolynomialsInfo = { breaks: number[]; coefficients: number[][][] };
 
@@ -507,9 +491,16 @@ export type Pose = {
   matrix?: number[][] | null;
 };
 
+export type PoseCertificate = {
+  samples: number;
+  max_position_error: number;
+  max_orientation_error: number;
+  seed: number;
+};
+
 export type ReachInfo = { min: number; max: number };
 
-export type ReasonInfo = {
+export type Reason = {
   check: "velocity" | "acceleration" | "jerk" | "joint_limit" | "continuity" | "path" | "tip" | "boundary";
   detail: string;
   joint: string | null;
@@ -548,10 +539,10 @@ export type RobotSummary = {
 
 export type SegmentBlend = { radius: number; start_time: number; end_time: number; acceleration: number | null };
 
-export type SingularConditionInfo = {
+export type SingularCondition = {
   kind: "solved" | "equation" | "never";
-  condition: FormulaInfo;
-  solutions: SingularValueInfo[];
+  condition: Formula;
+  solutions: SingularValue[];
   example: number[] | null;
   example_singular_value: number | null;
 };
@@ -566,13 +557,7 @@ export type SingularPlaceInfo = {
   report: SingularityInfo;
 };
 
-export type SingularValueInfo = {
-  joints: string[];
-  signs: number[];
-  variable: FormulaInfo;
-  formula: FormulaInfo;
-  value: number;
-};
+export type SingularValue = { joints: string[]; signs: number[]; variable: Formula; formula: Formula; value: number };
 
 export type SingularityAnswer = {
   joint_names: string[];
@@ -585,10 +570,10 @@ export type SingularityAnswer = {
   units_mixed: boolean;
   singularities: SingularityEntry[];
   path?: SingularPathInfo | null;
-  certificate: SingularityCertificateInfo;
+  certificate: SingularityCertificate;
 };
 
-export type SingularityCertificateInfo = {
+export type SingularityCertificate = {
   samples: number;
   max_error: number;
   max_time_variation_error: number | null;
@@ -627,7 +612,7 @@ export type SingularityInfo = {
   exit: ExitInfo | null;
 };
 
-export type SmallestInfo = { value: number; time: number };
+export type SmallestSingularValue = { value: number; time: number };
 
 export type SolutionInfo = {
   joint_positions: number[];
@@ -664,7 +649,15 @@ export type SplineSegment = {
   orientation?: "axis_angle" | "zyz" | "zyz_other";
 };
 
-export type StepInfo = { title: string; text: string; latex: string[] };
+export type Step = { title: string; text: string; latex: string[] };
+
+export type SymbolEntry = {
+  latex: string;
+  plain: string;
+  meaning_latex: string;
+  meaning: string;
+  value: number | null;
+};
 
 export type TableCertificate = {
   samples: number;
@@ -673,7 +666,7 @@ export type TableCertificate = {
   seed: number;
 };
 
-export type TimingInfo = {
+export type TimingComparison = {
   segments: number[];
   law: "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal";
   uniform_duration: number;
@@ -682,12 +675,7 @@ export type TimingInfo = {
   time_optimal_duration: number;
 };
 
-export type TipPeaksInfo = {
-  speed: TrajectoryPeakInfo;
-  angular_speed: TrajectoryPeakInfo;
-  acceleration: TrajectoryPeakInfo;
-  angular_acceleration: TrajectoryPeakInfo;
-};
+export type TipPeaks = { speed: Peak; angular_speed: Peak; acceleration: Peak; angular_acceleration: Peak };
 
 export type ToUrdfAnswer = {
   urdf: string;
@@ -703,19 +691,19 @@ export type TrajectoryAnswer = {
   tip_frame: string;
   duration: number;
   completed_fraction: number;
-  failure: FailureInfo | null;
+  failure: PlanningFailure | null;
   times: number[];
   joint_positions: number[][];
   joint_velocities: number[][];
   joint_accelerations: number[][];
   tip_poses: Pose[] | null;
   segments: TrajectorySegmentInfo[];
-  audit: AuditInfo;
-  timing?: TimingInfo[] | null;
+  audit: Audit;
+  timing?: TimingComparison[] | null;
   limits: MotionLimitsInfo;
   limit_sources: LimitSourcesInfo;
   notes: string[];
-  certificate: CertificateInfo | null;
+  certificate: PoseCertificate | null;
 };
 
 export type TrajectoryLimits = {
@@ -727,8 +715,6 @@ export type TrajectoryLimits = {
   tip_angular_velocity?: number | null;
   tip_angular_acceleration?: number | null;
 };
-
-export type TrajectoryPeakInfo = { ratio: number | null; value: number; joint: string | null; time: number };
 
 export type TrajectoryRequest = {
   limits?: TrajectoryLimits | null;
@@ -763,7 +749,7 @@ export type TrajectorySegmentInfo = {
   angle: number | null;
   blended: boolean;
   blend: SegmentBlend | null;
-  joint_deviation: DampingInfo | null;
+  joint_deviation: Damping | null;
   limits: MotionLimitsInfo;
   notes: string[];
   polynomials?: PolynomialsInfo | null;
@@ -793,8 +779,6 @@ export type VoxelsInfo = {
   late_share: number | null;
 };
 
-export type WayErrorInfo = { velocity: number | null; acceleration: number | null; jerk: number | null };
-
 export type WorkspaceAnswer = {
   robot: string;
   robot_digest?: string | null;
@@ -815,10 +799,10 @@ export type WorkspaceAnswer = {
   dexterity: DexterityInfo | null;
   array: ArrayInfo;
   notes: string[];
-  certificate: WorkspaceCertificateInfo;
+  certificate: WorkspaceCertificate;
 };
 
-export type WorkspaceCertificateInfo = {
+export type WorkspaceCertificate = {
   samples: number;
   max_position_error: number;
   max_orientation_error: number;
