@@ -37,7 +37,7 @@ def posted(client: TestClient, body: object) -> dict[str, Any]:
 def derived_here(body: object) -> dict[str, Any]:
     """The answer, computed in this process."""
     request = read_json(DeriveRequest, json.dumps(body).encode())
-    content: dict[str, Any] = json.loads(json_response(derive_dh.run(request).content()).body)
+    content: dict[str, Any] = json.loads(bytes(json_response(derive_dh.run(request).content()).body))
     DeriveAnswer.model_validate(content)
     return content
 

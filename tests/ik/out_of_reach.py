@@ -8,7 +8,7 @@ import zlib
 
 import numpy as np
 
-from gelenk.ik.search.search import target_rows
+from gelenk.ik.search.bounds import target_rows
 from gelenk.kinematics.simd.kernels import chain_jacobians
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain

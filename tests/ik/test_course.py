@@ -96,7 +96,7 @@ def test_newtons_iterates_carry_their_steps_and_singular_values() -> None:
     assert path.trace is not None
     qs = positions(path)
     for k, iterate in enumerate(path.trace):
-        p, J = closed_form(iterate.joint_positions)
+        p, J = closed_form(np.array(iterate.joint_positions))
         assert abs(iterate.error - np.linalg.norm(TARGET.positions[0, :2] - p)) < 1e-15
         assert abs(iterate.min_singular_value - np.linalg.svd(J)[1][-1]) < 1e-14
         if k + 1 < len(path.trace):

@@ -263,6 +263,7 @@ def test_the_steps_can_be_retraced_one_by_one(name: str, task: str) -> None:
         start = start_of(tight, i, int(found.restarts[i]))
         descent = retrace(tight, i, start, int(found.followed[i]))
         steps = int(found.iterations[i]) - 1
+        assert descent.trace is not None
         if steps < len(descent.trace):
             step_by_step = descent.trace[steps].joint_positions
             np.testing.assert_allclose(same_turn(found.qs[i] - step_by_step), 0.0, atol=1e-6)
