@@ -3,11 +3,14 @@
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict
 from decimal import Decimal
 from typing import Any
 
 import numpy as np
 from pydantic import BaseModel
+
+from gelenk.robot.result import Result
 
 DIGITS = 5
 _ROUNDING = 1e-12
@@ -82,6 +85,8 @@ def _plain(value: Any) -> Any:
     match value:
         case BaseModel():
             return _plain(value.model_dump(exclude_unset=True, exclude_none=True))
+        case Result():
+            return _plain({name: item for name, item in asdict(value).items() if item is not None})  # type: ignore[call-overload]
         case np.ndarray() | np.generic():
             return _plain(value.tolist())
         case Mapping():
