@@ -43,18 +43,10 @@ _MARGIN = 1e-9
 def joint_part(
     robot: RobotModel, chain: Chain, start: Array, segment: Segment, index: int, problem: TrajectoryProblem
 ) -> PlannedPart:
-    """Plan a joint segment, as far as it is possible.
+    """Plan a joint segment, number `index`, as far as it is possible, from a configuration of shape (n,), [rad or m].
 
-    Args:
-        robot: The robot.
-        chain: The moving chain.
-        start: Configuration at its beginning; shape (n,), [rad or m].
-        segment: A segment of type `joint`, or a spline through configurations.
-        index: Its number in the trajectory.
-        problem: The problem that contains the segment.
-
-    Raises:
-        InvalidField: There is no such motion, or not in the given time.
+    It is of type `joint`, or a spline through configurations. `InvalidField` if there is no such motion, or not in the
+    given time.
     """
     target = segment.configuration
     if segment.configurations is None and target is None:
@@ -69,7 +61,6 @@ def joint_part(
 def _planned(
     chain: Chain, start: Array, target: Array | None, segment: Segment, index: int, problem: TrajectoryProblem
 ) -> PlannedPart:
-    """Plan a segment to a configuration, or without one through its waypoints."""
     failure: PlanningFailure | None = None
     share = 1.0
     notes: tuple[str, ...] = ()
@@ -144,11 +135,7 @@ def _beside(chain: Chain, start: Array, segment: Segment) -> tuple[PiecewisePoly
 
 
 def _within_tip_limits(chain: Chain, motion: PiecewisePolynomial, segment: Segment) -> PiecewisePolynomial:
-    """Slow the whole motion down if the tip would be too fast.
-
-    Raises:
-        InvalidField: Its duration or times are given.
-    """
+    """Slow the whole motion down if the tip is too fast; raise `InvalidField` if its duration or times are given."""
     tip = segment.limits.tip
     bounds = {name: getattr(tip, name) for name in ("speed", "angular_speed", "acceleration", "angular_acceleration")}
     if not any(math.isfinite(bound) for bound in bounds.values()) or motion.duration == 0.0:

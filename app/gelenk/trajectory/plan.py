@@ -40,11 +40,6 @@ _MOMENT = 1e-9
 def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Trajectory:
     """Plan a trajectory.
 
-    Args:
-        robot: The robot.
-        chain: Chain that moves, with n variables.
-        problem: The request.
-
     Raises:
         InvalidField: A segment is inconsistent, or demands less time than its limits allow.
         OutsideLimits: The start is outside a joint's limits.
@@ -76,7 +71,6 @@ def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Traject
 
 
 def _parts(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> list[PlannedPart]:
-    """Plan the parts, each from rest to rest, up to the first one that cannot be completed."""
     parts: list[PlannedPart] = []
     configuration = problem.start
     for first, segments in _grouped(problem.segments):
@@ -117,10 +111,9 @@ def _refuse_unblendable(segments: tuple[Segment, ...], i: int) -> None:
 
 
 def _factor(parts: list[PlannedPart], problem: TrajectoryProblem) -> float:
-    """Return the factor by which the whole motion is slowed down to last as long as requested.
+    """Return by which factor the whole motion is slowed down to last as long as requested.
 
-    Raises:
-        InvalidField: The motion takes longer already, or a segment has its own duration or times.
+    `InvalidField` if it takes longer already, or a segment has its own duration or times.
     """
     if problem.duration is None:
         return 1.0
@@ -139,8 +132,7 @@ def _factor(parts: list[PlannedPart], problem: TrajectoryProblem) -> float:
 def _with_stated_jerk(part: PlannedPart, problem: TrajectoryProblem) -> PlannedPart:
     """Slow a part down to the requested jerk limits if its law does not keep them by itself.
 
-    Raises:
-        InvalidField: The part would have to be slowed down, but its duration or times are given.
+    `InvalidField` if its duration or times are given.
     """
     limits = part.demands.stated_jerk
     if limits is None or part.demands.keeps_jerk or part.motion.duration == 0.0:
@@ -177,7 +169,6 @@ def _judged(robot: RobotModel, chain: Chain, parts: list[PlannedPart]) -> tuple[
 
 
 def _of_jerk(part: PlannedPart, found: Audit) -> tuple[str, ...]:
-    """Return a note if the law does not keep the jerk limits and the motion exceeds them."""
     jerk = found.jerk
     if part.demands.keeps_jerk or jerk is None or jerk.ratio is None or jerk.ratio <= 1.0 + _ROUNDING:
         return ()
@@ -197,10 +188,6 @@ def _excess(found: Audit) -> float:
 
 
 def refuse_failed(judgement: Audit) -> None:
-    """Refuse a motion that failed its audit.
-
-    Raises:
-        AuditFailed: The motion failed.
-    """
+    """Refuse a motion that failed its audit, with `AuditFailed`."""
     if not judgement.passed:
         raise AuditFailed("; ".join(reason.detail for reason in judgement.reasons[:_MOST_REASONS]))

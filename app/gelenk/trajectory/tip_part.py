@@ -38,18 +38,10 @@ _SLACK = 1.05
 def tip_part(
     robot: RobotModel, chain: Chain, start: Array, segments: Sequence[Segment], first: int, problem: TrajectoryProblem
 ) -> PlannedPart:
-    """Plan a line, a circle, a spline, or blended lines, as far as the joints can follow.
+    """Plan a line, a circle, a spline, or lines each blended into the next, as far as the joints can follow.
 
-    Args:
-        robot: The robot.
-        chain: Chain that moves.
-        start: Start configuration; shape (n,), [rad or m].
-        segments: One segment, or lines that are each blended into the next.
-        first: Index of the first segment in the trajectory.
-        problem: Request that contains the segments.
-
-    Raises:
-        InvalidField: The path is impossible, or cannot be travelled in the given time.
+    The start has the shape (n,), [rad or m]; `first` is the index of the first segment in the trajectory.
+    `InvalidField` if the path is impossible, or cannot be travelled in the given time.
     """
     positions, rotations = chain_poses(chain.flat, start[None])
     path = path_through(Poses(positions, rotations).matrices()[0], segments, first)
@@ -64,16 +56,7 @@ def tip_part(
 
 @dataclass(frozen=True)
 class _TipPart:
-    """A path of the tip with the joints that follow it.
-
-    Attributes:
-        chain: Chain that moves.
-        following: How the joints follow the path.
-        segments: Segments of the path.
-        first: Index of the first of them in the trajectory.
-        path: Path of the tip.
-        joints: Path of the joints, as far as they can follow.
-    """
+    """A path of the tip and the joints that follow it as far as they can; `first` is its first segment's index."""
 
     chain: Chain
     following: Following
@@ -99,7 +82,6 @@ class _TipPart:
 
     @cached_property
     def geometry(self) -> LimitedPath:
-        """The path of the joints with all limits."""
         motion, path = tip_through(self.chain), self.path
         return geometry_of(path.path, self.joints.positions, self.limits, motion, path.zones, path.edges)
 
@@ -113,7 +95,6 @@ class _TipPart:
             return timed(self.geometry, segment.law, duration=duration, slow_down=self.slows_at_corners)
 
     def comparison(self) -> TimingComparison:
-        """Compare the timing of the path by its law with the time-optimal one."""
         law = scaled_law(self.segments[0].law)
         numbers = compared(self.geometry, law)
         return TimingComparison(tuple(range(self.first, self.first + len(self.segments))), law, *numbers)
@@ -166,7 +147,6 @@ class _TipPart:
         ), share
 
     def reports(self, timing: Timed) -> tuple[SegmentReport, ...]:
-        """Return reports of the segments that were started."""
         path, joints = self.path, self.joints
         deviation = Damping(joints.path_deviation, joints.orientation_deviation)
         damped = self.following.near_singularity == "damp" and deviation.distance > self.following.position_tolerance
@@ -190,7 +170,6 @@ class _TipPart:
         return tuple(reports)
 
     def _blend(self, i: int, law: PiecewisePolynomial) -> SegmentBlend | None:
-        """Return the report of the blend after a segment, if the motion reaches it."""
         if i == len(self.path.corners) or self.path.corners[i].begin >= self.joints.reached:
             return None
         corner = self.path.corners[i]
@@ -198,7 +177,6 @@ class _TipPart:
         return SegmentBlend(corner.radius, *self._times_at(law, corner.begin, corner.end), limit)
 
     def _notes(self) -> tuple[str, ...]:
-        """Return a note on the joint limits if they differ among blended lines."""
         first = self.segments[0].limits
         each = ((getattr(one.limits, name), getattr(first, name)) for one in self.segments for name in QUANTITIES)
         if all(np.array_equal(one, other) for one, other in each):

@@ -1,9 +1,8 @@
 """Audit of a motion by evaluating it, with code that shares nothing with the planners.
 
-`audit` takes a joint motion and its demands. It finds the largest velocity, acceleration and jerk of each joint, jumps
-where pieces meet, the distance to joint limits, errors at the ends, the tip's speeds and accelerations, the distance
-from the demanded path (also between samples), and the smallest singular value. Pinocchio recomputes the poses of some
-samples. The result passes, or gives the reasons why not.
+It finds the peaks of each joint and of the tip, jumps where pieces meet, the distance to joint limits, errors at the
+ends, the distance from the demanded path (also between samples), and the smallest singular value. Pinocchio recomputes
+the poses of some samples. The result passes, or gives the reasons why not.
 """
 
 import math
@@ -49,12 +48,6 @@ _TIP_UNITS = {"speed": "m/s", "angular_speed": "rad/s", "acceleration": "m/s²",
 def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands: Demands) -> Audit:
     """Audit a motion.
 
-    Args:
-        robot: The robot.
-        chain: The moving chain; n variables.
-        motion: Joint values over time; n coordinates.
-        demands: Limits, ends and path that the motion must keep.
-
     Raises:
         CertificationFailed: Pinocchio's poses differ, or the motion is invalid: a number is not finite, or a piece
             has no duration.
@@ -87,13 +80,9 @@ def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands:
 
 
 def whole_audit(chain: Chain, motion: PiecewisePolynomial, audits: Sequence[Audit], starts: Sequence[float]) -> Audit:
-    """Combine the audits of parts, each against its own limits, and how the parts meet into one of the whole motion.
+    """Audit a whole motion: the audits of its parts, each against its own limits, and how the parts meet.
 
-    Args:
-        chain: Chain that moves.
-        motion: The whole motion.
-        audits: Audits of its parts, at least one.
-        starts: Start time of each part, [s].
+    The parts, at least one, begin at `starts`, [s].
     """
     if len(audits) == 1:
         return audits[0]
@@ -139,7 +128,6 @@ def _of(audit: Audit, end: str) -> dict[str, float]:
 
 
 def _worst_part(peaks: Sequence[Peak]) -> Peak | None:
-    """Return the peak nearest to its limit or furthest beyond it; the largest peak if none has a limit."""
     limited = [peak for peak in peaks if peak.ratio is not None]
     if limited:
         return max(limited, key=lambda peak: peak.ratio or 0.0)
@@ -159,14 +147,7 @@ def _largest_error(errors: Sequence[PathError]) -> PathError:
 
 @dataclass(frozen=True, slots=True)
 class _Examination:
-    """The checks of a motion.
-
-    Attributes:
-        pieces: The motion.
-        chain: The moving chain.
-        demands: Limits, ends and path that the motion must keep.
-        reasons: Reasons why it does not pass, which each check adds to.
-    """
+    """The checks of a motion; each adds to the reasons why it does not pass."""
 
     pieces: Pieces
     chain: Chain
@@ -190,7 +171,6 @@ class _Examination:
         return peaks
 
     def continuity(self, peaks: dict[str, Peak]) -> Continuity:
-        """Find the largest jump of each derivative."""
         names, tolerance = self.chain.joint_names, self.demands.tolerance
         if not names:
             return Continuity(None, None, None, None)
@@ -206,7 +186,6 @@ class _Examination:
         return Continuity(*jumps)
 
     def margin(self) -> LimitMargin | None:
-        """Find the smallest distance to a joint limit."""
         chain, limits = self.chain, self.demands.joints
         lower = chain.lower if limits.lower is None else limits.lower
         upper = chain.upper if limits.upper is None else limits.upper
@@ -226,7 +205,6 @@ class _Examination:
         return margin
 
     def ends(self, peaks: dict[str, Peak]) -> dict[str, float]:
-        """Return the largest error of each demanded quantity at both ends."""
         pieces, names, demands = self.pieces, self.chain.joint_names, self.demands
         errors: dict[str, float] = {}
         last = len(pieces.widths) - 1
@@ -267,7 +245,6 @@ class _Examination:
         return TipPeaks(*(peaks.pop(name) for name in _TIP_UNITS)), peaks
 
     def check_tip(self, quantity: str, found: Largest, limit: float, ratio: float | None) -> None:
-        """Add a reason if a quantity of the tip exceeds its limit."""
         if ratio is None or ratio <= 1.0 + self.demands.tolerance:
             return
         if quantity in _TIP_UNITS:
@@ -296,5 +273,4 @@ def _ratios(sizes: Array, bounds: Array) -> Array:
 
 
 def _scale(peaks: dict[str, Peak], quantity: str) -> float:
-    """Return the peak of a derivative, but at least 1."""
     return max(1.0, abs(peaks[quantity].value)) if quantity in peaks else 1.0

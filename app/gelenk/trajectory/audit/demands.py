@@ -14,11 +14,8 @@ class JointLimits:
     """Limits of each joint, of shape (n,) each; infinite for a joint without a limit, None if no joint has one.
 
     Attributes:
-        velocity: [rad/s or m/s].
-        acceleration: [rad/s² or m/s²].
-        jerk: [rad/s³ or m/s³].
-        lower: Position, [rad or m]; the chain's limit if None.
-        upper: Likewise.
+        velocity, acceleration, jerk: [rad or m per s, s², s³].
+        lower, upper: Of the position, [rad or m]; the chain's limit if None.
     """
 
     velocity: Array | None = None
@@ -40,13 +37,7 @@ class TipLimits:
 
 @dataclass(frozen=True, slots=True)
 class Zone:
-    """A part of a motion or a path on which the tip has its own limits, in addition to those that hold everywhere.
-
-    Attributes:
-        begin: Time or place at its beginning.
-        end: Time or place at its end.
-        tip: Additional limits of the tip.
-    """
+    """A part of a motion or a path, between two times or places, where the tip has limits besides those everywhere."""
 
     begin: float
     end: float
@@ -58,8 +49,6 @@ class Demands:
     """The limits that a motion must keep, and the path it must follow.
 
     Attributes:
-        joints: Limits of the joints.
-        tip: Limits of the tip.
         ends: Configurations at the start and the end, shape (n,) each, [rad or m]; None leaves them open. The motion
             rests at both.
         path: Demanded pose at each time; None if the tip is free.

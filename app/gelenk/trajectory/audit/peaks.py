@@ -28,16 +28,12 @@ _BESIDE = np.array([-1.0, 0.0, 1.0]) / 64.0
 
 
 def highest(values_at: Values, places: Array, values: Array, exact: Array) -> tuple[Array, Array]:
-    """Find the maximum of each function between the outer two of three places, and where it is.
+    """Return the maximum of each function between the outer two of three places, and where it is; shape (C,) each.
 
     Args:
-        values_at: The functions.
-        places: Three places for each function, increasing; shape (C, 3).
+        places: Three places for each of the C functions, increasing; shape (C, 3).
         values: Values there; shape (C, 3).
         exact: How much higher a peak may be than the value found; shape (C,).
-
-    Returns:
-        Values and places; shape (C,) each.
     """
     rows, start = np.arange(len(places)), values.argmax(axis=1)
     best, where = values[rows, start], places[rows, start]
@@ -73,19 +69,17 @@ def _vertices(places: Array, values: Array) -> tuple[Array, Array]:
 
 
 def promising(places: Array, values: Array, rows: Indices, exact: Array) -> tuple[Indices, Indices]:
-    """Return the samples near which a function may peak above its largest sample.
+    """Return rows and columns, shape (C,) each, of samples near which a function may peak above its largest sample.
 
     The parabola through a sample and its two neighbours estimates the peak; its bend bounds the error. This also covers
     many equally high samples, as along a limit, where the samples alone do not show between which of them a peak lies.
+    At most `MOST` are returned for each function.
 
     Args:
         places: Increasing around each of the rows; shape (N,).
         values: Of Q functions; shape (N, Q).
         rows: Samples whose neighbours belong to the same stretch of the functions; shape (K,).
         exact: Height above the largest sample up to which peaks are ignored; shape (Q,).
-
-    Returns:
-        Rows and columns, at most `MOST` for each function; shape (C,) each.
     """
     largest = values.max(axis=0) + exact
     chosen, columns = np.nonzero(_can_exceed(places, values, rows, largest))

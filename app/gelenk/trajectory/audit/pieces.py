@@ -28,8 +28,7 @@ class Pieces:
     """A motion as separate pieces, each scaled to τ from 0 to 1.
 
     Attributes:
-        starts: Start time of each piece; shape (M,), [s].
-        widths: Duration of each piece; shape (M,), [s].
+        starts, widths: Start time and duration of each piece; shape (M,), [s].
         scaled: c_k hᵏ, the coefficients in τ; shape (degree + 1, M, n).
     """
 
@@ -100,15 +99,9 @@ def pieces_of(motion: PiecewisePolynomial) -> Pieces:
 
 
 def extremes(pieces: Pieces, order: int, *, absolute: bool = False) -> tuple[Array, Array]:
-    """Find the extreme value of a derivative of each joint over the whole motion.
+    """Find the extreme value of a derivative of each joint, and its time [s]; shape (n,) each.
 
-    Args:
-        pieces: The motion.
-        order: Order of the derivative; 0 is the position.
-        absolute: Whether to find the value of largest magnitude, not the highest one.
-
-    Returns:
-        Values and their times, [s]; shape (n,) each.
+    The order 0 is the position. The extreme is the highest value, or if `absolute` that of largest magnitude.
     """
     degree = max(pieces.degree - order, 0)
     count = max(_MIN_INTERVALS, 2 * degree + 2)
@@ -170,8 +163,7 @@ def _refine(
 ) -> None:
     """Refine around each local maximum of the samples in pieces that may exceed the extremes found so far.
 
-    The samples `signed` at `nodes` have shape (K, P, n), `can_exceed` (P, n); `found` is updated, and `first` is the
-    number of the first of these pieces.
+    The samples `signed` at `nodes` have shape (K, P, n), `can_exceed` (P, n); `first` is the number of the first piece.
     """
     piece, joint = np.nonzero(can_exceed)
     samples = signed[:, piece, joint]
@@ -201,7 +193,6 @@ class _Largest:
     tau: Array
 
     def take_samples(self, signed: Array, nodes: Array, first: int) -> None:
-        """Update with samples of consecutive pieces, `first` being the number of the first; shape (K, P, n)."""
         flat = signed.reshape(-1, signed.shape[2])
         where = flat.argmax(axis=0)
         joint = np.arange(len(where))
@@ -209,7 +200,7 @@ class _Largest:
         self.take(flat[where, joint], joint, piece + first, nodes[node])
 
     def take(self, values: Array, joint: Indices, piece: Indices, tau: Array) -> None:
-        """Update with values of some joints; an increase within rounding is ignored."""
+        """Update with samples of some joints; an increase within rounding is ignored."""
         for i in np.argsort(values, kind="stable")[::-1]:
             j = joint[i]
             if self.best[j] == -np.inf or values[i] > self.best[j] + _ROUNDING * abs(self.best[j]):

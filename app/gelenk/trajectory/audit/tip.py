@@ -53,8 +53,7 @@ class Largest:
 def grid(pieces: Pieces, least: int = MIN_SAMPLES, intervals: int = 2) -> tuple[Indices, Array, Indices]:
     """Sample each piece evenly, ends included: at least `least` samples in all, and `intervals` intervals per piece.
 
-    Returns:
-        The piece and τ of each sample, shape (N,) each; and which samples have neighbours on both sides in their piece.
+    Returns the piece and τ of each sample, (N,) each, and which samples have neighbours on both sides in their piece.
     """
     shares = pieces.widths / pieces.widths.sum()
     counts = np.maximum(np.ceil(shares * least).astype(np.int64), intervals) + 1
@@ -126,7 +125,6 @@ def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE
 
 
 def _chunks(count: int) -> list[slice]:
-    """Return slices that split `count` rows into chunks."""
     return [slice(first, first + _CHUNK) for first in range(0, count, _CHUNK)]
 
 
@@ -178,18 +176,10 @@ def _between(
     quantities: Callable[[Indices, Array], Array],
     least: Array,
 ) -> list[tuple[float, int, float]]:
-    """Find the largest value of each of Q columns, also between samples.
+    """Find the largest value of each of Q columns, also between samples: the value, the sample next to it, its place.
 
-    Args:
-        places: Places of the N samples, increasing in each piece.
-        values: Values there; shape (N, Q).
-        inner: Samples with neighbours in their piece.
-        piece: Piece of each sample.
-        quantities: Returns the values in a piece at a place; shape (M,) each → (M, Q).
-        least: Differences that do not matter, for each column.
-
-    Returns:
-        For each column the value, the sample it is next to, and its place.
+    The values have the shape (N, Q); `inner` are the samples with neighbours in their piece, `quantities` evaluates
+    values in a piece at a place, (M,) each → (M, Q), and `least` are differences that do not matter.
     """
     exact = np.maximum(_EXACT * np.abs(values).max(axis=0), least)
     rows, columns = promising(places, values, inner, exact)

@@ -37,7 +37,6 @@ class Crossing:
     Attributes:
         good: The last place known to be good, [m or rad].
         bad: A place beyond it where the bound is violated.
-        kind: The kind of bound.
         joint: Index of the joint that leaves its limits, if any.
         floor: Lower bound on σ there.
     """
@@ -165,7 +164,7 @@ def _margin(field: RateField, knot: Knot, floor: float) -> float:
 
 
 def _outside(field: RateField, knot: Knot) -> int | None:
-    """Return the joint that is furthest beyond its limits; None if all are within."""
+    """Return the joint that is furthest beyond its limits, if any."""
     excess = np.maximum(field.chain.lower - knot.q, knot.q - field.chain.upper)
     joint = int(excess.argmax())
     return joint if field.limited and excess[joint] > SLACK else None

@@ -41,16 +41,12 @@ _SEARCH = 40
 
 @dataclass(frozen=True, slots=True)
 class Damped:
-    """The damped field.
-
-    Attributes:
-        exact: The field without damping; its threshold is σ₀.
-    """
+    """The damped field; the threshold of the exact one, which has no damping, is σ₀."""
 
     exact: RateField
 
     def velocities(self, at: PathSamples, qs: Array) -> tuple[Array, Array]:
-        """Return the field's rates q', shape (N, n), and the smallest singular value, shape (N,)."""
+        """See `RateField`."""
         rows = task_rows(self.exact.chain, self.exact.task, at, qs)
         left, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
         near = np.clip(1.0 - np.square(sigmas / self.exact.threshold), 0.0, None) ** 3
@@ -75,11 +71,7 @@ class Damped:
 
 
 def damped(exact: RateField, start: Array, since: float) -> Trace:
-    """Follow the damped path from a configuration at place `since` to a joint limit or to the end of the path.
-
-    Raises:
-        InvalidField: It takes too many knots.
-    """
+    """Follow the damped path from place `since` to a joint limit or the end; `InvalidField` with too many knots."""
     field, trace = Damped(exact), Trace(start, [])
     for stretch in pairwise((0.0, *exact.path.breaks, exact.path.extent)):
         if stretch[1] <= since:
@@ -103,7 +95,6 @@ def damped(exact: RateField, start: Array, since: float) -> Trace:
 
 
 def _leave_out_what_never_returns(exact: RateField, trace: Trace) -> None:
-    """End the path where the tip leaves its tolerances for good, if it does."""
     ends = np.array([piece.b.q for piece in trace.pieces])
     errors = exact.errors(exact.path.at(np.array([piece.b.s for piece in trace.pieces])), ends)
     good: Flags = np.all(errors.T - np.array(exact.tolerances) <= 0.0, axis=1)
@@ -136,7 +127,6 @@ def cut_short(exact: RateField, trace: Trace, piece: Piece, tau: float) -> None:
 
 
 def _pieces(field: Damped, a: Knot, stretch: tuple[float, float]) -> Iterator[Piece]:
-    """Yield the pieces up to the end of a stretch."""
     end, extent = stretch[1], field.exact.path.extent
     h = min(_FIRST_STEP * extent, end - a.s)
     allowed = SHARE * min(field.exact.tolerances)
@@ -159,7 +149,6 @@ def _pieces(field: Damped, a: Knot, stretch: tuple[float, float]) -> Iterator[Pi
 
 
 def _piece(field: Damped, a: Knot, b: Knot, stretch: tuple[float, float]) -> tuple[Piece, float]:
-    """Return the quintic between two points, and the largest difference of its rate from the field's."""
     exact, data, h = field.exact, end_conditions(a, b), b.s - a.s
     at, qs = exact.samples(a.s + h * INNER, *stretch), rates_of(INNER, 0, data)
     velocities, sigmas = field.velocities(at, qs)

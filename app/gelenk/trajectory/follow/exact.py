@@ -38,14 +38,10 @@ _STEPS, _SETTLED, _RANK = 4, 1e-11, 1e-13
 
 
 def refined(field: RateField, positions: PiecewisePolynomial) -> tuple[PiecewisePolynomial, Array]:
-    """Add knots to a path where its q'' differs from the exact one, and return the remaining error.
+    """Add knots to a path q(s) of quintics where its q'' differs from the exact one.
 
-    Args:
-        field: Field of joint rates.
-        positions: q(s), quintics; pieces too near to singularities or joint limits stay unchanged.
-
-    Returns:
-        The path in M pieces, and the largest error of q'' for each piece and joint, ∞ where unknown; (M, n).
+    Pieces too near to singularities or joint limits stay unchanged. Returned are the path in M pieces, and the largest
+    error of q'' for each piece and joint, ∞ where unknown; (M, n).
     """
     for left in reversed(range(_ROUNDS)):
         off, parts = _errors(field, positions)
@@ -61,8 +57,6 @@ def path_error(joints: PiecewisePolynomial, off: Array | None, timing: Timed, li
     Args:
         joints: q(s), in M pieces.
         off: Largest error of q'' in each piece; shape (M, n). None off the path.
-        timing: Its motion in time.
-        limits: Of the joints.
     """
     if off is None:
         return PathError(None, None, None)

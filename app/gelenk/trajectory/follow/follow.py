@@ -61,11 +61,7 @@ def follow(robot: RobotModel, chain: Chain, path: Path, start: Array, following:
     """Find the joint path that leads the tip along a path, starting at a configuration.
 
     Args:
-        robot: The robot.
-        chain: Chain from base to tip.
-        path: The path of the tip.
         start: A configuration at the path's first pose; shape (n,), [rad or m].
-        following: Directions that count, tolerances, and what to do near singularities.
 
     Raises:
         InvalidField: The tolerances require too many knots.
@@ -104,7 +100,6 @@ def _damped_path(robot: RobotModel, field: RateField, trace: Trace) -> FollowedP
 
 
 def _exactly(field: RateField, path: FollowedPath) -> FollowedPath:
-    """Add the knots that accurate peaks require."""
     if path.reached <= 0.0:
         return path
     positions, bend_errors = refined(field, path.positions)
@@ -132,7 +127,6 @@ def _motionless(start: Array, stop: Stop | None) -> FollowedPath:
 
 
 def _joint_path(trace: Trace, stop: Stop | None) -> FollowedPath:
-    """Return the quintics between the knots of a trace."""
     pieces = trace.pieces
     if not pieces:
         return _motionless(trace.start, stop)

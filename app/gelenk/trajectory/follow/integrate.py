@@ -39,14 +39,11 @@ _GROWTH, _SHRINKAGE, _RESERVE = 3.0, 0.25, 0.85
 
 @dataclass(slots=True)
 class Trace:
-    """The traced path, and how it ended.
+    """The traced path, and how it ended; `best` is the largest σ so far.
 
     Attributes:
         start: First configuration; shape (n,), [rad or m].
-        pieces: The pieces in order.
-        ending: Why it ended.
         crossing: Up to where the path is good, and from where it is not; None if complete.
-        best: The largest σ so far.
     """
 
     start: Array
@@ -69,18 +66,11 @@ class Trace:
 def traced(
     field: RateField, start: Array, since: float = 0.0, until_above: float = np.inf, most: int | None = None
 ) -> Trace:
-    """Trace the path from a configuration on.
+    """Trace the path from a configuration at place `since`, [m or rad].
 
-    Args:
-        field: Field of joint rates.
-        start: Configuration at place `since`; shape (n,).
-        since: Place on the path where it begins, [m or rad].
-        until_above: σ above which tracing stops. If finite, a path about to be lost is also given up once its end can
-            be extrapolated (`_end_of_branch`), instead of being traced to the last nanometre.
-        most: Largest number of pieces; `MOST_KNOTS` if None.
-
-    Raises:
-        InvalidField: It takes too many knots.
+    Tracing stops where σ is above `until_above`. If that is finite, a path about to be lost is also given up once its
+    end can be extrapolated (`_end_of_branch`), instead of being traced to the last nanometre. `InvalidField` if it takes
+    more than `most` pieces, by default `MOST_KNOTS`.
     """
     most = MOST_KNOTS if most is None else most
     trace, creep = Trace(start, []), _CREEP * min(field.path.extent, 1.0)

@@ -48,9 +48,7 @@ class Knot:
 
     Attributes:
         s: Its place, [m or rad].
-        q: Shape (n,), [rad or m].
-        dq: q' there; shape (n,).
-        ddq: q'' there; shape (n,).
+        q, dq, ddq: q, q' and q'' there; shape (n,).
         sigma: The smallest singular value of the rows that count.
         span: An orthonormal basis of the rows of J; shape (r, n).
         change: Norm of dJ/ds, which bounds the change of σ.
@@ -72,9 +70,6 @@ class RateField:
     """The joint rates that follow a path of the tip.
 
     Attributes:
-        chain: Chain from base to tip.
-        path: The path of the tip.
-        task: Directions of the path that count.
         tolerances: Largest distance [m] and angle [rad] from the path.
         threshold: σ at which following ends; 0 goes through singularities as long as an exact path exists.
         limited: Whether joints must keep their limits.
@@ -199,7 +194,6 @@ def _applied(left: Array, sigmas: Array, right: Array, bs: Array) -> Array:
 
 
 def _gains(sigmas: Array) -> Array:
-    """Return 1/σ, or 0 where σ counts as zero."""
     counts = sigmas > _RANK * sigmas[:, :1]
     return np.where(counts, 1.0 / np.where(counts, sigmas, 1.0), 0.0)
 
@@ -207,7 +201,6 @@ def _gains(sigmas: Array) -> Array:
 def _acceleration(
     rows: CountedRows, left: Array, sigmas: Array, right: Array, dq: Array, dJ: Array, dxi: Array
 ) -> Array:
-    """Return q'' of the shortest q'; shape (N, n)."""
     missing = dxi - (dJ @ dq[:, :, None])[:, :, 0]
     if rows.jacobians.shape[2] <= rows.jacobians.shape[1]:
         return _applied(left, sigmas, right, missing)

@@ -41,14 +41,7 @@ class CountedRows:
 
 
 def task_rows(chain: Chain, task: Task, at: PathSamples, qs: Array) -> CountedRows:
-    """Return the rows at configurations on or near the path.
-
-    Args:
-        chain: Chain from base to tip.
-        task: Directions that count.
-        at: The path, one sample per configuration.
-        qs: Shape (N, n), [rad or m].
-    """
+    """Return the rows at configurations of shape (N, n) on or near the path; `at` has one sample for each."""
     if len(task) == len(FULL_POSE):
         errors, Js = linearise(chain, at.poses, qs, task)
         return CountedRows(errors, Js, at.first)
@@ -87,7 +80,6 @@ def row_derivatives(chain: Chain, task: Task, at: PathSamples, qs: Array, dqs: A
 
 
 def _turns_about_one(task: Task) -> bool:
-    """Return whether a single rotation counts."""
     return len(task) - task.positions == 1
 
 

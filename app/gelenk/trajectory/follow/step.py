@@ -45,8 +45,6 @@ class Piece:
     """A piece of the joint path between two knots.
 
     Attributes:
-        a: First knot.
-        b: Last knot.
         data: q, hq', h²q'' at both; shape (6, n).
         sigmas: The smallest singular value at a, in between, and at b; shape (9,).
         deviations: Largest distance [m] and angle [rad] of the tip from the path.

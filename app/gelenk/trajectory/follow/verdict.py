@@ -53,7 +53,6 @@ class Stop:
         s: Place where the path cannot be followed further, [m or rad]; a threshold of σ may end it a little earlier.
         position: Position of the tip there; shape (3,), [m].
         joint: Name of the joint at its limit, if any.
-        detail: An explanation in words.
     """
 
     reason: StopReason
@@ -65,20 +64,13 @@ class Stop:
 
 @dataclass(frozen=True, slots=True)
 class _Ended:
-    """A path that could not be followed to its end.
-
-    Attributes:
-        robot: The robot.
-        field: The field that was followed.
-        trace: How far it was followed.
-    """
+    """A path that could not be followed to its end."""
 
     robot: RobotModel
     field: RateField
     trace: Trace
 
     def solved(self, places: Array, position_tolerance: float, orientation_tolerance: float) -> InverseKinematics:
-        """Solve inverse kinematics for poses on the path, starting at the last configuration that was reached."""
         field = self.field
         options = Options(
             task=field.task, position_tolerance=position_tolerance, orientation_tolerance=orientation_tolerance
@@ -86,13 +78,11 @@ class _Ended:
         return inverse_kinematics(self.robot, field.chain, field.path.at(places).poses, self.trace.last[None], options)
 
     def place(self, s: float) -> str:
-        """Describe a place on the path by s, its share of the path, and its position [m]."""
         path = self.field.path
         x, y, z = path.at(np.array([s])).poses.positions[0]
         return f"at s = {s:.6g} {path.unit} ({s / path.extent:.4%} of the path, ({x:.6g}, {y:.6g}, {z:.6g}) m)"
 
     def stop(self, reason: StopReason, s: float, detail: str, joint: str | None = None) -> Stop:
-        """Return the stop at a place of the path."""
         return Stop(reason, s, self.field.path.at(np.array([s])).poses.positions[0], joint, detail)
 
 
@@ -144,7 +134,7 @@ def _at_limit(ended: _Ended, s: float) -> Stop:
 
 
 def _at_threshold(ended: _Ended, s: float) -> Stop:
-    """Return the verdict at a threshold: whether the branch ends while σ is below it, or goes on beyond."""
+    """Tell whether the branch ends while σ is below the threshold, or goes on beyond."""
     beyond, onward = replace(ended.field, limited=False, threshold=0.0), "the branch continues beyond"
     threshold, trace = ended.field.threshold, ended.trace
     try:
@@ -172,7 +162,7 @@ def _too_fast(ended: _Ended, s: float) -> Stop:
 
 
 def _at_end_of_branch(ended: _Ended, s: float) -> Stop:
-    """Return the verdict that the solutions of inverse kinematics just beyond the end give."""
+    """Judge by the solutions of inverse kinematics just beyond the end."""
     extent = ended.field.path.extent
     places = np.minimum(s + _BEYOND * min(extent, 1.0), extent)
     found = ended.solved(places, _IK_TOLERANCE, _IK_TOLERANCE)

@@ -30,12 +30,7 @@ class LimitExcess(NamedTuple):
 
 
 def first_limit_excess(chain: Chain, motion: PiecewisePolynomial) -> LimitExcess | None:
-    """Find the first time that a joint exceeds its limits by more than 1e-9; None if all stay within.
-
-    Args:
-        chain: The moving chain; n variables.
-        motion: Joint values over time, or along a path.
-    """
+    """Find the first time, or place on a path, at which a joint is more than 1e-9 beyond its limits, if any."""
     if _is_surely_within(chain, motion):
         return None
     times, values = candidates(motion)
@@ -61,7 +56,6 @@ def _is_surely_within(chain: Chain, motion: PiecewisePolynomial) -> bool:
 def _first_above(
     motion: PiecewisePolynomial, piece: int, joint: int, sign: float, level: float, extremes: Array
 ) -> float:
-    """Return when a piece first exceeds a level that one of its extremes exceeds, [s]."""
     start = motion.breaks[piece]
     c = motion.coefficients[piece, ::-1, joint]
     times = np.sort(extremes) - start

@@ -48,20 +48,16 @@ def point_to_point_motion(
     - cubic, quintic, septic: T is the largest of c₁Δ/v, √(c₂Δ/a) and, except for the cubic, ∛(c₃Δ/j) of any joint, with
       the peaks c of the law: 1.5, 6; 1.875, 5.7735, 60; 2.1875, 7.5132, 52.5. Acceleration is zero at both ends of a
       quintic, and jerk too for a septic.
-    - jerk_limited: the least time under limits of velocity, acceleration and jerk, along the straight line if that
-      takes no longer.
-    - trapezoidal: a trapezoid for each joint, the slowest one as fast as its limits allow, the others slowed down by
-      k = T/T_j: v/k, a/k². In a given time each keeps its acceleration and coasts more slowly. No ramp is shorter than
-      2e-6 of the time; if it would be, the acceleration is reduced.
+    - jerk_limited: the least time under limits of velocity, acceleration and jerk.
+    - trapezoidal: the slowest joint is as fast as its limits allow, the others are slowed down by k = T/T_j: v/k, a/k².
+      In a given time each keeps its acceleration and coasts more slowly. No ramp is shorter than 2e-6 of the time; if
+      it would be, the acceleration is reduced.
     - time_optimal: the same, except in a given time.
 
     In a given time all laws but the trapezoid are slowed down as a whole. Tip limits are not considered.
 
     Args:
-        start: Shape (n,), [rad or m].
-        target: Shape (n,), [rad or m].
-        law: Time law.
-        limits: Of the joints.
+        start, target: Shape (n,), [rad or m].
         duration: T, [s]; the least if None.
 
     Returns:
@@ -97,11 +93,7 @@ def kept_limits(law: Law, limits: SegmentLimits) -> ScalingLimits:
 
 
 def lasting(motion: PiecewisePolynomial, duration: float, law: Law, limits: SegmentLimits) -> PiecewisePolynomial:
-    """Slow the fastest motion with a law down to a given duration, [s].
-
-    Raises:
-        InvalidField: The duration is too short; the error names the limit that binds.
-    """
+    """Slow the fastest motion with a law down to a duration, [s]; `InvalidField` names the limit that forbids it."""
     least = motion.duration
     if duration < least * (1.0 - ROUNDING):
         bound = uniform_scaling(motion, kept_limits(law, limits)).binding
@@ -116,7 +108,6 @@ def compared_point_to_point(start: Array, target: Array, law: Law, limits: Segme
     """Compare a uniformly scaled law with the fastest motion along the same path; all zero if nothing moves.
 
     The trapezoid has its own path. Its slowest joint is already as fast as its limits allow, so nothing can be gained.
-    Arguments and errors are those of `point_to_point_motion`.
     """
     motion = point_to_point_motion(start, target, law, limits)
     if motion.duration == 0.0:
@@ -151,7 +142,6 @@ def _beside_line(
 
 
 def _along_line(start: Array, steps: Array, law: Law, limits: SegmentLimits) -> PiecewisePolynomial:
-    """Return the fastest motion on the straight line, from the limits of s."""
     moves = steps != 0.0
     bounds = (limits.joints[:, moves] / np.abs(steps[moves])).min(axis=1).tolist()
     s = _jerk_limited(bounds) if law == "jerk_limited" else _polynomial(law, bounds)
@@ -175,7 +165,6 @@ def _jerk_limited(bounds: Sequence[float]) -> PiecewisePolynomial:
 
 
 def _trapezoid(start: Array, steps: Array, limits: SegmentLimits, duration: float | None) -> PiecewisePolynomial:
-    """Return each joint on its own profile, slowed down to the slowest one or lasting a given time."""
     most = (1.0 / _LEAST_RAMP - 1.0) * limits.velocity**2
     tasks = [
         JointMove(float(L), 0.0, 0.0, float(v), min(float(a), float(high) / abs(float(L))) if L else float(a))

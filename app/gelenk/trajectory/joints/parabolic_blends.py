@@ -23,10 +23,9 @@ class Blends:
     """A motion of straight segments and parabolic blends.
 
     Attributes:
-        motion: Joint positions over time.
-        velocities: Velocities on the straight segments; shape (N - 1, n), [rad/s or m/s].
-        accelerations: Signed accelerations in the blends; shape (N, n), [rad/s² or m/s²].
-        durations: Durations of the blends; shape (N, n), [s].
+        velocities: On the straight segments; shape (N - 1, n), [rad/s or m/s].
+        accelerations: In the blends, signed; shape (N, n), [rad/s² or m/s²].
+        durations: Of the blends; shape (N, n), [s].
         deviations: Distance by which the motion misses each point at its time; shape (N, n), [rad or m].
     """
 
@@ -38,15 +37,12 @@ class Blends:
 
 
 def with_blend_times(times: Array, points: Array, blend_times: Array) -> Blends:
-    """Plan blends of given durations; the accelerations follow from them.
+    """Plan blends of given durations, from which the accelerations follow; `InvalidField` if a segment is too short.
 
     Args:
         times: Times of the points, increasing; shape (N,), [s].
         points: Via points; shape (N, n), [rad or m].
         blend_times: t_b > 0 of each point; shape (N,), [s].
-
-    Raises:
-        InvalidField: A segment is too short for its blends.
     """
     lengths, steps = np.diff(times), np.diff(points, axis=0)
     _check_room(lengths, np.repeat(blend_times[:, None], points.shape[1], axis=1), "blend_time")
@@ -63,13 +59,11 @@ def with_blend_times(times: Array, points: Array, blend_times: Array) -> Blends:
 def with_accelerations(times: Array, points: Array, accelerations: Array) -> Blends:
     """Plan blends of given accelerations; their durations follow as t_b = |Δv|/a.
 
-    Args:
-        times: Times of the points, increasing; shape (N,), [s].
-        points: Via points; shape (N, n), [rad or m].
-        accelerations: a > 0 of each joint; shape (n,), [rad/s² or m/s²].
+    `InvalidField` if a segment is too short for its blends, or an end segment for its distance from rest. Times and
+    points are those of `with_blend_times`.
 
-    Raises:
-        InvalidField: A segment is too short for its blends, or an end segment for its distance from rest.
+    Args:
+        accelerations: a > 0 of each joint; shape (n,), [rad/s² or m/s²].
     """
     lengths, steps = np.diff(times), np.diff(points, axis=0)
     velocities = steps / lengths[:, None]
@@ -109,7 +103,6 @@ def shared(durations: Array) -> Array:
 
 
 def _check_room(lengths: Array, durations: Array, field: str) -> None:
-    """Check that each segment has room for its blends."""
     parts = shared(durations)
     taken = parts[:-1] + parts[1:]
     late = np.argwhere(taken > lengths[:, None] * (1.0 + _ROUNDING))
@@ -131,7 +124,6 @@ def _changes(velocities: Array) -> Array:
 def _assembled(
     times: Array, points: Array, velocities: Array, accelerations: Array, durations: Array, field: str
 ) -> Blends:
-    """Assemble each joint's motion from alternating blends and straight lines."""
     parts = shared(durations)
     straights = np.maximum(np.diff(times)[:, None] - parts[:-1] - parts[1:], 0.0)
     phases = np.zeros((points.shape[1], 2 * len(times) - 1, 2))

@@ -44,12 +44,8 @@ _STILL = 1e-12
 class JointSpline:
     """The spline through the waypoints of a segment; the module explains its law, times and boundary.
 
-    Between waypoints it can exceed joint limits: check with `first_limit_excess`.
-
-    Attributes:
-        segment: The segment.
-        points: The start and the waypoints, with their times or, without times, spaced.
-        path: The spline without its time law: q(u), with these knots.
+    Between waypoints it can exceed joint limits: check with `first_limit_excess`. `points` are the start and the
+    waypoints, with their times or, without times, spaced; `path` is the spline q(u) without its time law.
     """
 
     segment: Segment
@@ -60,8 +56,7 @@ class JointSpline:
     def of(cls, start: Array, segment: Segment, chain: Chain) -> "JointSpline":
         """Return the spline of a segment with `configurations`, from a start of shape (n,), [rad or m].
 
-        Raises:
-            InvalidField: There is no such spline, its times are impossible, or a waypoint is outside limits.
+        `InvalidField` if there is none, its times are impossible, or a waypoint is outside limits.
         """
         check_limits(segment.limits.joints)
         check_duration(segment.duration)
@@ -79,9 +74,7 @@ class JointSpline:
     def motion(self) -> PiecewisePolynomial:
         """Return the motion from time 0 on, at rest at both ends.
 
-        Raises:
-            InvalidField: The times or the duration are too short.
-            TooLarge: It has too many pieces for the fastest motion.
+        `InvalidField` if times or duration are too short; `TooLarge` with too many pieces for the fastest motion.
         """
         segment = self.segment
         if segment.times is None:
@@ -108,17 +101,10 @@ class JointSpline:
         return timings(self._fastest(), limits, optimal)
 
     def prefix(self, chain: Chain, excess: LimitExcess) -> tuple[PiecewisePolynomial, int]:
-        """Plan through as many waypoints as a spline can pass within the joint limits.
+        """Plan through as many waypoints before `excess` as a spline passes within joint limits, and count them.
 
         The spline ends at rest at the last of them. Part of a periodic spline gets a natural boundary; part of a spline
         at given times is slowed down if its stop would exceed the limits.
-
-        Args:
-            chain: The moving chain.
-            excess: Where the spline first exceeds the joint limits.
-
-        Returns:
-            The motion, and the number of waypoints reached.
         """
         before = int(np.searchsorted(self.points.times, excess.time, side="right")) - 1
         most = min(before, len(self.points.times) - 2)
@@ -134,7 +120,6 @@ class JointSpline:
         return standing(self.points.positions[0]), 0
 
     def _is_scaled(self) -> bool:
-        """Return whether the spline is the motion itself: at rest at both ends, with a law that scales it."""
         path = self.path
         chords = np.diff(path.at(path.breaks), axis=0) / np.diff(path.breaks)[:, None]
         ends = path.derivative().at(path.breaks[[0, -1]])
@@ -147,7 +132,6 @@ class JointSpline:
         return uniform_scaling(self.path, kept_limits(law, self.segment.limits))
 
     def _fastest(self) -> PiecewisePolynomial:
-        """Return the motion from rest to rest along the path in the least time of the law."""
         law, limits = self.segment.law, self.segment.limits
         if self._is_scaled():
             return self.path.scaled(uniform_scaling(self.path, kept_limits(law, limits)).factor or 1.0)
@@ -159,9 +143,8 @@ class JointSpline:
 def promised(segment: Segment) -> tuple[int, bool]:
     """Return how smooth the motion of a joint segment is, for a spline or from point to point.
 
-    Returns:
-        The order up to which its derivatives do not jump within it; whether acceleration jumps neither within it nor at
-        its ends, and jerk is limited.
+    The first number is the order up to which its derivatives do not jump within it; the flag tells whether acceleration
+    jumps neither within it nor at its ends, and jerk is limited.
     """
     law = LAWS[segment.law]
     if segment.blends:

@@ -2,7 +2,7 @@
 
 If no times are given, each step first lasts as long as its slowest joint needs at its velocity limit. Steps too short
 for their blends are stretched, as by Kunz and Stilman [Kunz2011]; then all times are multiplied by the least factor
-that keeps the limits. The result contains the distance by which each via point is missed.
+that keeps the limits.
 """
 
 from dataclasses import replace
@@ -35,15 +35,14 @@ def via_blends(
 ) -> Blends:
     """Plan a motion from rest to rest past via points, with constant velocities on lines and accelerations in blends.
 
-    The motion starts and ends exactly at its end points. It misses an inner point by |Δv| t_b / 8 at the point's time
-    (`Blends.deviations`). Jerk limits do not apply.
+    It starts and ends exactly at its end points, and misses the others by `Blends.deviations`. Jerk is not limited.
 
     Args:
-        start: Start configuration; shape (n,), [rad or m].
+        start: Shape (n,), [rad or m].
         configurations: Via points after the start, the last one being the end; shape (m, n), [rad or m].
-        limits: Joint limits; the blends have the full acceleration.
-        times: Times of the points after the start; shape (m,), [s]; the shortest found if not given.
-        duration: Requested duration, given instead of times, [s].
+        limits: Of the joints; the blends have the full acceleration.
+        times: Of the points after the start; shape (m,), [s]; the shortest found if not given.
+        duration: Given instead of times, [s].
 
     Raises:
         InvalidField: Points or times are invalid, a segment is too short for its blends, the limits are exceeded at
@@ -70,7 +69,7 @@ def via_blends(
 
 
 def _fastest(points: Knots, limits: SegmentLimits) -> Blends:
-    """Plan with times that fit the blends: stretch steps one by one, then scale all by the least possible factor."""
+    """Stretch steps one by one until they fit the blends, then scale all by the least possible factor."""
     steps = np.diff(points.positions, axis=0)
     lengths = _stretched(np.diff(points.times), steps, limits)
     low, high = 0.0, 1.0
@@ -86,7 +85,6 @@ def _fastest(points: Knots, limits: SegmentLimits) -> Blends:
 
 
 def _stretched(lengths: Array, steps: Array, limits: SegmentLimits) -> Array:
-    """Lengthen each step until its blends fit; shape (N - 1,), [s]."""
     for _ in range(_STRETCHES):
         loads = _loads(lengths, steps, limits)
         if (loads <= 1.0).all():
@@ -113,7 +111,6 @@ def _loads(lengths: Array, steps: Array, limits: SegmentLimits) -> Array:
 
 
 def _lasting(found: Blends, duration: float) -> Blends:
-    """Slow the motion down to a given duration."""
     least = found.motion.duration
     if duration < least * (1.0 - ROUNDING):
         raise InvalidField("duration", f"must be at least {least:.10g} s")

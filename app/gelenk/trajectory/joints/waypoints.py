@@ -58,7 +58,6 @@ def knots(start: Array, waypoints: Array | None, times: Array | None, velocity: 
 
 
 def _spaced(positions: Array, velocity: Array) -> Array:
-    """Return times spaced by the steps of the slowest joint."""
     steps = np.abs(np.diff(positions, axis=0))
     lengths = (steps / velocity).max(axis=1, initial=0.0)
     is_same = steps.max(axis=1, initial=0.0) <= NO_LENGTH

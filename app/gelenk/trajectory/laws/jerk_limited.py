@@ -33,18 +33,15 @@ def at_rest(positions: Array) -> Array:
 
 
 def jerk_limited(start: Array, end: Array, limits: Array) -> PiecewisePolynomial:
-    """Return the motion of least duration from one state to another: cubics, C² throughout.
+    """Return the motion of least duration from one state to another: cubics, C² throughout, from time 0 on.
 
-    All joints start and end together.
+    All joints start and end together. With zero duration it is one piece whose two breaks are equal.
 
     Args:
         start: Position, velocity and acceleration, within the limits and able to stay within them afterwards; shape
             (3, n), [rad or m per sᵏ].
         end: Likewise, and reachable without exceeding the limits before.
-        limits: Limits of velocity, acceleration and jerk, for both directions; each > 0; shape (3, n).
-
-    Returns:
-        The motion, from time 0 on. With zero duration it is one piece whose two breaks are equal.
+        limits: Of velocity, acceleration and jerk, for both directions; each > 0; shape (3, n).
 
     Raises:
         InvalidField: A limit is out of range, a state is beyond the limits, or no motion is shorter than `LONGEST`.
@@ -134,7 +131,6 @@ def _integrated(start: Array, end: Array, dts: Array, jerks: Array) -> tuple[Arr
 
 
 def _accumulated(start: Array, steps: Array) -> Array:
-    """Return the start and the sums of the steps from there; shape (M + 1, n)."""
     return np.concatenate((start[None], start + np.cumsum(steps, axis=0)))
 
 

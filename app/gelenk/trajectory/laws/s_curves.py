@@ -38,11 +38,7 @@ def lasting(caps: Array) -> Array:
 
 
 def planned(caps: Array) -> PiecewisePolynomial:
-    """Return one profile as s(t), with its own duration.
-
-    Args:
-        caps: Largest speed, acceleration and jerk; shape (3,), [1/s, 1/s², 1/s³].
-    """
+    """Return one profile as s(t), with its own duration, for caps of shape (3,), in the units of `phases`."""
     found = np.array(phases(caps[None]))
     total = float(np.array([4.0, 2.0, 1.0]) @ found[:, 0])
     jerking, even, coast = np.where(found > _SHORTEST * total, found, [[_SHORTEST * total], [0.0], [0.0]])
@@ -59,7 +55,6 @@ def profiles(caps: Array, count: int) -> tuple[Array, Array, Array, Array]:
 
 
 def _states(lasting_each: tuple[Array, Array, Array], count: int) -> tuple[Array, Array, Array, Array]:
-    """Sample profiles with given durations of their phases; see `profiles`."""
     jerking, even, coast = (values[:, None] for values in lasting_each)
     shares = np.linspace(0.0, 1.0, count)
     rising, steady, falling, coasting = (width * shares for width in (jerking, even, jerking, 0.5 * coast))

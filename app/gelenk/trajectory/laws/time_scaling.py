@@ -29,13 +29,7 @@ _STANDS_STILL = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class ScalingLimits:
-    """Limits of each joint; > 0, shape (n,) each, None for no limit.
-
-    Attributes:
-        velocity: [rad/s or m/s].
-        acceleration: [rad/s² or m/s²].
-        jerk: [rad/s³ or m/s³].
-    """
+    """Limits of each joint; > 0, shape (n,) each, [rad or m per s, s² or s³], None for no limit."""
 
     velocity: Array | None = None
     acceleration: Array | None = None
@@ -76,9 +70,8 @@ class Scaling:
     """Factors by which a motion can be slowed down or sped up.
 
     Attributes:
-        bounds: One bound per limited quantity.
         binding: Bound that requires the largest k.
-        course_factor: k = max{1, k_vel, √k_acc} as in the course, which only slows down.
+        course_factor: k = max{1, k_vel, √k_acc} as in the course.
         factor: The same without the 1; None for a motion that stands still.
     """
 
@@ -100,12 +93,7 @@ def check_limits(limits: Iterable[Array]) -> None:
 
 
 def uniform_scaling(motion: PiecewisePolynomial, limits: ScalingLimits) -> Scaling:
-    """Compute the factors by which to multiply a motion's time.
-
-    Args:
-        motion: Motion to scale.
-        limits: Limits of at least one quantity.
-    """
+    """Compute the factors by which to multiply a motion's time, under limits of at least one quantity."""
     bounds = tuple(
         _bound(quantity, order, peaks(motion, order), limit)
         for order, quantity in enumerate(QUANTITIES, start=1)

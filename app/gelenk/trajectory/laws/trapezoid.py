@@ -29,8 +29,7 @@ class JointMove:
 
     Attributes:
         distance: L, [rad or m].
-        start_velocity: v_i, [rad/s or m/s].
-        end_velocity: v_f, [rad/s or m/s].
+        start_velocity, end_velocity: v_i and v_f, [rad/s or m/s].
         max_velocity: v_max > 0, at least |v_i| and |v_f|; infinite for no limit, [rad/s or m/s].
         acceleration: a > 0, [rad/s² or m/s²].
     """
@@ -52,13 +51,9 @@ class Profile:
     """A velocity profile that goes from v_i to v_p, stays there, and goes on to v_f.
 
     Attributes:
-        start_velocity: v_i, [rad/s or m/s].
-        peak_velocity: v_p, the coasting velocity, [rad/s or m/s].
-        end_velocity: v_f, [rad/s or m/s].
+        start_velocity, peak_velocity, end_velocity: v_i, v_p and v_f, [rad/s or m/s].
         acceleration: Magnitude of the acceleration in the first and the last phase, [rad/s² or m/s²].
-        first: Duration of the first phase, [s].
-        coast: Duration of the coast, 0 if there is none, [s].
-        last: Duration of the last phase, [s].
+        first, coast, last: Durations of the phases, [s]; the coast may be 0.
     """
 
     start_velocity: float
@@ -115,12 +110,7 @@ def fastest(task: JointMove) -> Profile:
 
 
 def lasting(task: JointMove, duration: float) -> Profile | None:
-    """Return the profile of a given duration with the task's acceleration; None if it does not exist.
-
-    Args:
-        task: Motion required of the joint, with its velocity limit.
-        duration: T, [s].
-    """
+    """Return the profile of a given duration, [s], with the task's acceleration; None if it does not exist."""
     low, high = sorted((task.start_velocity, task.end_velocity))
     L, a = task.distance, task.acceleration
     spread = (high - low) / a
@@ -157,7 +147,6 @@ class PointToPoint:
     """A motion from one configuration to another in which all joints start and end together.
 
     Attributes:
-        motion: Positions over time.
         profiles: Profile of each joint in this motion.
         own: Fastest profile of each joint by itself.
         factors: k = T/T_j of each joint whose own profile was slowed down; None if it was planned for the duration.
@@ -180,7 +169,6 @@ def point_to_point(
 
     Args:
         starts: Initial positions; shape (n,), [rad or m].
-        tasks: Motion required of each joint.
         duration: T, [s]; by default that of the slowest joint.
         may_reverse: Whether a joint may turn back if it cannot go straight.
 
@@ -229,7 +217,6 @@ def _in_step(task: JointMove, own: Profile, joint: int, end: float, may_slow: bo
 
 
 def _check(task: JointMove, joint: int, may_reverse: bool) -> None:
-    """Check that the end velocities are within the limit and possible over the distance."""
     name = f"joint {joint + 1}"
     for field, velocity in (("start_velocity", task.start_velocity), ("end_velocity", task.end_velocity)):
         if abs(velocity) > task.max_velocity:

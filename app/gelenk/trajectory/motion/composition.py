@@ -80,12 +80,7 @@ class _Expansion:
 
 
 def in_time(joints: PiecewisePolynomial, law: PiecewisePolynomial) -> PiecewisePolynomial:
-    """Compose q(s(t)).
-
-    Args:
-        joints: q(s).
-        law: s(t), non-decreasing, from the first break of the joints to the last.
-    """
+    """Compose q(s(t)), where s(t) leads without going back from the first break of the joints to the last."""
     degree = (joints.coefficients.shape[1] - 1) * (law.coefficients.shape[1] - 1)
     if degree <= _EXACT_DEGREE:
         exact = _expanded(joints, law, _breaks(joints, law, _SAME))
@@ -150,7 +145,6 @@ def _chained(along: Sequence[Array], rates: Sequence[Array]) -> Array:
 
 
 def _parts(exact: _Expansion, coefficients: Array) -> Indices:
-    """Return the number of parts into which each piece is to be divided; shape (M,)."""
     widths = np.diff(exact.breaks)[:, None]
     errors, sizes = np.zeros((4, len(widths))), np.zeros((4, 1, coefficients.shape[2]))
     for tau in _PROBES:

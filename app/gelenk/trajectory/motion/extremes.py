@@ -20,8 +20,8 @@ class Peaks:
     """The value of each coordinate of a motion that is furthest from zero, and its time.
 
     Attributes:
-        values: Peak values with their signs; shape (n,).
-        times: Their times, the first one of several, [s]; shape (n,).
+        values: With their signs; shape (n,).
+        times: The first one of several, [s]; shape (n,).
     """
 
     values: Array
@@ -29,12 +29,7 @@ class Peaks:
 
 
 def peaks(motion: PiecewisePolynomial, order: int) -> Peaks:
-    """Find the largest magnitude of a derivative of a motion, including both ends of each piece.
-
-    Args:
-        motion: The motion.
-        order: Order of the derivative: 1 for velocity, 2 for acceleration, 3 for jerk.
-    """
+    """Find the largest magnitude of a derivative, also at both ends of each piece; order 1 is the velocity."""
     flat_times, flat = (found.reshape(-1, found.shape[-1]) for found in candidates(motion.derivative(order)))
     sizes = np.abs(flat)
     late = np.where(sizes >= sizes.max(axis=0) * (1.0 - _SAME), flat_times, np.inf)

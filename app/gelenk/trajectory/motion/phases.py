@@ -31,7 +31,7 @@ def of_phases(
 
     Args:
         starts: Initial positions; shape (n,), [rad or m].
-        start_velocities: Initial velocities; shape (n,), [rad/s or m/s].
+        start_velocities: Shape (n,), [rad/s or m/s].
         phases: Phases of each coordinate in order; their durations add up to the same time for all.
         start_time: Time at which the motion begins, [s].
         field: Request field to blame if phases are too short.
@@ -54,7 +54,6 @@ def of_phases(
 
 
 def _alone(q: float, v: float, phases: Sequence[Phase]) -> tuple[Array, Array]:
-    """Return breaks and coefficients of one coordinate; shapes (M + 1,) and (M, 3)."""
     breaks, rows = [0.0], []
     for duration, acceleration in phases:
         if duration > 0.0:

@@ -66,11 +66,7 @@ class PiecewisePolynomial:
 
 
 def joined(parts: Sequence[PiecewisePolynomial]) -> PiecewisePolynomial:
-    """Join motions one after the other, each beginning when the previous one ends.
-
-    Args:
-        parts: At least one motion; all have the same coordinates.
-    """
+    """Join one or more motions of the same coordinates, each beginning when the previous one ends."""
     degree = max(part.coefficients.shape[1] for part in parts)
     breaks, rows = [parts[0].breaks[:1]], []
     for part in parts:
@@ -80,15 +76,11 @@ def joined(parts: Sequence[PiecewisePolynomial]) -> PiecewisePolynomial:
 
 
 def derivatives(c: Array, local: Array, order: int = 3) -> list[Array]:
-    """Evaluate polynomials and their derivatives by Horner's scheme.
+    """Evaluate polynomials and their derivatives up to `order` by Horner's scheme; shape (M, n) each.
 
     Args:
         c: Coefficients, lowest power first; shape (M, d + 1, n).
         local: Where to evaluate each; shape (M, 1).
-        order: Order of the highest derivative.
-
-    Returns:
-        Values, first derivatives and so on; shape (M, n) each.
     """
     value = c[:, -1] + 0.0 * local
     found = [value, *[np.zeros_like(value)] * order]
@@ -100,12 +92,7 @@ def derivatives(c: Array, local: Array, order: int = 3) -> list[Array]:
 
 
 def cut(path: PiecewisePolynomial, nodes: Array) -> Array:
-    """Return the coefficients of a path from each node to the next; shape (N, d + 1, n).
-
-    Args:
-        path: q(s), in M pieces.
-        nodes: Nodes, including all breaks of the path; shape (N + 1,).
-    """
+    """Return the coefficients of a path between nodes, (N + 1,), which include all its breaks; shape (N, d + 1, n)."""
     i = np.clip(np.searchsorted(path.breaks, 0.5 * (nodes[:-1] + nodes[1:]), side="right") - 1, 0, None)
     offsets = (nodes[:-1] - path.breaks[i])[:, None]
     c = path.coefficients[i]
@@ -126,14 +113,11 @@ def bernstein(c: Array) -> Array:
 
 
 def composed(pieces: Array, advance: Array) -> Array:
-    """Return the coefficients of Σ c_k σᵏ with σ = a_1 t + a_2 t² + …, by Horner's scheme.
+    """Return the coefficients of Σ c_k σᵏ with σ = a_1 t + a_2 t² + …, by Horner's scheme; shape (N, D d + 1, n).
 
     Args:
         pieces: c; shape (N, D + 1, n).
         advance: a_1, a_2, …; shape (N, d, 1).
-
-    Returns:
-        Coefficients; shape (N, D d + 1, n).
     """
     result = pieces[:, -1:]
     for k in range(pieces.shape[1] - 2, -1, -1):

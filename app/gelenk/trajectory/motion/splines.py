@@ -24,14 +24,7 @@ CLOSED = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class EndRates:
-    """Velocities and accelerations at both ends; shape (n,) each.
-
-    Attributes:
-        start_velocity: [rad/s or m/s].
-        end_velocity: [rad/s or m/s].
-        start_acceleration: [rad/s² or m/s²].
-        end_acceleration: [rad/s² or m/s²].
-    """
+    """Velocities [rad/s or m/s] and accelerations [rad/s² or m/s²] at both ends; shape (n,) each."""
 
     start_velocity: Array
     end_velocity: Array
@@ -49,10 +42,8 @@ class Spline:
     """A spline and the linear system that determines it.
 
     Attributes:
-        motion: Positions over time.
         times: Times of the knots, including fictitious ones; shape (N,), [s].
-        knots: Positions of the knots; shape (N, n), [rad or m].
-        velocities: Velocities v at the knots; shape (N, n), [rad/s or m/s].
+        knots, velocities: Positions and velocities v there; shape (N, n), [rad or m], [rad/s or m/s].
         matrix: A, for the unknown velocities; None if there is nothing to solve.
         right_side: b; shape (unknowns, n).
         unknowns: Indices of the knots whose velocities A determines, from 0; shape (unknowns,).
@@ -81,7 +72,6 @@ def cubic_spline(
     Args:
         times: Increasing times; shape (N,), N ≥ 2, [s].
         knots: Positions; shape (N, n), [rad or m].
-        boundary: Boundary condition at both ends.
         ends: Velocities of a clamped boundary; velocities and accelerations of an assigned one; zero by default.
         fictitious_times: Times of the two fictitious knots of an assigned boundary, in the first and the last segment,
             [s]; by default the midpoints of these segments, or the thirds of a single one.
@@ -239,7 +229,6 @@ def _spline(
 
 
 def _pieces(times: Array, knots: Array, steps: Array, velocities: Array) -> PiecewisePolynomial:
-    """Build cubics from positions, their differences and velocities."""
     starts, ends = np.array([np.zeros_like(steps), velocities[:-1]]), np.array([steps, velocities[1:]])
     rows = hermite_pieces(starts, ends, np.diff(times))
     rows[:, 0] = knots[:-1]
@@ -252,13 +241,9 @@ def through_samples(
     """Return a motion through samples and their derivatives: C¹ with cubic pieces, or C² with quintic ones.
 
     Args:
-        times: Increasing times; shape (N,), N ≥ 2, [s].
-        positions: Shape (N, n), [rad or m].
-        velocities: Shape (N, n), [rad/s or m/s].
+        times: Increasing, else `InvalidField`; shape (N,), N ≥ 2, [s].
+        positions, velocities: Shape (N, n), [rad or m], [rad/s or m/s].
         accelerations: If given, the pieces are quintic; shape (N, n), [rad/s² or m/s²].
-
-    Raises:
-        InvalidField: The times do not increase.
     """
     checked_times(times, "times")
     known = [positions, velocities] if accelerations is None else [positions, velocities, accelerations]
@@ -273,11 +258,7 @@ _RESOLVED = 1e-9
 
 
 def checked_times(times: Array, field: str) -> None:
-    """Check that times increase by more than rounding.
-
-    Raises:
-        InvalidField: They do not; the message names the first two that are wrong.
-    """
+    """Check that times increase by more than rounding; if not, `InvalidField` names the first two that are wrong."""
     gaps = np.diff(times)
     least = max(NEAREST * float(np.ptp(times)), _RESOLVED * float(np.abs(times).max()))
     wrong = np.flatnonzero(~(gaps > least))

@@ -35,8 +35,7 @@ def between(starts: Array, ends: Array, duration: float) -> PiecewisePolynomial:
     """Return the polynomial of lowest degree with given derivatives at both ends, starting at t = 0.
 
     Args:
-        starts: Position, velocity, … at t = 0, two to four of them; shape (m, n), [rad or m per sᵏ].
-        ends: The same at t = T; shape (m, n).
+        starts, ends: Position, velocity, … at t = 0 and T, two to four of them; shape (m, n), [rad or m per sᵏ].
         duration: T > 0, [s].
     """
     coefficients = hermite_pieces(starts[:, None], ends[:, None], np.array([duration]))
@@ -51,15 +50,13 @@ def rest_to_rest(start: float, end: float, conditions: int) -> PiecewisePolynomi
 
 
 def hermite_pieces(starts: Array, ends: Array, durations: Array) -> Array:
-    """Compute polynomials with given derivatives at both ends.
+    """Return polynomials with given derivatives at both ends, by their coefficients; shape (M, 2m, n).
+
+    They count the time from the start of each piece, the lowest power first.
 
     Args:
-        starts: Position, velocity, … at the start of each piece, two to four of them; shape (m, M, n).
-        ends: The same at its end; shape (m, M, n).
-        durations: Durations of the pieces, [s]; shape (M,).
-
-    Returns:
-        Coefficients in the time since the start of the piece, lowest power first; shape (M, 2m, n).
+        starts, ends: Position, velocity, … at both ends of each piece, two to four of them; shape (m, M, n).
+        durations: Shape (M,), [s].
     """
     m, h = len(starts), durations[:, None]
     lower = [starts[k] * h**k / factorial(k) for k in range(m)]
@@ -89,8 +86,7 @@ def quartic_cubic_quartic(
     Args:
         times: Times of the knots, increasing, [s]; shape (4,).
         knots: Positions at start, lift-off, set-down and end; shape (4, n), [rad or m].
-        start_rates: Velocity and acceleration at the start; shape (2, n); zero by default.
-        end_rates: The same at the end.
+        start_rates, end_rates: Velocity and acceleration at both ends; shape (2, n); zero by default.
     """
     (h1, h2, h3), step = np.diff(times), np.diff(knots, axis=0)
     rest = np.zeros((2, knots.shape[1]))
@@ -124,7 +120,6 @@ def _quartic(start: Array, end: Array, h: float) -> Array:
 
 
 def _reversed_quartic(c: Array, h: float) -> Array:
-    """Return the coefficients of p(h - t) from those of p(t)."""
     shifted = [sum(comb(m, k) * h ** (m - k) * c[m] for m in range(k, 5)) for k in range(5)]
     result: Array = np.array(shifted) * (-1.0) ** np.arange(5)[:, None]
     return result
@@ -133,12 +128,8 @@ def _reversed_quartic(c: Array, h: float) -> Array:
 def normalised(motion: PiecewisePolynomial, displacements: Array) -> list[list[float] | None]:
     """Return the course's coefficients of q = q0 + Δq (… + a₁ λ + a₀) in λ = t/T, highest power first.
 
-    Args:
-        motion: Motion of a single piece.
-        displacements: Δq; shape (n,), [rad or m].
-
-    Returns:
-        One list per coordinate; None where this form does not exist, because Δq is zero or too small.
+    The motion has a single piece, and Δq, [rad or m], the shape (n,). Returned is one list per coordinate; None where
+    this form does not exist, because Δq is zero or too small.
     """
     scaled = motion.coefficients[0] * motion.duration ** np.arange(motion.coefficients.shape[1])[:, None]
     scaled[0] = 0.0

@@ -18,12 +18,7 @@ COLLINEAR = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A straight line; with zero length it is a point whose tangent is zero.
-
-    Attributes:
-        start: Shape (3,), [m].
-        end: Shape (3,), [m].
-    """
+    """A straight line between points of shape (3,), [m]; with zero length it is a point whose tangent is zero."""
 
     start: Array
     end: Array
@@ -82,8 +77,7 @@ Curve: TypeAlias = Line | Arc
 def arc_through(start: Array, via: Array, end: Array) -> Arc:
     """Return the arc from a start through a via point to an end; shape (3,) each, [m].
 
-    Raises:
-        InvalidField: Two of the points coincide, or all three lie on a line.
+    `InvalidField` if two of the points coincide, or all three lie on a line.
     """
     a, b = start - via, end - via
     lengths = math.hypot(*a), math.hypot(*b), math.dist(start, end)

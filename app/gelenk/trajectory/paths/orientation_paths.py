@@ -61,14 +61,10 @@ class AxisAnglePath:
 
 
 def axis_angle(start: Array, end: Array) -> AxisAnglePath:
-    """Return the shortest path about one axis.
+    """Return the shortest path about one axis from R_i to R_f; shape (3, 3) each.
 
     Of the two paths at θ = π, within `HALF_TURN`, this is the one whose axis has a positive first nonzero component, so
     that the choice does not depend on rounding.
-
-    Args:
-        start: R_i; shape (3, 3).
-        end: R_f; shape (3, 3).
     """
     vector = vectors_from_rotations((start.T @ end)[None])[0]
     angle = math.hypot(*vector)

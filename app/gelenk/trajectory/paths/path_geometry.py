@@ -64,9 +64,7 @@ class Slopes:
     """Derivatives by s at N places of a path.
 
     Attributes:
-        first: q'; shape (N, n), [rad or m per unit of s].
-        second: q''; shape (N, n).
-        third: q'''; shape (N, n).
+        first, second, third: q', q'' and q'''; shape (N, n), [rad or m per unit of s, and so on].
         tip: ξ_s and ξ_s'; shape (2, N, 6); None if the tip has no limits.
         bounds: Limits of the tip, in the order of `QUANTITIES`; shape (N, 4).
     """
@@ -89,9 +87,8 @@ class LimitedPath:
 
     Attributes:
         joints: q(s), whose breaks include those of the tip's path.
-        limits: Limits on the whole path.
         tip_motion: Function from the joints' motion to the tip's; None if the tip has no limits.
-        zones: Parts of the path on which the tip has its own limits; each begins and ends at a break.
+        zones: Where the tip has its own limits; each begins and ends at a break.
         corners: s at the beginning and the end of each blend of lines, which are breaks too.
     """
 
@@ -150,8 +147,7 @@ class LimitedPath:
     def samples(self, count: int, least: int) -> tuple[Indices, Array]:
         """Sample about `count` places in order, with at least `least` intervals and both ends of each piece.
 
-        Returns:
-            Indices of the pieces, and s; shape (N,) each.
+        Returns indices of the pieces, and s; shape (N,) each.
         """
         lengths = np.diff(self.joints.breaks)
         piece, within, steps = subdivided(lengths, count, least)
@@ -200,8 +196,7 @@ def geometry_of(
 def subdivided(lengths: Array, count: int, least: int) -> tuple[Indices, Indices, Indices]:
     """Divide pieces into about `count` steps in all, at least `least` each.
 
-    Returns:
-        For each node, both ends included: its piece, its number within the piece, and the piece's steps; shape (N,).
+    Returns for each node, both ends included: its piece, its number within it, and the piece's steps; shape (N,).
     """
     counts = np.maximum(np.ceil(lengths / lengths.sum() * count).astype(np.int64), least) + 1
     piece = np.repeat(np.arange(len(counts)), counts)

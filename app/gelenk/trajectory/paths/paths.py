@@ -34,7 +34,6 @@ class PathSamples:
     """Poses and derivatives at N places of a path.
 
     Attributes:
-        poses: Poses at the places.
         first: ξ_s = (dp/ds; ω/ṡ), in the base frame; shape (N, 6), [m, rad per m or rad].
         second: dξ_s/ds; shape (N, 6), [m, rad per m² or rad²].
     """
@@ -65,12 +64,7 @@ class Path(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class CurvePath:
-    """A curve with an orientation that advances in proportion to its length; of zero length, a turn on the spot.
-
-    Attributes:
-        curve: Path of the position.
-        orientation: Path of the orientation from the start to the end of the curve.
-    """
+    """A curve with an orientation that advances in proportion to its length; of zero length, a turn on the spot."""
 
     curve: Curve
     orientation: OrientationPath
@@ -115,14 +109,9 @@ def line(start: Array, end: Array, orientation: OrientationPath | None = None) -
 def circle(start: Array, via: Array, end: Array, orientation: OrientationLaw = "axis_angle") -> CurvePath:
     """Return the circular arc from a pose through a second to a third.
 
-    Args:
-        start: T_base_tip at the start; shape (4, 4).
-        via: T_base_tip in between, whose orientation is reached together with its position; shape (4, 4).
-        end: T_base_tip at the end; shape (4, 4).
-        orientation: Law of `through_orientations`.
-
-    Raises:
-        InvalidField: Two of the positions coincide, or all three lie on a line.
+    The orientation of the second, a T_base_tip of shape (4, 4) like the others, is reached together with its position.
+    The law of orientations is that of `through_orientations`. `InvalidField` if two of the positions coincide, or all
+    three lie on a line.
     """
     arc = arc_through(*(T[:3, 3] for T in (start, via, end)))
     rotations = np.ascontiguousarray(np.array([start, via, end])[:, :3, :3])
@@ -148,8 +137,7 @@ def through_orientations(rotations: Array, knots: Array, law: OrientationLaw) ->
 class PathSequence:
     """Paths joined one after the other, each beginning where the previous one ends.
 
-    Attributes:
-        parts: At least one path, without breaks; all have the same unit of s.
+    All of them, at least one, are without breaks and have the same unit of s.
     """
 
     parts: tuple[Path, ...]
@@ -192,10 +180,6 @@ class PathSequence:
 
 
 def refuse_reversal(a: Array, b: Array, field: str) -> None:
-    """Refuse a corner between directions `a` and `b`, of any length, at which the path turns back along itself.
-
-    Raises:
-        InvalidField: The path turns back.
-    """
+    """Refuse a corner between directions, of any length, where the path turns back on itself, with `InvalidField`."""
     if math.hypot(*(a / math.hypot(*a) + b / math.hypot(*b))) <= 1e-6:
         raise InvalidField(field, "the next leg turns back along the previous one: such a corner requires a stop")

@@ -61,9 +61,7 @@ class RotationVectorPath:
 def rotation_spline(rotations: Array, knots: Array) -> RotationVectorPath:
     """Return the C² spline through orientations.
 
-    Args:
-        rotations: At least two orientations; shape (M + 1, 3, 3).
-        knots: Values of x at the orientations, increasing from 0 to 1; shape (M + 1,).
+    There are at least two, of shape (M + 1, 3, 3), at x = `knots`, (M + 1,), increasing from 0 to 1.
     """
     steps = vectors_from_rotations(np.ascontiguousarray(rotations[:-1].transpose(0, 2, 1) @ rotations[1:]))
     widths = np.diff(knots)[:, None]
@@ -134,7 +132,6 @@ def _eliminated(lower: Array, diagonal: Array, upper: Array) -> tuple[Array, Arr
 
 
 def _substituted(factors: Array, pivots: Array, upper: Array, right: Array) -> Array:
-    """Solve for a right side of shape (M, 3) by forward and backward substitution."""
     solution = right.copy()
     for i, factor in enumerate(factors):
         solution[i + 1] -= factor @ solution[i]
@@ -213,7 +210,6 @@ def _coefficients(n: Array) -> _Coefficients:
 
 
 def _by_series(x: Array) -> _Coefficients:
-    """Compute the coefficients from x = n² by their power series."""
     k1, k2, slope1, slope2 = _SERIES_ROWS[:, -1:] + 0.0 * x
     for j in range(len(_TERMS) - 2, -1, -1):
         a, b, c, d = _SERIES_ROWS[:, j]

@@ -27,8 +27,7 @@ class BlendedCorner:
     Attributes:
         radius: Distance from the corner at which the blend begins, [m].
         acceleration: Limit of the tip's acceleration in the blend, ∞ if only the general limits apply, [m/s²].
-        begin: s at its beginning.
-        end: s at its end.
+        begin, end: s at its ends.
     """
 
     radius: float
@@ -42,11 +41,8 @@ class SegmentsPath:
     """A path of the tip through one segment, or through blended lines.
 
     Attributes:
-        path: Path through all segments.
         ends: s at the end of each segment: the middle of its blend, and `path.extent` for the last.
-        corners: Blends of the lines.
         zones: Where the tip has its own limits: in blends that set one, and on lines and the blends beside them.
-        notes: Further remarks for the user.
     """
 
     path: Path
@@ -62,15 +58,9 @@ class SegmentsPath:
 
 
 def path_through(start: Array, segments: Sequence[Segment], first: int) -> SegmentsPath:
-    """Build the path of one segment, or of blended lines.
+    """Build the path of one segment, or of lines each blended into the next, from a T_base_tip of shape (4, 4).
 
-    Args:
-        start: T_base_tip at the start; shape (4, 4).
-        segments: One segment, or lines that are each blended into the next.
-        first: Index of the first segment in the trajectory, for refusals.
-
-    Raises:
-        InvalidField: The path is impossible.
+    Refusals, `InvalidField`, count segments from `first`, the index of the first in the trajectory.
     """
     if len(segments) > 1:
         return _blended(start, segments, first)
@@ -149,7 +139,6 @@ def _turns(rotations: Array, segments: Sequence[Segment], first: int) -> Sequenc
 
 
 def _blends(legs: Array, segments: Sequence[Segment], first: int) -> list[BlendedCorner]:
-    """Return how each corner is blended, without its place."""
     lengths = np.linalg.norm(legs, axis=1)
     for i, length in enumerate(lengths):
         if length <= POINT:
@@ -178,7 +167,7 @@ def _blends(legs: Array, segments: Sequence[Segment], first: int) -> list[Blende
 
 
 def _blend(segment: Segment, speed: float, leg: Array, following: Array, field: str) -> BlendedCorner:
-    """Return how a line is blended into the next: the course's fly-over, with both lines at the tip's speed limit v.
+    """Blend a line into the next: the course's fly-over, with both lines at the tip's speed limit v.
 
     d = v ΔT / 2 and a = ‖v K_BC - v K_AB‖ / ΔT, where ΔT or a is given. Under this limit of acceleration, the fastest
     motion through the parabola is that of the course, with constant acceleration and duration ΔT.

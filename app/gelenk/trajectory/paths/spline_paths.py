@@ -51,11 +51,9 @@ _SLOWEST = 1e-12
 
 @dataclass(frozen=True)
 class PolynomialPath:
-    """A path with p(u) a polynomial on each piece, and an orientation over the whole range of u.
+    """A path with p(u), [m], a polynomial on each piece, and an orientation over the whole range of u.
 
-    Attributes:
-        position: p(u); 3 coordinates, [m].
-        orientation: Path of the orientation; its x runs from 0 to 1 as u runs from its first break to its last.
+    The x of the orientation runs from 0 to 1 as u runs from its first break to its last.
     """
 
     position: PiecewisePolynomial
@@ -135,7 +133,6 @@ class PolynomialPath:
         return PiecewisePolynomial(lengths, hermite_pieces(ends[:, :-1], ends[:, 1:], np.diff(lengths)))
 
     def _parameters(self, s: Array) -> Array:
-        """Return u at arc lengths s; shape (N,)."""
         edges, lengths = self._table
         panel = np.clip(np.searchsorted(lengths, s, side="right") - 1, 0, len(edges) - 2)
         begin, low, high = edges[panel], edges[panel], edges[panel + 1]
@@ -160,11 +157,9 @@ def spline(
 ) -> PolynomialPath:
     """Return a smooth path through poses: C² in position and in orientation, parametrised by chord length.
 
-    Args:
-        waypoints: At least two poses.
-        boundary: Boundary condition of the cubic spline of positions; a clamped one would have no tangent at its ends.
-            With `periodic` the positions close smoothly, but the orientations do not.
-        orientation: See `through_orientations`.
+    The boundary condition is that of the cubic spline of positions; a clamped one would have no tangent at its ends.
+    With `periodic` the positions close smoothly, but the orientations do not. The law of orientations is that of
+    `through_orientations`.
 
     Raises:
         InvalidField: There are fewer than two poses, successive ones share a position, the ends of a periodic path
@@ -191,15 +186,13 @@ def blended_lines(poses: Poses, radii: Sequence[float], turns: Sequence[Turn] | 
 
     If its parameter advances at a constant rate, such a parabola is the fly-over with equal speeds. Position and
     orientation have continuous first derivatives by s; second derivatives jump where a parabola begins or ends.
+    `InvalidField` if a leg is shorter than the sum of the radii at its ends, or turns back along the previous one.
 
     Args:
         poses: At least two poses; successive ones differ in position.
         radii: Distance from each inner pose at which its parabola begins and ends, > 0, [m].
         turns: Turns from each pose to the next, each beginning where the previous one ends, all about axes or all by
             ZYZ angles; by default each about one axis.
-
-    Raises:
-        InvalidField: A leg is shorter than the sum of the radii at its ends, or turns back along the previous one.
     """
     Ts = poses.matrices()
     if turns is None:

@@ -26,11 +26,7 @@ _DEGENERATE = 1e-14
 
 @dataclass(frozen=True, slots=True)
 class ZyzPath:
-    """A path on which φ, θ and ψ are piecewise polynomials of x.
-
-    Attributes:
-        angles: (φ, θ, ψ) for x from 0 to 1, twice differentiable; 3 coordinates, [rad].
-    """
+    """A path on which φ, θ and ψ, [rad], are twice differentiable piecewise polynomials of x, from 0 to 1."""
 
     angles: PiecewisePolynomial
 
@@ -56,9 +52,7 @@ class ZyzPath:
 def zyz_turns(rotations: Array, flips: Sequence[bool]) -> list[ZyzPath]:
     """Return the turns from each orientation to the next, each starting with the angles at which the previous one ends.
 
-    Args:
-        rotations: Orientations; shape (M + 1, 3, 3).
-        flips: Whether θ changes its sign, for each of the M turns.
+    The rotations have the shape (M + 1, 3, 3); `flips` tells for each of the M turns whether θ changes its sign.
     """
     return [_polynomial(first, last - first) for first, last in pairwise(zyz_triples(rotations, flips))]
 
@@ -66,10 +60,7 @@ def zyz_turns(rotations: Array, flips: Sequence[bool]) -> list[ZyzPath]:
 def zyz_spline(rotations: Array, knots: Array, flips: Sequence[bool]) -> ZyzPath:
     """Return the natural cubic spline of the angles: C², and linear if there are only two orientations.
 
-    Args:
-        rotations: At least two orientations; shape (M + 1, 3, 3).
-        knots: Values of x at the orientations, increasing from 0 to 1; shape (M + 1,).
-        flips: Whether θ changes its sign, for each of the M intervals.
+    Rotations and flips are those of `zyz_turns`, at x = `knots`, (M + 1,), increasing from 0 to 1.
     """
     return ZyzPath(cubic_spline(np.asarray(knots, dtype=float), zyz_triples(rotations, flips), "natural").motion)
 
@@ -87,9 +78,7 @@ def zyz_corner(entry: Array, corner: Array, leaving: Array) -> ZyzPath:
 def zyz_triples(rotations: Array, flips: Sequence[bool]) -> Array:
     """Return triples of orientations; φ and ψ change by at most π from each to the next; shape (M + 1, 3), [rad].
 
-    Args:
-        rotations: Orientations; shape (M + 1, 3, 3).
-        flips: Whether θ changes its sign, for each of the M intervals.
+    Rotations and flips are those of `zyz_turns`.
     """
     triples = zyz_from_rotations(rotations)
     other = np.logical_xor.accumulate(np.array([False, *flips]))

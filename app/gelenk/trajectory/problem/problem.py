@@ -25,10 +25,7 @@ class SegmentLimits:
     """Limits of joints and tip in a segment, scale factors included; > 0, and finite except for the tip's.
 
     Attributes:
-        velocity: Velocity limit of each joint; shape (n,), [rad/s or m/s].
-        acceleration: Acceleration limit of each joint; shape (n,), [rad/s² or m/s²].
-        jerk: Jerk limit of each joint; shape (n,), [rad/s³ or m/s³].
-        tip: Limits of the tip.
+        velocity, acceleration, jerk: Of each joint; shape (n,), [rad or m per s, s², s³].
     """
 
     velocity: Array
@@ -47,22 +44,17 @@ class Segment:
     """One segment of a requested trajectory.
 
     Attributes:
-        type: Kind of path.
-        law: Time law.
-        limits: Limits on this segment.
         duration: Requested duration, [s]; the shortest within the limits if None.
         configuration: Target of a joint segment; shape (n,), [rad or m].
         pose: T_base_tip at the end of a line, a circle or a joint segment to a pose; shape (4, 4).
         via: T_base_tip in between on a circle; shape (4, 4).
         blend_radius: Distance from the end of a line at which its blend into the next begins, [m]; 0 for none.
-        blend_acceleration: Tip acceleration in the blend, given instead of a radius, [m/s²].
-        blend_time: Duration of the blend, given instead of a radius, [s].
+        blend_acceleration, blend_time: The tip's acceleration [m/s²] or duration [s] in it, instead of a radius.
         orientation: How a tip path turns: about an axis (on a smooth spline if it passes several orientations), or by
             ZYZ Euler angles on either branch.
         configurations: Waypoints of a joint spline after the start; shape (m, n), [rad or m].
         poses: Waypoints of a Cartesian spline after the start.
         times: Time of each waypoint, counted from the start of the segment; shape (m,), [s].
-        boundary: Boundary condition of a spline.
         blends: Whether joints pass beside the waypoints on straight lines with parabolic blends, not on a spline.
         stated_jerk: Requested jerk limits, which hold for every law; ∞ where none was requested; shape (n,),
             [rad/s³ or m/s³].
@@ -112,10 +104,9 @@ class TrajectoryProblem:
     """The request for a trajectory.
 
     Attributes:
-        start: Start configuration, at rest; shape (n,), [rad or m].
-        segments: At least one segment, in order.
-        following: How the joints follow the tip's paths.
-        duration: Requested total duration, [s]; the shortest within the limits if None.
+        start: At rest; shape (n,), [rad or m].
+        segments: At least one, in order.
+        duration: Of the whole, [s]; the shortest within the limits if None.
         compares_timing: Whether to compare uniform and time-optimal timing of each segment.
     """
 
@@ -131,17 +122,12 @@ class SegmentReport:
     """The result of a segment, as far as it was completed.
 
     Attributes:
-        index: Index of the segment, from 0.
-        type: Kind of path.
-        law: Time law.
-        start_time: Start of the segment, [s].
-        end_time: End of the segment, [s].
-        length: Length of the tip's path, [m]; None for a joint segment.
-        angle: Angle through which the tip turns, [rad]; None for a joint segment.
+        index: Of the segment, from 0.
+        start_time, end_time: [s].
+        length, angle: Of the tip's path, [m], and of its turning, [rad]; None for a joint segment.
         joint_deviation: Deviation from the path where joints were damped.
         blended: Whether the motion passes into the next segment without a stop.
         blend: Blend into the next segment, if the motion gets that far.
-        notes: Further remarks for the user.
     """
 
     index: int
@@ -171,12 +157,10 @@ class Trajectory:
     """The result of planning a trajectory.
 
     Attributes:
-        motion: Joint motion, starting at 0 s.
-        segments: Reports of the segments that were completed wholly or in part.
+        motion: Of the joints, starting at 0 s.
+        segments: Those that were completed wholly or in part.
         completed_fraction: Completed fraction; segments count equally, an incomplete one by its completed length.
         failure: Why the trajectory ends early; None if it is complete.
-        audit: Audit of the motion.
-        timing: Comparisons of timings, if requested.
     """
 
     motion: PiecewisePolynomial

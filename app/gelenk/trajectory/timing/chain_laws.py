@@ -37,7 +37,6 @@ class _Chain:
     """The limits along blended lines.
 
     Attributes:
-        geometry: The path.
         middles: Midpoints between the places at which slopes are known; shape (N - 1,).
         slopes: Shape (N, …).
         count: Number of derivatives that a law fixes at both ends of a line, counting the position; None for
@@ -50,7 +49,6 @@ class _Chain:
     count: int | None
 
     def factors(self, s: Array, v: Array, a: Array, j: Array) -> Array:
-        """Return the k by which the motion would have to be slowed down at each place; same shape as the arguments."""
         rows = self.slopes.take(np.searchsorted(self.middles, s.ravel()))
         found = ratios(rows, self.geometry.limits, v.ravel(), a.ravel(), j.ravel()) ** (1.0 / ORDERS)
         if self.count == 2:  # The cubic's acceleration jumps: jerk limits do not count.
@@ -110,7 +108,6 @@ class _Chain:
         return law, float(factors.max())
 
     def _shortest(self, begin: float, end: float, speeds: Array, count: int) -> tuple[PiecewisePolynomial, float]:
-        """Return the shortest polynomial between two speeds, and the k that must still slow it down."""
         starts, ends = np.zeros((2, count, 1, 1))
         starts[:2, 0, 0], ends[:2, 0, 0] = (begin, speeds[0]), (end, speeds[1])
         low, high = (end - begin) / self.even_speeds(begin, end).max(), 3.0 * (end - begin) / speeds.max()
@@ -137,10 +134,8 @@ class _Chain:
 def chain_law(geometry: LimitedPath, count: int | None) -> PiecewisePolynomial | None:
     """Return s(t) along blended lines; None for a single line, if a line is too short, or if no law is found.
 
-    Args:
-        geometry: The path, with its blends.
-        count: Number of derivatives fixed at both ends of each line, counting the position: 2 to 4. None for
-            jerk-limited profiles.
+    `count` is that of the derivatives fixed at both ends of each line, 2 to 4 with the position; None for jerk-limited
+    profiles.
     """
     begin, end = geometry.ends
     corners = np.array([corner for corner in geometry.corners if corner[0] < end and corner[1] > begin])

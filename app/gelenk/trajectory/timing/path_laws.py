@@ -77,11 +77,10 @@ def bang_coast_bang(geometry: LimitedPath, ramp: float, speed: float) -> Piecewi
 
 
 def _bounds(geometry: LimitedPath, piece: Indices, s: Array) -> Array:
-    """Compute what a law demands at each place, as fractions of the limits.
+    """Return what a law demands at each place, as fractions of the limits; shape (N, 4).
 
-    Returns:
-        Distance m from the nearer end; on a ramp, acceleration per s̈ and squared velocity per ṡ²/m; on the coast, the
-        larger of squared velocity and acceleration per ṡ²; shape (N, 4).
+    The columns: distance m from the nearer end; on a ramp, acceleration per s̈ and squared velocity per ṡ²/m; on the
+    coast, the larger of squared velocity and acceleration per ṡ².
     """
     begin, end = geometry.ends
     distance = np.minimum(s - begin, end - s)

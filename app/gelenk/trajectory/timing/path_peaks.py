@@ -86,14 +86,9 @@ def peaks_of(
     with_jerk: bool,
     with_joints: bool = True,
 ) -> PathPeaks:
-    """Compute the largest ratios of a motion to its limits.
+    """Compute the largest ratios of a motion q(s(t)), whose breaks include those of the law, to its limits.
 
-    Args:
-        geometry: The path and its limits.
-        motion: q(s(t)), whose breaks include those of the law.
-        law: s(t).
-        with_jerk: Whether to consider jerk.
-        with_joints: Whether to consider the joints; the tip always counts if it has limits.
+    Jerk and the joints are considered if requested, the tip always if it has limits.
     """
     found, joints = np.zeros(len(QUANTITIES)), np.zeros(JOINTS, dtype=np.int64)
     for order, limit in enumerate(geometry.limits.joints[: 3 if with_jerk else 2]):
@@ -124,7 +119,6 @@ def _largest(values: PiecewisePolynomial, limits: Array) -> tuple[float, int]:
 
 
 def _of_tip(geometry: LimitedPath, motion: PiecewisePolynomial, law: PiecewisePolynomial) -> Array:
-    """Return the tip's largest ratios; shape (4,)."""
     widths = np.diff(motion.breaks)
     middles = law.at(motion.breaks[:-1] + 0.5 * widths)[:, 0]
     tip_motion, bounds = cast(TipMotion, geometry.tip_motion), geometry.tip_bounds(geometry.piece_of(middles))

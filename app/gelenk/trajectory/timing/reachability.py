@@ -43,10 +43,9 @@ def stages(lengths: Array, alpha: Array, beta: Array, least_shares: Array) -> St
 
     Args:
         lengths: Δ > 0; shape (N,).
-        alpha: α; shape (N, m).
-        beta: β; shape (N, m).
-        least_shares: Smallest fraction of x to leave at the end of an interval, from 0 to 1; shape (N,). Without it,
-            where q' of a joint changes sign, the largest x may be one from which the motion can only stop.
+        alpha, beta: α and β; shape (N, m).
+        least_shares: Those of `Stages`, from 0 to 1. Without them, where q' of a joint changes sign, the largest x may
+            be one from which the motion can only stop.
     """
     is_without = np.abs(alpha) <= _NO_WEIGHT * np.abs(alpha).max(axis=1, keepdims=True)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -85,12 +84,7 @@ def _highest(upper: Array, lower: Array, x: Array) -> Array:
 
 
 def controllable(constraints: Stages, end: float) -> Array:
-    """Return the largest x at each node from which the end can be reached; shape (N + 1,).
-
-    Args:
-        constraints: Constraints of the intervals.
-        end: Largest x at the end.
-    """
+    """Return the largest x at each node from which x ≤ `end` can be reached at the end; shape (N + 1,)."""
     most: Array = np.append(constraints.highest, end)
     halves = 0.5 / constraints.lengths
     climb = constraints.lower[1] + halves[:, None]
@@ -106,12 +100,9 @@ def controllable(constraints: Stages, end: float) -> Array:
 
 
 def fastest(constraints: Stages, most: Array, start: float) -> Array:
-    """Return x at each node for the largest u in every interval that keeps x within bounds; shape (N + 1,).
+    """Return x at each node for the largest u in every interval that keeps x within `most`; shape (N + 1,) each.
 
-    Args:
-        constraints: Constraints of the intervals.
-        most: Largest x at each node; shape (N + 1,).
-        start: Largest x at the first node.
+    The x of the first node is at most `start`.
     """
     x = min(start, most[0])
     found = [x]

@@ -48,12 +48,7 @@ _SWITCH = 0.02
 
 @dataclass(frozen=True, slots=True)
 class TimeOptimal:
-    """The fastest motion along a path.
-
-    Attributes:
-        time_law: s(t), one parabola per piece; one coordinate.
-        motion: q(s(t)), with the same breaks.
-    """
+    """The fastest motion along a path, q(s(t)), and s(t), one parabola per piece; both have the same breaks."""
 
     time_law: PiecewisePolynomial
     motion: PiecewisePolynomial
@@ -67,7 +62,6 @@ class _Task:
         path: q(s).
         limits: Limits of velocity and acceleration, less the margin; shape (2, n).
         most_at_ends: Largest ṡ² at the start and the end: 0, or ∞ where q' = 0, so that the joints rest at any ṡ.
-        rows: Further constraints, if any.
     """
 
     path: PiecewisePolynomial
@@ -90,8 +84,7 @@ def time_optimal(
 
     Args:
         path: q(s), with continuous q'.
-        velocity: Velocity limit of each joint; shape (n,), [rad/s or m/s].
-        acceleration: Acceleration limit of each joint; shape (n,), [rad/s² or m/s²].
+        velocity, acceleration: Limits of each joint; shape (n,), [rad/s or m/s], [rad/s² or m/s²].
         intervals: Approximate number of intervals, at least four per piece of the path. More come nearer to the
             optimum: 200 are within 1.5 % of it along splines through up to 20 knots.
         further: Further constraints on u = s̈ and x = ṡ² at the start of each interval, for the path scaled to
@@ -163,7 +156,6 @@ def _nodes(task: _Task, travels: Array, intervals: int) -> Array:
 
 
 def _squared_speeds(task: _Task, nodes: Array) -> Array:
-    """Return x = ṡ² of the fastest motion at each node; shape (N + 1,)."""
     lengths = np.diff(nodes)
     least_shares = _LEAST_SHARE * (1.0 - nodes[1:]) / (1.0 - nodes[:-1])
     alpha, beta = _rows(cut(task.path, nodes), lengths, task.limits)
@@ -181,10 +173,7 @@ def _rows(pieces: Array, lengths: Array, limits: Array) -> tuple[Array, Array]:
     With τ = (s - s_i)/Δ, q̇² = q'² (x + 2Δτu) and q̈ = q' u + q'' (x + 2Δτu) are polynomials in τ whose Bernstein
     coefficients are linear in (u, x), and these bound it in the whole interval.
 
-    Args:
-        pieces: Coefficients of the path from each node on; shape (N, d + 1, n).
-        lengths: Δ; shape (N,).
-        limits: Of velocity and acceleration; shape (2, n).
+    The pieces have the shape (N, d + 1, n), from each node on, the lengths Δ (N,), the limits (2, n).
     """
     size = pieces.shape[1] - 1
     k = np.arange(size)[:, None]
@@ -234,7 +223,6 @@ def _between(task: _Task, nodes: Array, law: PiecewisePolynomial, intervals: int
 
 
 def _time_law(nodes: Array, x: Array) -> PiecewisePolynomial:
-    """Return s(t) with constant s̈ between nodes."""
     speeds, lengths = np.sqrt(x), np.diff(nodes)
     if not ((speeds[:-1] + speeds[1:] > 0.0) & np.isfinite(x[1:])).all():
         raise InvalidField("path", "its slopes are too many powers of ten apart")

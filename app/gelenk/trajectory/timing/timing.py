@@ -47,11 +47,9 @@ class Timed:
 
     Attributes:
         motion: Joint motion, starting at 0 s; if nothing moves, one piece of zero or of the requested duration.
-        law: s(t), of the same duration.
         continuous: Highest order up to which the motion's derivatives are continuous.
         has_bounded_jerk: Whether the jerk limits hold throughout; where the acceleration jumps, they cannot.
         binding: Limit that prevents a shorter time with this law, in words.
-        notes: Further remarks for the user.
     """
 
     motion: PiecewisePolynomial
@@ -74,7 +72,6 @@ def timed(geometry: LimitedPath, law: Law, *, duration: float | None = None, slo
 
     Args:
         geometry: The path of the joints, possibly ending before the path of the tip does, and the limits.
-        law: Time law.
         duration: Requested duration, [s]; the shortest within the limits if None.
         slow_down: Whether the motion may slow down locally where the joints require it; the time-optimal law then
             replaces `law`.
@@ -93,15 +90,7 @@ def timed(geometry: LimitedPath, law: Law, *, duration: float | None = None, slo
 
 
 class Timings(NamedTuple):
-    """Durations of one path with two time laws.
-
-    Attributes:
-        uniform_duration: Of the law, scaled so that it just keeps the limits: the larger of k_vel and √k_acc times
-            1 s, unless jerk requires more, [s].
-        velocity_factor: k_vel of the law lasting 1 s: its largest ratio of a velocity to its limit.
-        acceleration_factor: k_acc likewise.
-        time_optimal_duration: Of the fastest motion along the same path, [s].
-    """
+    """Durations of one path with two time laws, and factors, as `TimingComparison` describes them."""
 
     uniform_duration: float
     velocity_factor: float
@@ -125,7 +114,7 @@ def passing_at(geometry: LimitedPath, places: Array, times: Array) -> Timed:
     The law is a clamped cubic spline s(t) that never goes backwards.
 
     Args:
-        geometry: The path of the joints, complete, and the limits.
+        geometry: The complete path of the joints, and the limits.
         places: s of each waypoint after the start; shape (m,), [m or rad].
         times: Time of each waypoint, counted from the start; shape (m,), [s].
 
@@ -158,7 +147,6 @@ def _refuse_going_back(law: PiecewisePolynomial) -> None:
 
 
 def _whole(geometry: LimitedPath, law: Law) -> Timed:
-    """Time the parts of a path, with a stop between each two."""
     if geometry.stands_still:
         end = geometry.joints.breaks[-1:]
         return Timed(standing(geometry.joints.at(end)[0]), standing(end), 2, True, "nothing moves")
@@ -192,7 +180,6 @@ def _fastest(geometry: LimitedPath, law: Law) -> Timed:
 
 
 def _along(geometry: LimitedPath, law: Law, along: PiecewisePolynomial) -> Timed:
-    """Time the path with a law's shape s(t), scaled to the least time."""
     motion = in_time(geometry.joints, along)
     smooth = LAWS[law].keeps_jerk
     peaks = peaks_of(geometry, motion, along, with_jerk=smooth)
@@ -227,16 +214,11 @@ def _time_optimal(geometry: LimitedPath) -> Timed:
 
 
 def _scaled(timing: Timed, factor: float) -> Timed:
-    """Return the same motion in `factor` times the time."""
     return replace(timing, motion=timing.motion.scaled(factor), law=timing.law.scaled(factor))
 
 
 def _lasting(fastest: Timed, duration: float) -> Timed:
-    """Slow a motion down to a given duration.
-
-    Raises:
-        InvalidField: The motion cannot be that fast.
-    """
+    """Slow a motion down to a given duration; `InvalidField` if it cannot be that fast."""
     least = fastest.motion.duration
     if duration < least * (1.0 - _ROUNDING):
         raise InvalidField("duration", f"must be at least {least:.10g} s: {fastest.binding}")

@@ -45,8 +45,7 @@ def _rows(along: Array, bend: Array, slope: Array, gains: Array, bounds: Array) 
     """Compute the rows for the three places of each interval.
 
     Args:
-        along: Coefficient of u in the tip's acceleration; shape (N, 3, 6).
-        bend: Coefficient of x in the tip's acceleration; shape (N, 3, 6).
+        along, bend: Coefficients of u and x in the tip's acceleration; shape (N, 3, 6).
         slope: ξ_s; shape (N, 3, 6).
         gains: Coefficient of u in ṡ² = x + gain u at each place; shape (N, 3).
         bounds: Limits of the tip, infinite for none; shape (N, 4).
