@@ -111,10 +111,7 @@ def _refuse_unblendable(segments: tuple[Segment, ...], i: int) -> None:
 
 
 def _factor(parts: list[PlannedPart], problem: TrajectoryProblem) -> float:
-    """Return by which factor the whole motion is slowed down to last as long as requested.
-
-    `InvalidField` if it takes longer already, or a segment has its own duration or times.
-    """
+    """Return the factor that makes the whole motion last as long as requested, if limits and segments allow it."""
     if problem.duration is None:
         return 1.0
     for i, segment in enumerate(problem.segments):
@@ -130,10 +127,7 @@ def _factor(parts: list[PlannedPart], problem: TrajectoryProblem) -> float:
 
 
 def _with_stated_jerk(part: PlannedPart, problem: TrajectoryProblem) -> PlannedPart:
-    """Slow a part down to the requested jerk limits if its law does not keep them by itself.
-
-    `InvalidField` if its duration or times are given.
-    """
+    """Slow a part down to requested jerk limits that its law does not keep; `InvalidField` if its times are given."""
     limits = part.demands.stated_jerk
     if limits is None or part.demands.keeps_jerk or part.motion.duration == 0.0:
         return part

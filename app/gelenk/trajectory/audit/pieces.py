@@ -99,10 +99,7 @@ def pieces_of(motion: PiecewisePolynomial) -> Pieces:
 
 
 def extremes(pieces: Pieces, order: int, *, absolute: bool = False) -> tuple[Array, Array]:
-    """Find the extreme value of a derivative of each joint, and its time [s]; shape (n,) each.
-
-    The order 0 is the position. The extreme is the highest value, or if `absolute` that of largest magnitude.
-    """
+    """Find each joint's highest value of a derivative, or largest magnitude, and its time [s]; shape (n,) each."""
     degree = max(pieces.degree - order, 0)
     count = max(_MIN_INTERVALS, 2 * degree + 2)
     nodes = 0.5 - 0.5 * np.cos(np.arange(count + 1) * math.pi / count)

@@ -54,9 +54,7 @@ def refined(field: RateField, positions: PiecewisePolynomial) -> tuple[Piecewise
 def path_error(joints: PiecewisePolynomial, off: Array | None, timing: Timed, limits: SegmentLimits) -> PathError:
     """Bound how much a motion's ratios to limits differ from those of the exact path; None where unknown.
 
-    Args:
-        joints: q(s), in M pieces.
-        off: Largest error of q'' in each piece; shape (M, n). None off the path.
+    `off` is the largest error of q'' in each of the M pieces of the joints' path; shape (M, n), None off the path.
     """
     if off is None:
         return PathError(None, None, None)

@@ -1,9 +1,8 @@
 """Joint path along a path of the tip: q(s) on one continuous branch of the inverse kinematics.
 
 Between exact knots q is the quintic with their q, q' and q'', so it is continuous up to q'' except where the tip path's
-derivatives jump. The tolerances determine the knot spacing; then `follow_exact` refines it. Where the branch cannot be
-followed any further the path ends, and `follow_verdict` says why; `damp` leaves the path near singularities instead
-(`follow_damped`).
+derivatives jump. The tolerances determine the knot spacing; then `exact` refines it. Where the branch cannot be
+followed any further the path ends, and `verdict` says why; `damped` leaves the path near singularities instead.
 """
 
 from dataclasses import dataclass, replace
@@ -42,7 +41,6 @@ class FollowedPath:
         positions: q(s) from 0 to `reached`; its breaks include the path's. If nothing was followed, or the path has
             zero length, one constant piece from 0 to 1e-12.
         reached: s up to which the path was followed; the path's extent if completely, [m or rad].
-        stop: Why it is incomplete; None if complete.
         path_deviation: Largest distance of the tip from the path, between the knots that the tolerances require, [m].
         orientation_deviation: Largest angle likewise, [rad].
         bend_errors: Bound on the error of q'' against the exact path, for each piece and joint; shape (M, n). None
@@ -58,10 +56,7 @@ class FollowedPath:
 
 
 def follow(robot: RobotModel, chain: Chain, path: Path, start: Array, following: Following) -> FollowedPath:
-    """Find the joint path that leads the tip along a path, starting at a configuration.
-
-    Args:
-        start: A configuration at the path's first pose; shape (n,), [rad or m].
+    """Find the joint path that leads the tip along a path, from a configuration, (n,), at the path's first pose.
 
     Raises:
         InvalidField: The tolerances require too many knots.

@@ -69,8 +69,8 @@ def traced(
     """Trace the path from a configuration at place `since`, [m or rad].
 
     Tracing stops where σ is above `until_above`. If that is finite, a path about to be lost is also given up once its
-    end can be extrapolated (`_end_of_branch`), instead of being traced to the last nanometre. `InvalidField` if it takes
-    more than `most` pieces, by default `MOST_KNOTS`.
+    end can be extrapolated (`_end_of_branch`), instead of being traced to the last nanometre. `InvalidField` if there
+    are more than `most` pieces, by default `MOST_KNOTS`.
     """
     most = MOST_KNOTS if most is None else most
     trace, creep = Trace(start, []), _CREEP * min(field.path.extent, 1.0)

@@ -57,13 +57,10 @@ def with_blend_times(times: Array, points: Array, blend_times: Array) -> Blends:
 
 
 def with_accelerations(times: Array, points: Array, accelerations: Array) -> Blends:
-    """Plan blends of given accelerations; their durations follow as t_b = |Δv|/a.
+    """Plan blends with an acceleration a > 0 of each joint, (n,), [rad/s² or m/s²]; they last t_b = |Δv|/a.
 
     `InvalidField` if a segment is too short for its blends, or an end segment for its distance from rest. Times and
     points are those of `with_blend_times`.
-
-    Args:
-        accelerations: a > 0 of each joint; shape (n,), [rad/s² or m/s²].
     """
     lengths, steps = np.diff(times), np.diff(points, axis=0)
     velocities = steps / lengths[:, None]

@@ -16,8 +16,7 @@ _SHORTEST = 1e-5
 def phases(caps: Array) -> tuple[Array, Array, Array]:
     """Return the durations of jerk, of constant acceleration and of the coast in the least time; shape (N,) each.
 
-    Args:
-        caps: Largest speed, acceleration and jerk; shape (N, 3), [1/s, 1/s², 1/s³].
+    The caps are the largest speed, acceleration and jerk; shape (N, 3), [1/s, 1/s², 1/s³].
     """
     v, a, j = caps.T
     # The speed at which no coast is left: with the full acceleration reached, or without.

@@ -17,12 +17,7 @@ _SAME = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Peaks:
-    """The value of each coordinate of a motion that is furthest from zero, and its time.
-
-    Attributes:
-        values: With their signs; shape (n,).
-        times: The first one of several, [s]; shape (n,).
-    """
+    """The value of each coordinate furthest from zero, with its sign, and its first time [s]; shape (n,) each."""
 
     values: Array
     times: Array

@@ -75,10 +75,7 @@ Curve: TypeAlias = Line | Arc
 
 
 def arc_through(start: Array, via: Array, end: Array) -> Arc:
-    """Return the arc from a start through a via point to an end; shape (3,) each, [m].
-
-    `InvalidField` if two of the points coincide, or all three lie on a line.
-    """
+    """Return the arc through three points, (3,) each, [m]; `InvalidField` if two coincide or all lie on a line."""
     a, b = start - via, end - via
     lengths = math.hypot(*a), math.hypot(*b), math.dist(start, end)
     longest = max(lengths)

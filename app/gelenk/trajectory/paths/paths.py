@@ -135,10 +135,7 @@ def through_orientations(rotations: Array, knots: Array, law: OrientationLaw) ->
 
 @dataclass(frozen=True)
 class PathSequence:
-    """Paths joined one after the other, each beginning where the previous one ends.
-
-    All of them, at least one, are without breaks and have the same unit of s.
-    """
+    """Paths, at least one, each without breaks and beginning where the previous one ends, with one unit of s."""
 
     parts: tuple[Path, ...]
 

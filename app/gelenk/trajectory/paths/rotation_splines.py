@@ -34,12 +34,7 @@ _CONVERGED = 1e-13
 
 @dataclass(frozen=True, slots=True)
 class RotationVectorPath:
-    """A path R(x) = R_k Exp(θ(x)), with θ a polynomial on each piece.
-
-    Attributes:
-        starts: R_k of each of the M pieces; shape (M, 3, 3).
-        vectors: θ for x from 0 to 1; M pieces, 3 coordinates, [rad].
-    """
+    """A path R(x) = R_k Exp(θ(x)): R_k, (M, 3, 3), and θ, [rad], a polynomial of x from 0 to 1, on M pieces."""
 
     starts: Array
     vectors: PiecewisePolynomial
@@ -59,10 +54,7 @@ class RotationVectorPath:
 
 
 def rotation_spline(rotations: Array, knots: Array) -> RotationVectorPath:
-    """Return the C² spline through orientations.
-
-    There are at least two, of shape (M + 1, 3, 3), at x = `knots`, (M + 1,), increasing from 0 to 1.
-    """
+    """Return the C² spline through orientations, (M + 1, 3, 3), at x = `knots`, (M + 1,), increasing from 0 to 1."""
     steps = vectors_from_rotations(np.ascontiguousarray(rotations[:-1].transpose(0, 2, 1) @ rotations[1:]))
     widths = np.diff(knots)[:, None]
     omegas = np.vstack((steps[:1] / widths[:1], steps / widths))

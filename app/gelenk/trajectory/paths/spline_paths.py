@@ -51,10 +51,7 @@ _SLOWEST = 1e-12
 
 @dataclass(frozen=True)
 class PolynomialPath:
-    """A path with p(u), [m], a polynomial on each piece, and an orientation over the whole range of u.
-
-    The x of the orientation runs from 0 to 1 as u runs from its first break to its last.
-    """
+    """A path with p(u), [m], a polynomial on each piece; the orientation's x runs from 0 to 1 as u does over all."""
 
     position: PiecewisePolynomial
     orientation: OrientationPath

@@ -21,7 +21,6 @@ class PlannedPart:
     Attributes:
         motion: Joint motion, starting at 0 s; one piece of zero duration if nothing moves.
         reports: Of the segments that were started; their times count from the start of the part.
-        failure: Why the part ends early; None if it is complete.
         share: Completed fraction of its last segment, from 0 to 1.
     """
 

@@ -39,8 +39,7 @@ class _Chain:
     Attributes:
         middles: Midpoints between the places at which slopes are known; shape (N - 1,).
         slopes: Shape (N, …).
-        count: Number of derivatives that a law fixes at both ends of a line, counting the position; None for
-            jerk-limited profiles.
+        count: That of `chain_law`.
     """
 
     geometry: LimitedPath

@@ -100,10 +100,7 @@ def controllable(constraints: Stages, end: float) -> Array:
 
 
 def fastest(constraints: Stages, most: Array, start: float) -> Array:
-    """Return x at each node for the largest u in every interval that keeps x within `most`; shape (N + 1,) each.
-
-    The x of the first node is at most `start`.
-    """
+    """Return x at each node, from at most `start`, for the largest u that keeps x within `most`; shape (N + 1,)."""
     x = min(start, most[0])
     found = [x]
     for twice, offsets, slopes, upper in zip(2.0 * constraints.lengths, *constraints.upper, most[1:], strict=True):

@@ -59,7 +59,6 @@ class _Task:
     """A path over 0 ≤ s ≤ 1 and the limits along it.
 
     Attributes:
-        path: q(s).
         limits: Limits of velocity and acceleration, less the margin; shape (2, n).
         most_at_ends: Largest ṡ² at the start and the end: 0, or ∞ where q' = 0, so that the joints rest at any ṡ.
     """
