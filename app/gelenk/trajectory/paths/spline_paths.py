@@ -51,7 +51,7 @@ _SLOWEST = 1e-12
 
 @dataclass(frozen=True)
 class PolynomialPath:
-    """A path with p(u), [m], a polynomial on each piece; the orientation's x runs from 0 to 1 as u does over all."""
+    """A path with p(u), [m], a polynomial on each piece; its orientation's x runs from 0 to 1 over the range of u."""
 
     position: PiecewisePolynomial
     orientation: OrientationPath
