@@ -74,14 +74,9 @@ _SHAPE_SIZES = {
 
 
 def read_urdf(text: str, strict: bool = False) -> Description:
-    """Read and check a description.
+    """Read and check a description with xacro already expanded; its oddities are in `warnings`.
 
-    Args:
-        text: The URDF, with xacro already expanded.
-        strict: Whether faults that do not affect kinematics are refused too, instead of only warned of.
-
-    Returns:
-        The robot, with its oddities in `warnings`.
+    If `strict`, faults that do not affect kinematics are refused too, instead of only warned of.
 
     Raises:
         InvalidUrdf: The text is not well-formed XML, does not describe a robot, or exceeds a limit.
