@@ -146,7 +146,6 @@ def _angular(which: tuple[int, ...], axes: Axes) -> Array:
 
 
 def _moment(which: tuple[int, ...], axes: Axes) -> Array:
-    """Mutual moment of two axes."""
     i, j = which
     return _dot(axes.directions[i], axes.moments[j]) + _dot(axes.directions[j], axes.moments[i])
 

@@ -40,12 +40,7 @@ class _Job(NamedTuple):
 def with_numbers(on: Subject, table: DhTable, freedom: Freedom, repairs: Repairs, count: int) -> list[Diagnosis]:
     """Find repairs that, together with some corrected numbers, make a table describe a chain.
 
-    Args:
-        on: The chain.
-        table: The table.
-        freedom: The quantities that may be found as well.
-        repairs: The repairs applied first.
-        count: Number of wrong numbers after the repair, besides those of missing rows.
+    Besides those of missing rows, `count` numbers are wrong after the repair.
     """
     invariants = Invariants(on, freedom)
     found: list[Diagnosis] = []
