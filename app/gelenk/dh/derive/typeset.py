@@ -184,7 +184,6 @@ class Notation:
         return collected(terms)
 
     def _product(self, before: Monomial, factor: Fraction, polynomial: Polynomial) -> Formula:
-        """Write the product of a monomial, a number and a polynomial."""
         if not polynomial:
             return Formula("0", "0")
         shared = shared_monomial(polynomial)
@@ -315,7 +314,6 @@ def multiple_of_pi(value: float) -> Formula | None:
 
 
 def _without_squared_roots(polynomial: Polynomial) -> Polynomial:
-    """Apply √n² = n."""
     terms = []
     for monomial, factor in polynomial:
         rest: Monomial = ()

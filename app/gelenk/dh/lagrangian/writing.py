@@ -95,7 +95,6 @@ def written(polynomial: Polynomial, notation: Notation, manner: Manner) -> Formu
 
 
 def _length(text: Formula) -> int:
-    """Return the length of a formula; nested brackets count extra."""
     depth, deepest = 0, 0
     for character in text.plain:
         depth += {"(": 1, ")": -1}.get(character, 0)
