@@ -85,10 +85,8 @@ def compare(
 ) -> Comparison:
     """Compare a table with a chain, whose joints, mimic joints included, are the table's rows.
 
-    Args:
-        table: The table; its base and tool are ignored where they are to be found.
-        tolerances: Position [m] and orientation [rad] within which poses count as equal.
-        seed: Seed of the random configurations.
+    The table's base and tool are ignored where they are to be found. Positions [m] and orientations [rad] count as
+    equal within the tolerances. `seed` is that of the random configurations.
 
     Raises:
         InvalidField: Zeros or senses are requested for a chain with mimic joints, or with too many joints.

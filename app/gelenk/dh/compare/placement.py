@@ -44,8 +44,7 @@ class Subject:
     Attributes:
         senses: -1 where the multipliers of table and chain have opposite signs, else 1; shape (n,).
         tolerances: Position [m] and orientation [rad] within which poses count as equal.
-        qs: Configurations to compare; shape (N, variables).
-        expected: Pinocchio's poses at these configurations.
+        qs, expected: Configurations to compare, shape (N, variables), and Pinocchio's poses at these.
     """
 
     chain: Chain

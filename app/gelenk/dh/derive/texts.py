@@ -15,11 +15,9 @@ Grid: TypeAlias = list[list[float]]
 
 @dataclass(frozen=True, slots=True)
 class SymbolicRequest:
-    """The request as plain data; `style` is that of `Notation`.
+    """The request as plain data, with style and symbols as for `worked_solution`.
 
-    Attributes:
-        keeps_symbols: Whether lengths stay symbols; otherwise the formulas contain their values.
-        samples: Configurations at which the formulas are also evaluated, [rad or m].
+    The formulas are also evaluated at the samples, configurations in [rad or m].
     """
 
     table: TableNumbers
@@ -94,7 +92,6 @@ class Formulas:
         rows: A_1 … A_n; None for one that failed its check.
         frames, tip: T_0_1 … T_0_n and T_base_tool; None for one that is too long.
         chain: Position of the tip in each frame, from n to 0, from right to left; None if one is too long.
-        position, rotation: Those of the tip.
         columns: Columns of the Jacobian in the base's axes; None if the tip is too long.
     """
 

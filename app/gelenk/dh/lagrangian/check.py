@@ -95,7 +95,7 @@ class Judge:
         return error
 
     def errors(self, q: Array, M: object, c: object, g: object) -> tuple[float, float, float]:
-        """Return the largest differences of M, the Christoffel symbols and g from Pinocchio's; raises like `compare`."""
+        """Return the largest differences of M, the Christoffel symbols and g from Pinocchio's; raises as `compare`."""
         inertia, weight = self._scales.at(q)
         return (
             self.compare("the mass matrix", M, self.mass_matrix(q), inertia),
@@ -104,7 +104,7 @@ class Judge:
         )
 
     def energies_error(self, sample: MotionSample, value: Mapping[str, Any]) -> None:
-        """Compare what M, C and g are derived from, and what follows from them; raises like `compare`."""
+        """Compare what M, C and g are derived from, and what follows from them; raises as `compare`."""
         q, v, a = np.array(sample.q), np.array(sample.v), np.array(sample.a)
         inertia, weight = self._scales.at(q)
         centers, velocities, kinetic, potential = self.bodies(q, v)

@@ -30,8 +30,7 @@ class MotionSolution:
     Attributes:
         numeric: M, C and g at each given configuration; empty if a number is missing.
         notes: What is left out, and why.
-        certificate: Certificate of the formulas.
-        numeric_certificate: Certificate of the numbers; None without numbers.
+        certificate, numeric_certificate: Those of the formulas and of the numbers; None without numbers.
     """
 
     texts: MotionTexts

@@ -100,7 +100,6 @@ class MotionTexts:
 
     Attributes:
         legend: Symbols beyond those of the transforms.
-        links: One per joint.
         christoffel: The symbols that differ from zero.
         equations_of_motion: M q̈ + C q̇ + g = τ, row by row.
         missing: Symbols of M, C and g that have no value.
