@@ -62,10 +62,7 @@ class Chain:
 
 
 def build_chain(description: Description, base_frame: str, tip_frame: str) -> Chain:
-    """Build the chain between two frames of a robot.
-
-    Raises UnknownFrame, or UnsupportedJoint if a floating or planar joint lies on the path.
-    """
+    """Build the chain between two frames; raises UnknownFrame, or UnsupportedJoint for a floating or planar joint."""
     upwards, downwards = _path(description, base_frame, tip_frame)
     steps = [(joint, True) for joint in upwards] + [(joint, False) for joint in downwards]
     for joint, _ in steps:

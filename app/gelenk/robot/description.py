@@ -112,10 +112,7 @@ class Drive:
 
 @dataclass(frozen=True)
 class Description:
-    """A checked robot description, with links and joints in document order.
-
-    `warnings` are oddities that are allowed, one sentence each.
-    """
+    """A checked robot description, in document order; `warnings` are allowed oddities, one sentence each."""
 
     name: str
     links: tuple[Link, ...]

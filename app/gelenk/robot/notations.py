@@ -85,10 +85,7 @@ def rotations_from_zyz(zyz: Array) -> Array:
 
 @compiled
 def zyz_from_rotations(Rs: Array) -> Array:
-    """Return (φ, θ, ψ) of each rotation, [rad]; shape (N, 3, 3) → (N, 3).
-
-    As with RPY, the later angles are computed after undoing the first.
-    """
+    """Return (φ, θ, ψ) of each rotation, [rad], in the manner of RPY; shape (N, 3, 3) → (N, 3)."""
     zyz = np.empty((len(Rs), 3))
     for i in range(len(Rs)):
         R = Rs[i]

@@ -57,10 +57,7 @@ def nearest_rotation(matrix: Array) -> Array:
 
 
 def unit_quaternion(quaternion: Array) -> Array:
-    """Normalise a quaternion in any order of its parts; shape (4,) → (4,).
-
-    Raises InvalidPose if its length differs from 1 by more than `ROTATION_TOLERANCE`.
-    """
+    """Normalise a quaternion (4,), in any order; InvalidPose if its length is not 1 within `ROTATION_TOLERANCE`."""
     length = math.hypot(*quaternion.tolist())
     if abs(length - 1.0) > ROTATION_TOLERANCE:
         raise InvalidPose(

@@ -420,7 +420,6 @@ def write_urdf(description: Description) -> str:
 
 
 def _element(tag: str, attributes: dict[str, str], body: Sequence[str] = (), indent: int = 0) -> list[str]:
-    """Return the lines of a tag with its attributes around the lines of its body."""
     space = "  " * indent
     start = f"{space}<{tag}" + "".join(f" {key}={quoteattr(value)}" for key, value in attributes.items())
     if not body:

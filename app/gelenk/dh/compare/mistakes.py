@@ -110,7 +110,6 @@ def _pairs(on: Subject, table: DhTable, freedom: Freedom, signs: Array, loosely:
 
 
 def _two(on: Subject, table: DhTable, freedom: Freedom, single: Repairs) -> list[Diagnosis]:
-    """Pairs of mistakes in the rows."""
     found = explaining(on, table, freedom, single.then(single))
     if found or len(on.chain) != len(on.target):
         return found

@@ -38,10 +38,7 @@ _UNDETERMINED = 1e-9
 
 @dataclass(frozen=True)
 class ChainScrews:
-    """The joints' unit twists in the base, (n, 6), and T_base_tip, (4, 4), of a chain at position zero.
-
-    `slides` (n,) tells which joints are prismatic.
-    """
+    """A chain at position zero: unit twists in the base (n, 6), which joints slide (n,), and T_base_tip (4, 4)."""
 
     twists: Array
     slides: Flags

@@ -38,10 +38,7 @@ class _Job(NamedTuple):
 
 
 def with_numbers(on: Subject, table: DhTable, freedom: Freedom, repairs: Repairs, count: int) -> list[Diagnosis]:
-    """Find repairs that, together with some corrected numbers, make a table describe a chain.
-
-    Besides those of missing rows, `count` numbers are wrong after the repair.
-    """
+    """Find repairs that, with `count` numbers corrected besides missing rows, make a table describe a chain."""
     invariants = Invariants(on, freedom)
     found: list[Diagnosis] = []
     for some in by_convention(on, table, repairs):

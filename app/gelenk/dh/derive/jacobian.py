@@ -261,10 +261,7 @@ def relative_jacobian(table: Table, setting: Setting) -> Grid:
 
 
 def determinant(matrix: Grid, part: DiagonalBlock, table: Table) -> Polynomial:
-    """Return the determinant of a part, reduced, by expansion along its columns.
-
-    Raises TooManyTerms if it, or a minor, is too long.
-    """
+    """Return the determinant of a part, reduced, by expansion along its columns; raises TooManyTerms."""
     if len(part.rows) > LARGEST_PART:
         raise TooManyTerms
 

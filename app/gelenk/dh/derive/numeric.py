@@ -21,8 +21,7 @@ class NumericSolution:
         rows, frames: A_1 … A_n and T_0_1 … T_0_n; each of shape (4, 4).
         frames_in_base, tip: T_base_0 … T_base_n and T_base_tool; each of shape (4, 4).
         jacobian: Geometric Jacobian in the axes of the base; shape (6, n).
-        singular_values: Singular values, largest first.
-        rank: Number of singular values that count.
+        singular_values, rank: Singular values, largest first, and how many of them count.
     """
 
     q: Array

@@ -84,10 +84,7 @@ class Judge:
         return centers, velocities, kinetic, potential
 
     def compare(self, name: str, ours: object, judged: Array, scale: float = 1.0) -> float:
-        """Return the largest difference from Pinocchio's value.
-
-        Raises CertificationFailed if it is more than rounding of numbers of that scale.
-        """
+        """Return the largest difference from Pinocchio's; raises CertificationFailed beyond rounding at that scale."""
         error = float(np.abs(np.asarray(ours, dtype=float) - judged).max())
         tolerance = TOLERANCE * max(1.0, scale, float(np.abs(judged).max()))
         if not error <= tolerance:

@@ -38,9 +38,8 @@ class NotPlanar(Exception):
 class PlanarArm:
     """The arm, with its centres of mass, in the axes of frame 0.
 
-    Attributes:
-        senses: For each joint 1 or -1 if it turns about the plane's normal or against it, 0 if it slides.
-        lines: Line on which each centre of mass is measured if it is one number.
+    `senses` are 1 or -1 for joints that turn about the plane's normal or against it, 0 for those that slide; `lines`
+    are those on which centres of mass that are one number are measured.
     """
 
     senses: tuple[int, ...]
