@@ -226,7 +226,6 @@ def _certified(robot: RobotModel, qs: Array, numeric: Sequence[NumericSolution])
 
 
 def _limits(table: DhTable, found: Formulas, singular: Singularities | None) -> list[str]:
-    """Return notes on what stays numeric, and why."""
     notes = []
     written = sum(frame is not None for frame in found.frames)
     n = len(table.joints)

@@ -100,8 +100,6 @@ def read_urdf(text: str, strict: bool = False) -> Description:
 
 
 class _DocumentReader:
-    """Reads one document and collects warnings."""
-
     def __init__(self, strict: bool, warnings: list[str]) -> None:
         self._strict = strict
         self._warnings = warnings

@@ -99,7 +99,6 @@ def alignments(
 def _beyond(
     branch: _Branch, i: int, sense: float, target: ChainScrews, table: ChainScrews, free_zeros: bool
 ) -> _Branch:
-    """Extend a branch by joint i."""
     signs = branch.signs.copy()
     signs[i] = sense
     branch = _taken_up(replace(branch, signs=signs), i, target, table)
@@ -172,7 +171,6 @@ def _length(vector: Array) -> float:
 
 
 def _across(vector: Array, axis: Array) -> Array:
-    """Component of a vector perpendicular to an axis."""
     across: Array = vector - (vector @ axis) * axis
     return across
 

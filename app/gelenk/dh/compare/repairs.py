@@ -232,7 +232,6 @@ def _in_rows(n: int, powers: int) -> Iterator[_Repair]:
 
 
 def _in_cells(n: int, powers: int) -> Iterator[_Repair]:
-    """Repairs of single numbers."""
     for i in range(n):
         for name in PARAMETERS:
             where = f"{name} in row {i + 1}"

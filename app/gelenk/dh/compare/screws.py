@@ -283,7 +283,6 @@ def _adjoint(twists: Array) -> Array:
 
 
 def _about_z(theta: Array, d: Array) -> Array:
-    """Rz(θ) Tz(d), batched."""
     Ts = np.zeros((len(theta), 4, 4))
     Ts[:, 0, 0] = Ts[:, 1, 1] = np.cos(theta)
     Ts[:, 1, 0] = np.sin(theta)
@@ -294,7 +293,6 @@ def _about_z(theta: Array, d: Array) -> Array:
 
 
 def _about_x(alpha: Array, a: Array) -> Array:
-    """Rx(α) Tx(a), batched."""
     Ts = np.zeros((len(alpha), 4, 4))
     Ts[:, 1, 1] = Ts[:, 2, 2] = np.cos(alpha)
     Ts[:, 2, 1] = np.sin(alpha)

@@ -142,7 +142,6 @@ def _bases(on: Subject, tables: Tables) -> Array:
 def _diagnosis(
     on: Subject, table: DhTable, freedom: Freedom, repair: Repairs, job: _Job, rows: Array
 ) -> Diagnosis | None:
-    """Diagnosis from the numbers found, if the table with them describes the chain."""
     before = table_of(on, table, repair, repair.numbers(numbers_of(table))[0])
     numbers, further = numbers_of(before), []
     for place in (*job.missing, *job.wrong):

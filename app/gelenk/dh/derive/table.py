@@ -167,8 +167,6 @@ class Table:
 
 @dataclass(slots=True)
 class _TableReader:
-    """Collects symbols and remarks while a table is read."""
-
     values: dict[Atom, float] = field(default_factory=dict)
     remarks: list[str] = field(default_factory=list)
 

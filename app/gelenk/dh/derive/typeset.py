@@ -202,7 +202,6 @@ class Notation:
         return times([self.monomial(factor, before), in_brackets(inner)])
 
     def _sum(self, polynomial: Polynomial) -> Formula:
-        """Write a sum, collected by the first group of parallel axes that occurs."""
         return summed([self._product(before, Fraction(1), part) for before, part in self._parts(polynomial)])
 
     def _parts(self, polynomial: Polynomial) -> list[tuple[Monomial, Polynomial]]:

@@ -89,7 +89,6 @@ def planar_arm(table: Table, bodies: tuple[LinkBody, ...], values: dict[Atom, fl
 
 
 def _point(frame: Transform, index: int, given: Point, values: dict[Atom, float]) -> Vector:
-    """Return a centre of mass that is given by its coordinates in the link's frame."""
     inside = tuple(
         quantity(Atom(LENGTH, (index,), name), value, values, LENGTH_TOLERANCE)
         for name, value in zip(("xc", "yc", "zc"), given, strict=True)

@@ -205,7 +205,6 @@ def _is_small(value: Fraction, most: int = 1) -> bool:
 
 
 def _groups(polynomial: Polynomial, key: Key) -> list[Polynomial]:
-    """Group the terms by their atoms of a kind."""
     groups: dict[Monomial, dict[Monomial, Fraction]] = {}
     for monomial, value in polynomial:
         groups.setdefault(tuple(item for item in monomial if key(item[0])), {})[monomial] = value
