@@ -85,7 +85,7 @@ def rotations_from_zyz(zyz: Array) -> Array:
 
 @compiled
 def zyz_from_rotations(Rs: Array) -> Array:
-    """Return (φ, θ, ψ) of each rotation, [rad], in the manner of RPY; shape (N, 3, 3) → (N, 3)."""
+    """Return (φ, θ, ψ) of each rotation, [rad], later angles after undoing the first; shape (N, 3, 3) → (N, 3)."""
     zyz = np.empty((len(Rs), 3))
     for i in range(len(Rs)):
         R = Rs[i]

@@ -57,7 +57,7 @@ def nearest_rotation(matrix: Array) -> Array:
 
 
 def unit_quaternion(quaternion: Array) -> Array:
-    """Normalise a quaternion (4,), in any order; InvalidPose if its length is not 1 within `ROTATION_TOLERANCE`."""
+    """Normalise a quaternion (4,), in any order; raises InvalidPose if |length - 1| > `ROTATION_TOLERANCE`."""
     length = math.hypot(*quaternion.tolist())
     if abs(length - 1.0) > ROTATION_TOLERANCE:
         raise InvalidPose(
