@@ -73,10 +73,9 @@ class WorkedSolution:
         motion: The equations of motion; None if they were not requested, or the notes say why there are none.
         numeric: One entry per given configuration.
         determinants: Determinant of the block at each of these; None if no block is square.
-        steps: The solution in words.
         notes: Numbers that were read as something else, and what stays numeric and why.
-        certificate: Certificate of the formulas; None without formulas.
-        numeric_certificate: Certificate of poses and Jacobians at the configurations, by Pinocchio.
+        certificate: Of the formulas; None without formulas.
+        numeric_certificate: Of poses and Jacobians at the configurations, by Pinocchio.
     """
 
     joint_names: tuple[str, ...]
@@ -104,7 +103,6 @@ def worked_solution(
     """Derive the worked solution of a table.
 
     Args:
-        table: Standard or modified table; every row has a variable of its own.
         values: Configurations at which numbers are wanted too, in order or by name, [rad or m].
         style: `short` writes c_{12}, `full` writes cos(q_1 + q_2).
         keeps_symbols: Whether lengths stay symbols; otherwise the formulas contain their values.
@@ -219,7 +217,6 @@ def _determinant(singular: Singularities | None, solution: NumericSolution) -> f
 
 
 def _certified(robot: RobotModel, qs: Array, numeric: Sequence[NumericSolution]) -> NumericCertificate:
-    """Compare the numbers at the configurations with Pinocchio's."""
     chain = robot.chain(None, None)
     positions = np.array([solution.tip[:3, 3] for solution in numeric])
     rotations = np.array([solution.tip[:3, :3] for solution in numeric])
@@ -229,7 +226,6 @@ def _certified(robot: RobotModel, qs: Array, numeric: Sequence[NumericSolution])
 
 
 def _limits(table: DhTable, found: Formulas, singular: Singularities | None) -> list[str]:
-    """Return notes on what stays numeric, and why."""
     notes = []
     written = sum(frame is not None for frame in found.frames)
     n = len(table.joints)

@@ -43,13 +43,9 @@ _MOST_INERTIA = 1e12
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """A homogeneous cylinder (radius, length; along z) or box (x, y, z) in the frame of a link; sizes in [m].
+    """A homogeneous cylinder (radius, length; along z) or box (x, y, z); sizes in [m].
 
-    Attributes:
-        kind: `cylinder` or `box`.
-        size: Its dimensions in the order above, [m].
-        centre: Centre of mass in the link's frame; shape (3,), [m].
-        rotation: Axes of the solid in the link's frame, as columns; shape (3, 3).
+    `centre` (3,) is its centre of mass, [m], and `rotation` (3, 3) has its axes as columns, both in a link's frame.
     """
 
     kind: str
@@ -84,9 +80,7 @@ class Solid:
 class Stock:
     """Creates the solids of an arm's links, all with the same thickness.
 
-    Args:
-        lengths: Lengths between the joints, [m]; the median of those that are not zero sets the thickness.
-        thickness: Radius of a thin cylinder, relative to that median.
+    The radius of a thin cylinder is `thickness` times the median of the lengths between joints [m] that are not zero.
     """
 
     def __init__(self, lengths: Iterable[float], thickness: float = 0.12) -> None:
@@ -142,15 +136,11 @@ def inertial_of(solids: Sequence[Solid]) -> Inertial:
 
 
 def skeleton(description: Description, without: Container[str]) -> dict[str, list[Solid]]:
-    """Create solids for the links that show nothing themselves, each in its link's frame.
+    """Create solids for the links that show nothing themselves, by link name, each in its link's frame.
 
-    Args:
-        description: The robot's description.
-        without: Names of meshes whose files are missing.
-
-    Returns:
-        Solids by link name: a rod to each joint below, and a body for the joint above if that moves; no link without
-        solids. If other links show something, a link with neither a shape nor a movable joint is a mere frame: none.
+    A link gets a rod to each joint below, and a body for the joint above if that moves. If other links show something,
+    one with neither a shape nor a movable joint is a mere frame and gets none; links with none are left out. `without`
+    names the meshes whose files are missing.
     """
     stock = Stock((math.hypot(*joint.origin.xyz) for joint in description.joints), _SKELETON_THICKNESS)
     bare = [link for link in description.links if not _shows(link, without)]

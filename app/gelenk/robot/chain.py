@@ -25,10 +25,8 @@ class FlatChain(NamedTuple):
     There are few arrays because passing one to a compiled function takes a tenth of a microsecond.
 
     Attributes:
-        placements: Constant placements before each joint and after the last: rotation row by row, then translation in
-            [m]; shape (m + 1, 12).
-        joints: For each joint, 1 if it slides or 0 if it turns, and the index of the variable that moves it; shape (m,
-            2).
+        placements: The constant placements: rotation row by row, then translation in [m]; shape (m + 1, 12).
+        joints: For each joint, 1 if it slides, else 0, and the index of the variable that moves it; shape (m, 2).
         drives: Multiplier and offset of joint position = multiplier · variable + offset; shape (m, 2), [rad or m].
     """
 
@@ -43,16 +41,12 @@ class FlatChain(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """A kinematic chain of a robot, from a base frame to a tip frame.
+    """A kinematic chain of a robot; the pose of `tip_frame` is expressed in `base_frame`.
 
     Attributes:
-        base_frame: Frame in which poses are expressed.
-        tip_frame: Frame whose pose is computed.
         joint_names: Names of the chain's n variables, base to tip; the order of a configuration.
         robot_joints: Names of all movable joints of the robot, including those outside the chain.
-        lower: Lower bound of each variable, [rad or m], -inf if unbounded; shape (n,).
-        upper: Upper bound of each variable, [rad or m], inf if unbounded; shape (n,).
-        flat: The chain as arrays for the kernels.
+        lower, upper: Bounds of each variable, [rad or m], infinite if unbounded; shape (n,).
     """
 
     base_frame: str
@@ -68,12 +62,7 @@ class Chain:
 
 
 def build_chain(description: Description, base_frame: str, tip_frame: str) -> Chain:
-    """Build the chain between two frames of a robot.
-
-    Raises:
-        UnknownFrame: The robot does not have one of the frames.
-        UnsupportedJoint: A floating or planar joint lies on the path.
-    """
+    """Build the chain between two frames; raises UnknownFrame, or UnsupportedJoint for a floating or planar joint."""
     upwards, downwards = _path(description, base_frame, tip_frame)
     steps = [(joint, True) for joint in upwards] + [(joint, False) for joint in downwards]
     for joint, _ in steps:
@@ -108,13 +97,8 @@ def build_chain(description: Description, base_frame: str, tip_frame: str) -> Ch
 def frame_on_chain(description: Description, chain: Chain, frame: str) -> tuple[Chain, Indices]:
     """Build the chain from the same base to another frame that depends only on the chain's variables.
 
-    Returns:
-        The new chain, and for each of its variables the index in the configuration of `chain`.
-
-    Raises:
-        UnknownFrame: The robot does not have this frame.
-        FrameNotOnChain: The frame also depends on joints that are not variables of the chain.
-        UnsupportedJoint: A floating or planar joint lies on the path.
+    Return it with the index of each of its variables in the configuration of `chain`. It raises as `build_chain` does,
+    and FrameNotOnChain if the frame also depends on other joints.
     """
     part = build_chain(description, chain.base_frame, frame)
     missing = tuple(name for name in part.joint_names if name not in chain.joint_names)

@@ -26,10 +26,7 @@ MAX_MAGNITUDE = 1e6
 def configurations(chain: Chain, values: Sequence[Configuration] | Array, field: str = "joint_positions") -> Array:
     """Convert configurations (or velocities) to rows in the chain's order; shape (N, n), [rad or m (/s)].
 
-    Args:
-        chain: The chain.
-        values: Numbers in the chain's order or by joint name; an array must already have this shape.
-        field: Name of the field in error messages.
+    Values are in the chain's order or by joint name; an array must already have this shape. Messages name the `field`.
 
     Raises:
         WrongJointCount: A configuration does not have one number per joint.
@@ -56,13 +53,7 @@ def one_configuration(chain: Chain, value: Configuration, field: str) -> Array:
 
 
 def checked_rows(chain: Chain, rows: Array, field: str) -> Array:
-    """Return the array unchanged if it has one column per joint and numbers of sensible size.
-
-    Raises:
-        WrongJointCount: The array does not have one column per joint.
-        InvalidField: A number is not finite or exceeds `MAX_MAGNITUDE`.
-        InvalidArray: The array is not two-dimensional.
-    """
+    """Return rows of one number per joint, of sensible size, unchanged; raises as `configurations` does."""
     if rows.ndim != 2:
         raise InvalidArray(
             f"{field} form an array of shape (N, {len(chain)}); this one has {counted(rows.ndim, 'dimension')}"
@@ -101,11 +92,7 @@ def _within(qs: Array, most: float) -> bool:
 
 
 def check_limits(chain: Chain, qs: Array) -> None:
-    """Refuse configurations beyond the limits of the chain's joints; shape (N, n), [rad or m].
-
-    Raises:
-        OutsideLimits: A joint is beyond its limits; names the first one.
-    """
+    """Raise OutsideLimits for the first joint beyond its limits in configurations of shape (N, n), [rad or m]."""
     outside = (qs < chain.lower) | (qs > chain.upper)
     if outside.any():
         row, column = (int(index) for index in np.argwhere(outside)[0])

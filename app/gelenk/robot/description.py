@@ -1,7 +1,7 @@
 """A checked robot description: links joined into a tree by joints.
 
 A `Description` can hold everything that a valid URDF describes, and nothing else: it is always a tree with one root,
-finite numbers, unit axes, ordered limits, and mimic joints that end at an independent joint.
+unique names, finite numbers, unit axes, ordered limits, and mimic joints that end at an independent joint.
 """
 
 from collections.abc import Iterator
@@ -38,11 +38,9 @@ class Inertial:
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A geometry of a link, for display or collision checking.
+    """A geometry of a link, for display or collision checking, at `origin` in the link's frame.
 
     Attributes:
-        role: Purpose of the shape.
-        origin: Placement in the link's frame.
         kind: box (x, y, z), cylinder or capsule (radius, length), sphere (radius), mesh (scale x, y, z).
         size: Numbers of that kind, [m] (a mesh's scale has no unit).
         mesh: File name of the mesh as in the description; this package never opens the file.
@@ -85,16 +83,11 @@ class Mimic:
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """A connection of link `child` to link `parent`.
+    """A connection of link `child`, whose frame is also the joint's, to link `parent`, which is nearer to the root.
 
     Attributes:
-        name: Name, unique in the robot.
-        type: One of URDF's six types.
-        parent: Link nearer to the root.
-        child: Link whose frame is also the joint's frame.
         origin: Frame of the joint in the parent's frame, at position zero.
         axis: Unit vector in the joint's frame: axis of rotation, direction of sliding, or normal of the plane (planar).
-        limits: Limits of position, velocity and effort.
         mimic: Rule for following another joint; None for an independent joint.
     """
 
@@ -119,14 +112,7 @@ class Drive:
 
 @dataclass(frozen=True)
 class Description:
-    """A checked robot description.
-
-    Attributes:
-        name: Name of the robot in the description.
-        links: In document order.
-        joints: In document order.
-        warnings: Oddities that are allowed, one sentence each.
-    """
+    """A checked robot description, in document order; `warnings` are allowed oddities, one sentence each."""
 
     name: str
     links: tuple[Link, ...]

@@ -77,11 +77,7 @@ class DhJoint:
 class DhTable:
     """A chain as a table between a base and a tool transform: T_base_tool = base · A_1 ⋯ A_n · tool.
 
-    Attributes:
-        convention: Order in which the four parameters of a row are composed.
-        joints: Rows, base to tip; at least one.
-        base: T_base_0; shape (4, 4).
-        tool: T_n_tool; shape (4, 4).
+    The rows go from base to tip; `base` is T_base_0 and `tool` is T_n_tool, each of shape (4, 4).
 
     Raises:
         InvalidDhTable: No rows or too many, duplicate or invalid names, a lower limit above the upper one, lengths or
@@ -125,11 +121,7 @@ class DhTable:
         return tuple(dict.fromkeys(names))
 
     def positions(self, q: Sequence[float]) -> list[float]:
-        """Return the position of each row at a configuration q of the variables, [rad or m].
-
-        Raises:
-            WrongJointCount: q does not have one number per variable.
-        """
+        """Return the position of each row, [rad or m], for one number per variable; else raises WrongJointCount."""
         if len(q) != len(self.variables):
             raise WrongJointCount(len(q), self.variables)
         value = dict(zip(self.variables, q, strict=True))
@@ -139,14 +131,7 @@ class DhTable:
         ]
 
     def frames(self, q: Sequence[float]) -> list[Array]:
-        """Return T_base_0, T_base_1, …, T_base_n at one configuration; each of shape (4, 4).
-
-        Args:
-            q: One number per variable, [rad or m].
-
-        Raises:
-            WrongJointCount: q does not have one number per variable.
-        """
+        """Return T_base_0, T_base_1, …, T_base_n at one configuration, as for `positions`; each of shape (4, 4)."""
         Ts = [self.base]
         for joint, position in zip(self.joints, self.positions(q), strict=True):
             Ts.append(Ts[-1] @ joint.transform(position, self.convention))

@@ -85,11 +85,7 @@ def rotations_from_zyz(zyz: Array) -> Array:
 
 @compiled
 def zyz_from_rotations(Rs: Array) -> Array:
-    """Return (φ, θ, ψ) of each rotation, [rad], with θ in [0, π]; shape (N, 3, 3) → (N, 3).
-
-    At θ = 0 only φ + ψ is determined, at θ = π only φ - ψ: there ψ = 0 is chosen. As with RPY, the later angles are
-    computed after undoing the first.
-    """
+    """Return (φ, θ, ψ) of each rotation, [rad], later angles after undoing the first; shape (N, 3, 3) → (N, 3)."""
     zyz = np.empty((len(Rs), 3))
     for i in range(len(Rs)):
         R = Rs[i]
@@ -169,7 +165,7 @@ def rotations_from_vectors(vectors: Array) -> Array:
 
 @compiled
 def vectors_from_rotations(Rs: Array) -> Array:
-    """Return the rotation vector of each rotation, [rad], with the angle in [0, π]; shape (N, 3, 3) → (N, 3)."""
+    """Return the rotation vector of each rotation, [rad]; shape (N, 3, 3) → (N, 3)."""
     vectors = np.empty((len(Rs), 3))
     quaternions = quaternions_xyzw_from_rotations(Rs)
     for i in range(len(Rs)):
@@ -193,12 +189,6 @@ def pose_errors(
 
     The angle comes from the Frobenius norm of the difference of the rotations, which stays accurate near zero. A NaN in
     a pose makes distance and angle NaN.
-
-    Args:
-        positions: Shape (N, 3), [m].
-        rotations: Shape (N, 3, 3).
-        other_positions: Shape (N, 3), [m].
-        other_rotations: Shape (N, 3, 3).
     """
     distance, angle, extent = 0.0, 0.0, 0.0
     for i in range(len(positions)):

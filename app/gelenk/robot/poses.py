@@ -17,12 +17,7 @@ _ROTATION_ROUNDING = 5e-15
 
 @dataclass(frozen=True, slots=True)
 class Poses:
-    """A batch of poses T_a_b.
-
-    Attributes:
-        positions: Origins of b in a; shape (N, 3), [m].
-        rotations: Axes of b in a, as columns; shape (N, 3, 3).
-    """
+    """A batch of poses T_a_b: origins of b in a, (N, 3) in [m], and axes of b in a as columns, (N, 3, 3)."""
 
     positions: Array
     rotations: Array
@@ -43,9 +38,7 @@ def nearest_rotation(matrix: Array) -> Array:
     """Return the rotation nearest to a matrix that is nearly a rotation; shape (3, 3) → (3, 3).
 
     A matrix that differs from a rotation by rounding alone is returned unchanged, so a client gets back what it sent.
-
-    Raises:
-        InvalidPose: The matrix is further than `ROTATION_TOLERANCE` (Frobenius norm) from every rotation.
+    One further than `ROTATION_TOLERANCE` (Frobenius norm) from every rotation raises InvalidPose.
     """
     U, stretches, Vt = np.linalg.svd(matrix)
     handedness = np.linalg.det(U @ Vt)
@@ -64,11 +57,7 @@ def nearest_rotation(matrix: Array) -> Array:
 
 
 def unit_quaternion(quaternion: Array) -> Array:
-    """Normalise a quaternion whose length is nearly 1; shape (4,) → (4,), any order.
-
-    Raises:
-        InvalidPose: The length differs from 1 by more than `ROTATION_TOLERANCE`.
-    """
+    """Normalise a quaternion (4,), in any order; raises InvalidPose if |length - 1| > `ROTATION_TOLERANCE`."""
     length = math.hypot(*quaternion.tolist())
     if abs(length - 1.0) > ROTATION_TOLERANCE:
         raise InvalidPose(
@@ -79,7 +68,6 @@ def unit_quaternion(quaternion: Array) -> Array:
 
 
 def _finite(distance: float) -> float | None:
-    """Return the distance if it is finite, else None."""
     return distance if math.isfinite(distance) else None
 
 

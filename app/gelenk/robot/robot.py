@@ -21,9 +21,7 @@ _FRAMES_KEPT = 1024
 class Expansion:
     """Linear map from a chain's configuration to Pinocchio's: q = q₀ + M · configuration.
 
-    Attributes:
-        offset: q₀; shape (nq,).
-        matrix: M, the multipliers of all joints that the chain's variables move; shape (nq, n).
+    `offset` is q₀, shape (nq,), `matrix` M: multipliers of all joints that the chain's variables move, shape (nq, n).
     """
 
     offset: Array
@@ -34,15 +32,8 @@ class RobotModel:
     """A description prepared for computation; threads can share it, but must hold `lock` while they use `data`.
 
     Each robot has one Pinocchio workspace `data`: it can be large, concurrent use gives wrong numbers, and because
-    Pinocchio's calls hold the GIL, one for each thread would gain nothing.
-
-    Args:
-        description: The checked robot.
-        default_chain: Base and tip where a call names none; the longest chain if omitted.
-
-    Raises:
-        UnknownFrame: The robot does not have a frame of the default chain.
-        UnsupportedJoint: The default chain crosses a floating or planar joint.
+    Pinocchio's calls hold the GIL, one for each thread would gain nothing. The default chain is base and tip where a
+    call names none: the longest chain if omitted. It is built here, and raises as `build_chain` does.
     """
 
     def __init__(self, description: Description, default_chain: tuple[str, str] | None = None) -> None:
@@ -59,12 +50,7 @@ class RobotModel:
         self.chain(None, None)
 
     def chain(self, base_frame: str | None, tip_frame: str | None) -> Chain:
-        """Return the chain between two frames; None stands for the default chain's frame.
-
-        Raises:
-            UnknownFrame: The robot does not have one of the frames.
-            UnsupportedJoint: A floating or planar joint lies on the path.
-        """
+        """Return the chain between two frames, None standing for the default chain's; raises as `build_chain` does."""
         return self._chain(base_frame or self.default_chain[0], tip_frame or self.default_chain[1])
 
     def _frames_on(self, chain: Chain) -> tuple[str, ...]:
@@ -79,11 +65,7 @@ class RobotModel:
         return tuple(frames)
 
     def frame_id(self, frame: str) -> int:
-        """Return Pinocchio's index of a frame.
-
-        Raises:
-            UnknownFrame: The robot does not have this frame.
-        """
+        """Return Pinocchio's index of a frame; raises UnknownFrame."""
         try:
             return int(self._frame_ids[frame])
         except KeyError:

@@ -13,11 +13,9 @@ MAX_MULTIPLIER = 1e6
 
 
 def check_tree(description: Description, lines: Mapping[str, int]) -> None:
-    """Check that the links and joints form one tree.
+    """Check that links and joints, each of them checked before, form one tree.
 
-    Args:
-        description: A description of which only the single elements have been checked.
-        lines: The line of each "link <name>" and "joint <name>", for the messages.
+    `lines` gives the line of each "link <name>" and "joint <name>", for the messages.
 
     Raises:
         InvalidUrdf: Duplicate names, unknown links, two parents, not one root, cycles, too deep or large, bad mimics.

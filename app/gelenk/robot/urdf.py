@@ -74,14 +74,9 @@ _SHAPE_SIZES = {
 
 
 def read_urdf(text: str, strict: bool = False) -> Description:
-    """Read and check a description.
+    """Read and check a description with xacro already expanded; its oddities are in `warnings`.
 
-    Args:
-        text: The URDF, with xacro already expanded.
-        strict: Whether faults that do not affect kinematics are refused too, instead of only warned of.
-
-    Returns:
-        The robot, with its oddities in `warnings`.
+    If `strict`, faults that do not affect kinematics are refused too, instead of only warned of.
 
     Raises:
         InvalidUrdf: The text is not well-formed XML, does not describe a robot, or exceeds a limit.
@@ -105,8 +100,6 @@ def read_urdf(text: str, strict: bool = False) -> Description:
 
 
 class _DocumentReader:
-    """Reads one document and collects warnings."""
-
     def __init__(self, strict: bool, warnings: list[str]) -> None:
         self._strict = strict
         self._warnings = warnings
@@ -425,7 +418,6 @@ def write_urdf(description: Description) -> str:
 
 
 def _element(tag: str, attributes: dict[str, str], body: Sequence[str] = (), indent: int = 0) -> list[str]:
-    """Return the lines of a tag with its attributes around the lines of its body."""
     space = "  " * indent
     start = f"{space}<{tag}" + "".join(f" {key}={quoteattr(value)}" for key, value in attributes.items())
     if not body:

@@ -45,13 +45,7 @@ def with_declaration_first(text: str) -> str:
 
 
 def read_xml(text: str) -> Element:
-    """Parse a document strictly.
-
-    Args:
-        text: The document; if it declares an encoding, UTF-8 or ASCII.
-
-    Returns:
-        The root element.
+    """Parse a document strictly, and return its root element; if it declares an encoding, UTF-8 or ASCII.
 
     Raises:
         InvalidUrdf: The text is not well-formed, contains a DTD or an entity, or exceeds a limit of this module.
@@ -138,9 +132,7 @@ class _TreeBuilder(ContentHandler):
 def left_of_xacro(root: Element, ignored: frozenset[str]) -> str | None:
     """Describe the first attribute or element that only xacro understands; return None if the description has none.
 
-    Args:
-        root: Root element of the description.
-        ignored: Tags of elements of the robot that are not searched.
+    Elements of the robot with the `ignored` tags are not searched.
     """
     waiting = [root]
     while waiting:

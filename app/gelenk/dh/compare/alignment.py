@@ -38,12 +38,9 @@ class Freedom(NamedTuple):
 
 
 class Alignment(NamedTuple):
-    """Starting values for least squares.
+    """Starting values for least squares; `base` (3, 3) is a rotation that premultiplies the table's base.
 
-    Attributes:
-        base: Rotation that premultiplies the table's base; shape (3, 3).
-        offsets: Offsets of the joints, in the table's sense, zero if prismatic; shape (n,), [rad].
-        signs: Sense of each joint, 1 or -1; shape (n,).
+    `offsets` (n,) [rad] are in the table's sense, zero if prismatic; `signs` (n,), 1 or -1, are the joints' senses.
     """
 
     base: Array
@@ -74,16 +71,10 @@ class _Branch:
 def alignments(
     target: ChainScrews, table: ChainScrews, freedom: Freedom, signs: Array | None = None, strict: bool = False
 ) -> list[Alignment]:
-    """Align the axes of a table with those of a chain; the fewest reversed senses come first.
+    """Align the axes of a table with those of a chain; return at most 256 alignments, the fewest reversed senses first.
 
-    At most 256 alignments are kept, those with the fewest reversed senses.
-
-    Args:
-        target: The chain.
-        table: The table, with joints that match the chain's in number and type; a free base must be the identity.
-        freedom: The quantities to find.
-        signs: Senses to hold if they are not to be found; all 1 if None.
-        strict: Return nothing if an axis does not fit, instead of the best alignment.
+    The joints match in number and type, and a free base must be the identity. Senses that are not to be found are
+    `signs`, all 1 if None. If `strict`, nothing is returned if an axis does not fit, instead of the best alignment.
     """
     n = len(target)
     most = min(_MOST_BRANCHES, _MOST_STEPS // n)
@@ -108,7 +99,6 @@ def alignments(
 def _beyond(
     branch: _Branch, i: int, sense: float, target: ChainScrews, table: ChainScrews, free_zeros: bool
 ) -> _Branch:
-    """Extend a branch by joint i."""
     signs = branch.signs.copy()
     signs[i] = sense
     branch = _taken_up(replace(branch, signs=signs), i, target, table)
@@ -181,7 +171,6 @@ def _length(vector: Array) -> float:
 
 
 def _across(vector: Array, axis: Array) -> Array:
-    """Component of a vector perpendicular to an axis."""
     across: Array = vector - (vector @ axis) * axis
     return across
 

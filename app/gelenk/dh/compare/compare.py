@@ -50,16 +50,14 @@ _SAME_MULTIPLIER = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """The result of comparing a table with a chain.
+    """The result of comparing a table with a chain; `equivalent` if the table describes it.
 
     Attributes:
-        equivalent: Whether the table describes the chain.
         placement: The table fitted to the chain as closely as possible, with the errors measured through Pinocchio;
             None if the rows and the joints do not match in number or type.
         differences: All known differences, the first row and parameter that differ first.
         diagnoses: Single mistakes, or pairs of them, that explain the differences; the likeliest first.
         unverified: Entries that cannot be checked, because something found compensates for them.
-        notes: Further remarks, one sentence each.
         samples: Number of configurations compared.
     """
 
@@ -85,15 +83,10 @@ def compare(
     tolerances: tuple[float, float] = (POSITION_TOLERANCE, ORIENTATION_TOLERANCE),
     seed: int = 0,
 ) -> Comparison:
-    """Compare a table with a chain.
+    """Compare a table with a chain, whose joints, mimic joints included, are the table's rows.
 
-    Args:
-        robot: The robot.
-        chain: Base → tip; its joints, mimic joints included, are the table's rows.
-        table: The table; its base and tool are ignored where they are to be found.
-        freedom: The quantities to find.
-        tolerances: Position [m] and orientation [rad] within which poses count as equal.
-        seed: Seed of the random configurations.
+    The table's base and tool are ignored where they are to be found. Positions [m] and orientations [rad] count as
+    equal within the tolerances. `seed` is that of the random configurations.
 
     Raises:
         InvalidField: Zeros or senses are requested for a chain with mimic joints, or with too many joints.

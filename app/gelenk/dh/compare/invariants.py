@@ -42,9 +42,8 @@ class _Invariant(NamedTuple):
 class Invariants:
     """The invariants of a chain, to be compared with those of tables.
 
-    Attributes:
-        straddles: Whether an invariant spans a link: link k leads from joint k - 1 to joint k, counted from 0, the
-            first one from the base and the last one to the tip; shape (invariants, n + 1).
+    `straddles` tells whether an invariant spans a link, (invariants, n + 1): link k leads from joint k - 1 to joint k,
+    counted from 0, the first one from the base and the last one to the tip.
     """
 
     def __init__(self, on: Subject, freedom: Freedom) -> None:
@@ -146,7 +145,6 @@ def _angular(which: tuple[int, ...], axes: Axes) -> Array:
 
 
 def _moment(which: tuple[int, ...], axes: Axes) -> Array:
-    """Mutual moment of two axes."""
     i, j = which
     return _dot(axes.directions[i], axes.moments[j]) + _dot(axes.directions[j], axes.moments[i])
 

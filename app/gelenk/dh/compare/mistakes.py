@@ -34,11 +34,7 @@ _WEAK = {"joint_zero", "joint_sense", "base", "tool"}
 def diagnoses(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> list[Diagnosis]:
     """Find single mistakes, or else pairs, that explain why a table does not describe a chain; the likeliest first.
 
-    Args:
-        on: The chain.
-        table: The table, with rows that match the chain's joints in number and type.
-        freedom: The quantities that may be found.
-        signs: Senses of the joints in the search for single numbers; shape (n,).
+    The rows match the chain's joints in number and type; `signs` (n,) are the senses in the search for single numbers.
     """
     numbers = _wrong_numbers(on, table, freedom, signs)
     slips = [each for each in numbers if each.mistakes != ("number",)]
@@ -89,7 +85,6 @@ def _wrong_numbers(on: Subject, table: DhTable, freedom: Freedom, signs: Array) 
 
 
 def _repairs(on: Subject, table: DhTable, freedom: Freedom, powers: int) -> Repairs:
-    """Repairs of single mistakes that keep the number of rows."""
     # Mimic rows depend on the order of rows through the names of their leaders.
     plain = len(on.chain) == len(on.target) and all(row.mimic is None for row in table.joints)
     return repairs.of_rows(table, powers, reorder=plain, turn=plain and not freedom.signs)
@@ -115,7 +110,6 @@ def _pairs(on: Subject, table: DhTable, freedom: Freedom, signs: Array, loosely:
 
 
 def _two(on: Subject, table: DhTable, freedom: Freedom, single: Repairs) -> list[Diagnosis]:
-    """Pairs of mistakes in the rows."""
     found = explaining(on, table, freedom, single.then(single))
     if found or len(on.chain) != len(on.target):
         return found

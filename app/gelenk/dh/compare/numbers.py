@@ -50,14 +50,11 @@ _ZERO = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """A difference between a table and what the chain needs.
+    """A difference between a table and what the chain needs; `value` and `expected` are in [rad or m].
 
     Attributes:
         row: The row, from 1 as in textbooks: d₁ is in row 1; None if no row is concerned.
-        joint: Name of the row's joint.
         parameter: One of a, alpha, d, theta; or sign, type, mimic, joints (their number), base, tool.
-        value: Value in the table, [rad or m].
-        expected: Value that the chain needs, [rad or m].
     """
 
     row: int | None
@@ -84,11 +81,7 @@ class Candidate(NamedTuple):
 def wrong_numbers(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> list[tuple[Candidate, Placement]]:
     """Find every number whose correction alone makes a table describe a chain, with the fit; the likeliest first.
 
-    Args:
-        on: The chain.
-        table: The table, with rows that match the chain's joints in number and type.
-        freedom: The quantities that may be found besides the number.
-        signs: Senses of the joints during the search; shape (n,).
+    The rows match the chain's joints in number and type; `signs` (n,) are the senses of the joints during the search.
     """
     n, first = len(on.target), 0
     if n > _WINDOW:
@@ -106,10 +99,8 @@ def first_wrong_row(on: Subject, table: DhTable, freedom: Freedom, signs: Array)
     """Find what is wrong where a table first departs from a chain, seen from the base, if no single number explains it.
 
     Only the first joints are compared, as few as show a difference: one number is corrected, or else all four of the
-    row (Craig: of the link) that leads to the last of them.
-
-    Returns:
-        The numbers of one row or link that differ; or base or tool, if no row can account for the difference.
+    row (Craig: of the link) that leads to the last of them. Base or tool is returned if no row can account for the
+    difference.
     """
     count = _first_misfit(on, table, freedom, signs)
     if count > len(on.target):
@@ -218,7 +209,6 @@ def _started(on: Subject, table: DhTable, rows: Array, freedom: Freedom, signs: 
 
 
 def _first_joints(on: Subject, count: int) -> Subject:
-    """The first `count` joints of a chain."""
     target = on.target
     return replace(on, target=ChainScrews(target.twists[:count], target.slides[:count], target.tip))
 

@@ -17,15 +17,7 @@ def dh_of_chain(
     """Compute the DH table of a chain, notes on the choices made, and a certificate of its errors.
 
     The most tilted pairs of axes are kept exact, one after another, until treating the rest as parallel costs little.
-
-    Args:
-        robot: The robot.
-        chain: A chain of this robot.
-        convention: Standard or modified.
-        snap_tolerance: See `dh_from_chain`.
-
-    Raises:
-        InvalidField: See `dh_from_chain`.
+    Arguments and errors are those of `dh_from_chain`.
     """
     parallel_below = ORIENTATION_TOLERANCE  # a larger tilt causes a larger error
     while True:

@@ -42,12 +42,9 @@ class Subject:
     """A chain that tables are compared with.
 
     Attributes:
-        chain: Base → tip.
-        target: The screws of its joints.
         senses: -1 where the multipliers of table and chain have opposite signs, else 1; shape (n,).
         tolerances: Position [m] and orientation [rad] within which poses count as equal.
-        qs: Configurations to compare; shape (N, variables).
-        expected: Pinocchio's poses at these configurations.
+        qs, expected: Configurations to compare, shape (N, variables), and Pinocchio's poses at these.
     """
 
     chain: Chain
@@ -74,14 +71,9 @@ class Subject:
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """A table fitted to a chain.
+    """A table fitted to a chain, with the given or found base and tool, and its largest errors, [m] and [rad].
 
-    Attributes:
-        table: The table with the given or found base and tool.
-        offsets: Offset added to each variable; shape (n,), [rad or m].
-        signs: Sense of each variable, 1 or -1; shape (n,).
-        position_error: Largest distance between the poses of table and chain, [m].
-        orientation_error: Largest angle between these poses, [rad].
+    `offsets` (n,) [rad or m] are added to the variables; `signs` (n,), 1 or -1, are the senses of these.
     """
 
     table: DhTable
@@ -108,14 +100,10 @@ def subject(robot: RobotModel, chain: Chain, tolerances: tuple[float, float], sa
 def placed(
     on: Subject, table: DhTable, freedom: Freedom, strict: bool = False, senses: Array | None = None
 ) -> Placement | None:
-    """Fit a table to a chain as closely as possible.
+    """Fit a table to a chain as closely as possible; if `strict`, return None if it does not fit.
 
-    Args:
-        on: The chain.
-        table: The table, with rows that match the chain's joints in number and type; a free base or tool is ignored.
-        freedom: The quantities that may be found.
-        strict: Return None if the table does not fit, rather than the closest fit.
-        senses: -1 where a joint of the table is reversed, else 1; shape (n,). All 1 if None.
+    The rows match the chain's joints in number and type; a free base or tool is ignored. `senses` (n,) are -1 where a
+    joint of the table is reversed, else 1; all 1 if None.
     """
     turned = on if senses is None else replace(on, senses=on.senses * senses)
     tables, costs = fitted(turned, table, freedom, strict)
@@ -170,12 +158,8 @@ def fitted(on: Subject, table: DhTable, freedom: Freedom, strict: bool) -> tuple
 def started(on: Subject, table: DhTable, rows: Array, freedom: Freedom, strict: bool = False) -> Tables:
     """Align tables that differ from one in their numbers, with one result per alignment that fits.
 
-    Args:
-        on: The chain.
-        table: The table that gives convention, types, base (if it is not free) and tool of all.
-        rows: Numbers of the tables; shape (C, n, 4).
-        freedom: The quantities that the alignment may change.
-        strict: Omit tables that do not fit.
+    `table` gives convention, types, base (if it is not free) and tool of all, `rows` (C, n, 4) their numbers. If
+    `strict`, tables that do not fit are left out.
     """
     bases = np.tile(np.eye(4) if freedom.base else table.base, (len(rows), 1, 1))
     unturned = Tables(table.convention, on.target.slides, np.ones(rows.shape[:2]), rows, bases, table.tool)

@@ -94,11 +94,7 @@ def unchanged(n: int) -> Repairs:
 def of_rows(table: DhTable, powers: int, *, reorder: bool, turn: bool) -> Repairs:
     """Return repairs of single mistakes that keep the number of rows; those of a single number come last.
 
-    Args:
-        table: The table.
-        powers: Highest power of ten by which lengths may be off.
-        reorder: Whether rows may be exchanged.
-        turn: Whether a joint may be reversed.
+    Lengths may be off by powers of ten up to `powers`, rows exchanged if `reorder`, a joint reversed if `turn`.
     """
     n, numbers = len(table.joints), numbers_of(table)
     other, own = _CONVENTIONS[OTHER[table.convention]], _CONVENTIONS[table.convention]
@@ -236,7 +232,6 @@ def _in_rows(n: int, powers: int) -> Iterator[_Repair]:
 
 
 def _in_cells(n: int, powers: int) -> Iterator[_Repair]:
-    """Repairs of single numbers."""
     for i in range(n):
         for name in PARAMETERS:
             where = f"{name} in row {i + 1}"

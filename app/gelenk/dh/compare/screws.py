@@ -38,13 +38,7 @@ _UNDETERMINED = 1e-9
 
 @dataclass(frozen=True)
 class ChainScrews:
-    """The screws and the tip of a chain at position zero.
-
-    Attributes:
-        twists: Unit twist of each joint in the base; shape (n, 6).
-        slides: Which joints are prismatic; shape (n,).
-        tip: T_base_tip; shape (4, 4).
-    """
+    """A chain at position zero: unit twists in the base (n, 6), which joints slide (n,), and T_base_tip (4, 4)."""
 
     twists: Array
     slides: Flags
@@ -68,12 +62,10 @@ class Tables(NamedTuple):
     """C tables of the same form with different numbers.
 
     Attributes:
-        convention: Convention of all tables.
         slides: Which rows are prismatic; shape (n,).
         signs: Factor 1 or -1 of each joint's motion; shape (C, n).
         rows: a, α, d, θ of each row, [m] and [rad]; shape (C, n, 4).
-        bases: T_base_0; shape (C, 4, 4).
-        tool: T_n_tool of all tables; shape (4, 4).
+        bases, tool: T_base_0, shape (C, 4, 4), and T_n_tool of all tables, shape (4, 4).
     """
 
     convention: Convention
@@ -89,12 +81,9 @@ class Tables(NamedTuple):
 
 
 class TableAxes(NamedTuple):
-    """Twists of joints and parameters of C tables at zero, n rows each.
+    """Twists of the joints (C, n, 6), and T_base_tool (C, 4, 4), of C tables at zero, n rows each.
 
-    Attributes:
-        twists: Twists of the joints; shape (C, n, 6).
-        movers: Twists that changes of the parameters cause; shape (C, 4 n, 6).
-        tips: T_base_tool; shape (C, 4, 4).
+    `movers` (C, 4 n, 6) are the twists that changes of the parameters cause.
     """
 
     twists: Array
@@ -159,17 +148,7 @@ def residuals(target: ChainScrews, found: TableAxes, with_tip: bool) -> Array:
 
 
 def jacobians(convention: Convention, found: TableAxes, unknowns: Indices, with_tip: bool) -> Array:
-    """Compute derivatives of the residuals by some unknowns.
-
-    Args:
-        convention: Convention of the tables.
-        found: Geometry of the tables.
-        unknowns: Indices of the unknowns of each table; shape (C, k).
-        with_tip: Whether the tips count.
-
-    Returns:
-        Shape (C, 6 n or 6 n + 6, k).
-    """
+    """Compute derivatives of the residuals by the unknowns with indices (C, k); shape (C, 6 n or 6 n + 6, k)."""
     C, n = found.twists.shape[:2]
     motions = np.concatenate((np.broadcast_to(np.eye(6), (C, 6, 6)), found.movers), axis=1)
     columns = np.swapaxes(np.take_along_axis(motions, unknowns[..., None], axis=1), 1, 2)
@@ -195,20 +174,11 @@ def moved_joints(convention: Convention, n: int) -> Flags:
 def fit(
     target: ChainScrews, tables: Tables, unknowns: Indices, with_tip: bool, steps: int = STEPS
 ) -> tuple[Tables, Array]:
-    """Fit tables to a chain by least squares over their unknowns.
+    """Fit tables to a chain by least squares over their unknowns, whose indices have shape (C, k).
 
     Levenberg's method on all tables side by side: a step is taken if it reduces the sum of squares, else damped more.
-    Unknowns that do not affect the residuals stay unchanged.
-
-    Args:
-        target: The chain.
-        tables: C starting tables.
-        unknowns: Indices of the unknowns of each table; shape (C, k).
-        with_tip: Whether the tips count; else the tool is free.
-        steps: Largest number of steps.
-
-    Returns:
-        The tables, and the root of each one's sum of squares, [m, rad]; shape (C,).
+    Unknowns that do not affect the residuals stay unchanged. Unless the tips count, the tool is free. The second result
+    is the root of each table's sum of squares, [m, rad]; shape (C,).
     """
     found = geometry(tables)
     r = residuals(target, found, with_tip)
@@ -237,16 +207,10 @@ def fit(
 
 
 def polished(target: ChainScrews, tables: Tables, unknowns: Indices, with_tip: bool) -> Tables:
-    """Refine a table by undamped steps, and return the best table found.
+    """Refine a single table by undamped steps, and return the best one found.
 
     Damping loses digits where axes barely determine an unknown, such as two axes a millimetre apart: there a step first
     leaves the floor of a curved valley, and the next one returns to it.
-
-    Args:
-        target: The chain.
-        tables: A single table.
-        unknowns: Indices of its unknowns; shape (1, k).
-        with_tip: Whether the tip counts.
     """
     best, least = tables, np.inf
     for _ in range(_POLISHING_STEPS if unknowns.size else 0):
@@ -275,7 +239,6 @@ def _damped_steps(J: Array, r: Array, dampings: Array) -> Array:
 
 
 def _moved(tables: Tables, unknowns: Indices, steps: Array) -> Tables:
-    """The tables after one step."""
     C, n = tables.rows.shape[:2]
     full = np.zeros((C, BASE_DIRECTIONS + 4 * n))
     np.put_along_axis(full, unknowns, steps, axis=1)
@@ -320,7 +283,6 @@ def _adjoint(twists: Array) -> Array:
 
 
 def _about_z(theta: Array, d: Array) -> Array:
-    """Rz(θ) Tz(d), batched."""
     Ts = np.zeros((len(theta), 4, 4))
     Ts[:, 0, 0] = Ts[:, 1, 1] = np.cos(theta)
     Ts[:, 1, 0] = np.sin(theta)
@@ -331,7 +293,6 @@ def _about_z(theta: Array, d: Array) -> Array:
 
 
 def _about_x(alpha: Array, a: Array) -> Array:
-    """Rx(α) Tx(a), batched."""
     Ts = np.zeros((len(alpha), 4, 4))
     Ts[:, 1, 1] = Ts[:, 2, 2] = np.cos(alpha)
     Ts[:, 2, 1] = np.sin(alpha)

@@ -38,15 +38,7 @@ class _Job(NamedTuple):
 
 
 def with_numbers(on: Subject, table: DhTable, freedom: Freedom, repairs: Repairs, count: int) -> list[Diagnosis]:
-    """Find repairs that, together with some corrected numbers, make a table describe a chain.
-
-    Args:
-        on: The chain.
-        table: The table.
-        freedom: The quantities that may be found as well.
-        repairs: The repairs applied first.
-        count: Number of wrong numbers after the repair, besides those of missing rows.
-    """
+    """Find repairs that, with `count` numbers corrected besides missing rows, make a table describe a chain."""
     invariants = Invariants(on, freedom)
     found: list[Diagnosis] = []
     for some in by_convention(on, table, repairs):
@@ -150,7 +142,6 @@ def _bases(on: Subject, tables: Tables) -> Array:
 def _diagnosis(
     on: Subject, table: DhTable, freedom: Freedom, repair: Repairs, job: _Job, rows: Array
 ) -> Diagnosis | None:
-    """Diagnosis from the numbers found, if the table with them describes the chain."""
     before = table_of(on, table, repair, repair.numbers(numbers_of(table))[0])
     numbers, further = numbers_of(before), []
     for place in (*job.missing, *job.wrong):

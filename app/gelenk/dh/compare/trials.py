@@ -23,13 +23,9 @@ _MOST_LOOKS = 24
 
 @dataclass(frozen=True, slots=True)
 class Diagnosis:
-    """Mistakes whose correction makes the table describe the chain.
+    """Mistakes, usually one or two, whose correction makes the table describe the chain, as `placement` shows.
 
-    Attributes:
-        mistakes: The mistakes, usually one or two.
-        detail: Description in one sentence.
-        differences: The numbers that differ, in the order of the table.
-        placement: The corrected table fitted to the chain.
+    `detail` describes them in one sentence; `differences` are in the order of the table.
     """
 
     mistakes: tuple[Mistake, ...]
@@ -103,11 +99,8 @@ def table_of(on: Subject, table: DhTable, repair: Repairs, numbers: Array) -> Dh
 def between(table: DhTable, repaired: DhTable, rows: Sequence[int], senses: Array) -> tuple[Difference, ...]:
     """List the differences between a table and its repair, after converting the repair to the table's convention.
 
-    Args:
-        table: The given table.
-        repaired: The repaired table, with possibly more or fewer rows.
-        rows: Row of the given table that each repaired row comes from, -1 if missing there.
-        senses: -1 where a joint of the repaired table is reversed.
+    `rows` has the row of the given table that each repaired row comes from, -1 if missing there; `senses` are -1 where
+    a joint of the repaired table is reversed.
     """
     expected = numbers_of(repaired)
     if repaired.convention != table.convention:

@@ -30,10 +30,7 @@ class TooManyTerms(Exception):
 class Atom(NamedTuple):
     """An indivisible factor: √2, a mass m_1, g_0, a length a_2, a variable q_3, a constant cos α_3, c_{23}, or q̇_1.
 
-    Attributes:
-        kind: One of the kinds above.
-        indices: Index of the row, or indices of the angle.
-        name: Name of the quantity, such as "a", "q", "c" and "s".
+    These are its kinds; its indices are the row's or the angle's, its name is the quantity's, such as "a", "q" and "c".
     """
 
     kind: int

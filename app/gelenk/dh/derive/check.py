@@ -27,12 +27,7 @@ SINGULAR = 1e-6
 
 @dataclass(slots=True)
 class Checks:
-    """Collects the results of the checks of a solution.
-
-    Attributes:
-        worst: Largest difference of the formulas that hold.
-        notes: One note per formula that is left out.
-    """
+    """Collects the results of checks: the largest difference of formulas that hold, and a note per formula left out."""
 
     worst: float
     notes: list[str]
@@ -60,13 +55,7 @@ class Checks:
 
 
 def checked_formulas(found: Formulas, solutions: Sequence[NumericSolution], checks: Checks) -> Formulas:
-    """Return transforms and Jacobian without the formulas that differ from the numbers.
-
-    Args:
-        found: Formulas, with values at samples.
-        solutions: Numbers at the samples.
-        checks: Collects the results.
-    """
+    """Return transforms and Jacobian without the formulas that differ from the numbers at the same samples."""
     values, size = found.values, range(len(found.rows))
     rows = [checks.holds(f"A_{i + 1}", [v.rows[i] for v in values], [s.rows[i] for s in solutions]) for i in size]
     frames = [
@@ -93,13 +82,7 @@ def checked_singularities(
     """Return the determinant's formulas that agree with the numbers, with the smallest singular value at each example.
 
     The block must be singular at the example of a condition, which shows that the condition is solved correctly. If it
-    is not, the factor remains, since the determinant holds, but is not solved.
-
-    Args:
-        singular: Formulas, with values at samples.
-        solutions: Numbers at the samples.
-        table: Table as the formulas read it.
-        checks: Collects the results.
+    is not, the factor remains, since the determinant holds, but is not solved. `table` is as the formulas read it.
     """
     if singular.block is None or not _determinant_holds(singular, singular.block, solutions, table, checks):
         return Singularities(singular.block, singular.setting)

@@ -41,15 +41,9 @@ MAX_FACTORED_ANGLES = 4
 
 
 def factorised(polynomial: Polynomial, group: Group) -> tuple[Fraction, list[Polynomial]]:
-    """Return a number and factors whose product is the polynomial; a factor occurs as often as its power.
+    """Return a number and factors whose product is a reduced polynomial, not zero; each occurs as often as its power.
 
-    Args:
-        polynomial: Reduced polynomial, not zero.
-        group: Returns the group of parallel axes of a joint angle.
-
-    Returns:
-        The number, and the factors: atoms first, then sums with whole coefficients without a common divisor, the first
-        one positive.
+    Atoms come first, then sums with whole coefficients without a common divisor, the first one positive.
     """
     factor, atoms, rest = _shared(polynomial)
     sums: list[Polynomial] = []

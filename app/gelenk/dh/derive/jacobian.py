@@ -48,14 +48,7 @@ _SAMPLES = 3
 
 
 class Column(NamedTuple):
-    """A column of the geometric Jacobian, in the axes of the base.
-
-    Attributes:
-        axis: z of the joint.
-        arm: Vector from the joint's frame to the tip; None for a prismatic joint, where it does not count.
-        linear: Velocity of the tip.
-        angular: Angular velocity.
-    """
+    """A column of the geometric Jacobian, in the axes of the base: z, p_EE (None if prismatic), and the two parts."""
 
     axis: Vector
     arm: Vector | None
@@ -65,12 +58,9 @@ class Column(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """The square block that has a determinant.
+    """The square block that has a determinant: the whole Jacobian, the rows that ever move, the linear or angular rows.
 
-    Attributes:
-        kind: The whole Jacobian, the rows that ever move, the linear or the angular rows.
-        rows: Indices of its rows, 0 to 5.
-        frame: Frame in whose axes these rows are written; it only matters without whole triples of rows.
+    Its rows are indices 0 to 5; the frame in whose axes they are written only matters without whole triples of rows.
     """
 
     kind: Kind
@@ -97,19 +87,10 @@ class Setting:
 
 
 def columns(table: Table, frames: Sequence[Transform], tip: Vector) -> list[Column]:
-    """Return the columns in the axes of the frames' common base.
+    """Return the columns in the axes of frame 0, from the frames T_0_0 … T_0_n and the tip's position in frame 0.
 
     The linear part of a revolute joint is ∂p/∂ϑ, the vector product as a textbook simplifies it: that the two are the
-    same function is checked here, term by term.
-
-    Args:
-        table: The table.
-        frames: T_0_0 … T_0_n.
-        tip: Position of the tip in frame 0.
-
-    Raises:
-        TooManyTerms: The check has too many terms.
-        ArithmeticError: The two differ, which never happens.
+    same function is checked here, term by term. Raises TooManyTerms if the check has too many.
     """
     found = []
     for row in table.rows:
@@ -259,11 +240,7 @@ def parity(order: Sequence[int]) -> int:
 
 
 def relative_jacobian(table: Table, setting: Setting) -> Grid:
-    """Return the Jacobian in the axes and for the point of a setting; (6, n).
-
-    Raises:
-        TooManyTerms: An entry is too long.
-    """
+    """Return the Jacobian in the axes and for the point of a setting, (6, n); raises TooManyTerms."""
     found = frames_from(table, setting.frame, MAX_RELATIVE_TERMS)
     frames = [frame for frame in found if frame is not None]
     if len(frames) < len(found):
@@ -284,11 +261,7 @@ def relative_jacobian(table: Table, setting: Setting) -> Grid:
 
 
 def determinant(matrix: Grid, part: DiagonalBlock, table: Table) -> Polynomial:
-    """Return the determinant of a part, reduced, by expansion along its columns.
-
-    Raises:
-        TooManyTerms: The determinant, or a minor, is too long.
-    """
+    """Return the determinant of a part, reduced, by expansion along its columns; raises TooManyTerms."""
     if len(part.rows) > LARGEST_PART:
         raise TooManyTerms
 

@@ -15,18 +15,13 @@ RANK_TOLERANCE = 1e-10
 
 @dataclass(frozen=True, slots=True)
 class NumericSolution:
-    """All quantities at one configuration.
+    """All quantities at one configuration q; shape (n,), [rad or m].
 
     Attributes:
-        q: The configuration; shape (n,), [rad or m].
-        rows: A_1 … A_n; each of shape (4, 4).
-        frames: T_0_1 … T_0_n; each of shape (4, 4).
-        frames_in_base: T_base_0 … T_base_n; each of shape (4, 4).
-        tip: T_base_tool; shape (4, 4).
-        columns: Columns of the Jacobian.
+        rows, frames: A_1 … A_n and T_0_1 … T_0_n; each of shape (4, 4).
+        frames_in_base, tip: T_base_0 … T_base_n and T_base_tool; each of shape (4, 4).
         jacobian: Geometric Jacobian in the axes of the base; shape (6, n).
-        singular_values: Singular values, largest first.
-        rank: Number of singular values that count.
+        singular_values, rank: Singular values, largest first, and how many of them count.
     """
 
     q: Array
@@ -51,12 +46,7 @@ class NumericSolution:
 
 
 def numeric_solution(table: DhTable, q: Array) -> NumericSolution:
-    """Compute all quantities at one configuration.
-
-    Args:
-        table: Table in which every row has a variable of its own.
-        q: Joint positions; shape (n,), [rad or m].
-    """
+    """Compute all quantities at a configuration of a table in which every row has a variable of its own."""
     values = [float(value) for value in q]
     rows = [row.transform(value, table.convention) for row, value in zip(table.joints, values, strict=True)]
     frames = replace(table, base=np.eye(4)).frames(values)

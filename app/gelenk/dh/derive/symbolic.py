@@ -193,7 +193,6 @@ def _chain(table: Table, tip: Transform, notation: Notation) -> list[MatrixFormu
 
 
 def _parameters(table: Table, notation: Notation) -> list[tuple[Formula, Formula, Formula, Formula]]:
-    """Return a, alpha, d and theta of each row as the formulas read them."""
     found = []
     for row, numbers in zip(table.rows, table.as_read.rows, strict=True):
         link = row.index if table.is_standard else row.index - 1

@@ -82,10 +82,6 @@ class Row:
 
     Attributes:
         index: Number of the row, from 1.
-        is_revolute: Whether the joint turns.
-        a: Length along x.
-        d: Length along z.
-        twist: Turn about x.
         angle: ϑ_i; empty if a prismatic joint's angle is a multiple of π/2.
         quarters: Multiples of π/2 to add to it.
         offset: Constant part of ϑ_i besides the variable, [rad].
@@ -127,13 +123,9 @@ class Transform:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """The table in exact terms.
+    """The table in exact terms, with T_base_0 and T_n_tool.
 
     Attributes:
-        is_standard: Whether the convention is standard, else modified.
-        rows: The rows.
-        base: T_base_0.
-        tool: T_n_tool.
         values: Value of each symbol, [m], or the cosine or sine of an angle.
         groups: The group of parallel axes of each row's angle, by index.
         remarks: Notes on numbers that were read as something else.
@@ -175,8 +167,6 @@ class Table:
 
 @dataclass(slots=True)
 class _TableReader:
-    """Collects symbols and remarks while a table is read."""
-
     values: dict[Atom, float] = field(default_factory=dict)
     remarks: list[str] = field(default_factory=list)
 
@@ -227,7 +217,6 @@ class _TableReader:
         return (self.symbol(atom, value), value) if exact is None else (exact, exact.value(ROOTS))
 
     def symbol(self, atom: Atom, value: float) -> Polynomial:
-        """Return a symbol with a value."""
         self.values[atom] = value
         return symbol(atom)
 

@@ -15,13 +15,9 @@ Grid: TypeAlias = list[list[float]]
 
 @dataclass(frozen=True, slots=True)
 class SymbolicRequest:
-    """The request as plain data.
+    """The request as plain data, with style and symbols as for `worked_solution`.
 
-    Attributes:
-        table: The table.
-        style: `short` for c_{12}, `full` for cos(q_1 + q_2).
-        keeps_symbols: Whether lengths stay symbols; otherwise the formulas contain their values.
-        samples: Configurations at which the formulas are also evaluated, [rad or m].
+    The formulas are also evaluated at the samples, configurations in [rad or m].
     """
 
     table: TableNumbers
@@ -88,22 +84,15 @@ class Values:
 
 @dataclass(frozen=True, slots=True)
 class Formulas:
-    """Transforms and Jacobian as text.
+    """Transforms and Jacobian as text; `as_read` and `remarks` are those of `Table`.
 
     Attributes:
-        as_read: The numbers that the formulas stand for.
-        remarks: Notes on numbers that were read as something else.
         legend: All symbols in order of appearance.
         parameters: a, alpha, d, theta of each row.
         rows: A_1 … A_n; None for one that failed its check.
-        frames: T_0_1 … T_0_n; None for one that is too long.
-        tip: T_base_tool; None if it is too long.
+        frames, tip: T_0_1 … T_0_n and T_base_tool; None for one that is too long.
         chain: Position of the tip in each frame, from n to 0, from right to left; None if one is too long.
-        position: Position of the tip, three entries.
-        rotation: Rotation of the tip.
         columns: Columns of the Jacobian in the base's axes; None if the tip is too long.
-        jacobian: All columns as a matrix.
-        values: Values at each sample.
     """
 
     as_read: TableNumbers
@@ -217,8 +206,7 @@ class Singularities:
         formula: The determinant as a product; None without a block, or if it is too long.
         factors: Factors of the product, besides its number.
         conditions: One per factor that depends on a joint.
-        values: Values of the determinant at each sample.
-        sizes: Sizes of the terms that add up to these values.
+        values, sizes: The determinant at each sample, and the sizes of the terms that add up to it.
     """
 
     block: Block | None = None

@@ -184,7 +184,6 @@ class Notation:
         return collected(terms)
 
     def _product(self, before: Monomial, factor: Fraction, polynomial: Polynomial) -> Formula:
-        """Write the product of a monomial, a number and a polynomial."""
         if not polynomial:
             return Formula("0", "0")
         shared = shared_monomial(polynomial)
@@ -203,7 +202,6 @@ class Notation:
         return times([self.monomial(factor, before), in_brackets(inner)])
 
     def _sum(self, polynomial: Polynomial) -> Formula:
-        """Write a sum, collected by the first group of parallel axes that occurs."""
         return summed([self._product(before, Fraction(1), part) for before, part in self._parts(polynomial)])
 
     def _parts(self, polynomial: Polynomial) -> list[tuple[Monomial, Polynomial]]:
@@ -315,7 +313,6 @@ def multiple_of_pi(value: float) -> Formula | None:
 
 
 def _without_squared_roots(polynomial: Polynomial) -> Polynomial:
-    """Apply √n² = n."""
     terms = []
     for monomial, factor in polynomial:
         rest: Monomial = ()

@@ -27,12 +27,9 @@ STANDARD_GRAVITY = 9.81
 
 @dataclass(frozen=True, slots=True)
 class LinkBody:
-    """A link of the arm.
+    """A link of the arm: mass [kg], and inertia [kg m²] about the centre of mass, the axis normal to the plane.
 
-    Attributes:
-        mass: Mass, [kg].
-        center: Centre of mass, on the line of the link or as a point in frame i, [m].
-        inertia: Moment of inertia about the centre of mass, the axis normal to the plane, [kg m²].
+    The centre of mass is on the line of the link or a point in frame i, [m].
     """
 
     mass: float | None = None
@@ -80,12 +77,9 @@ def center_in_frame(rows: Sequence[Row], i: int, standard: bool, center: float |
 
 @dataclass(frozen=True, slots=True)
 class MassProperties:
-    """Masses, gravity and velocities, as far as they are given.
+    """Masses, gravity in the base, and velocities, as far as they are given.
 
-    Attributes:
-        bodies: One per row; empty if none are given.
-        gravity: Free fall in the base.
-        velocities: One entry per configuration, in order or by name, [rad/s or m/s]; None if none are given.
+    There is one body per row, or none. Velocities have an entry per configuration, in order or by name, [rad/s or m/s].
     """
 
     bodies: tuple[LinkBody, ...]

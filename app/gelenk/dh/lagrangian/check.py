@@ -20,12 +20,9 @@ from gelenk.robot.dh import DhTable
 
 
 class Judge:
-    """Pinocchio's model of the arm with its bodies.
+    """Pinocchio's model of the arm with its bodies, one per row; a quantity that was left out counts as zero.
 
-    Args:
-        table: Standard or modified table.
-        bodies: One per row; a quantity that was left out counts as zero.
-        gravity: Free fall in the base; shape (3,), [m/s²].
+    `gravity` (3,) is free fall in the base, [m/s²].
     """
 
     def __init__(self, table: DhTable, bodies: Sequence[LinkBody], gravity: Array) -> None:
@@ -87,11 +84,7 @@ class Judge:
         return centers, velocities, kinetic, potential
 
     def compare(self, name: str, ours: object, judged: Array, scale: float = 1.0) -> float:
-        """Return the largest difference from Pinocchio's value.
-
-        Raises:
-            CertificationFailed: It is more than rounding of numbers of that scale.
-        """
+        """Return the largest difference from Pinocchio's; raises CertificationFailed beyond rounding at that scale."""
         error = float(np.abs(np.asarray(ours, dtype=float) - judged).max())
         tolerance = TOLERANCE * max(1.0, scale, float(np.abs(judged).max()))
         if not error <= tolerance:
@@ -99,11 +92,7 @@ class Judge:
         return error
 
     def errors(self, q: Array, M: object, c: object, g: object) -> tuple[float, float, float]:
-        """Return the largest differences of M, the Christoffel symbols and g from Pinocchio's.
-
-        Raises:
-            CertificationFailed: One is more than rounding.
-        """
+        """Return the largest differences of M, the Christoffel symbols and g from Pinocchio's; raises as `compare`."""
         inertia, weight = self._scales.at(q)
         return (
             self.compare("the mass matrix", M, self.mass_matrix(q), inertia),
@@ -112,11 +101,7 @@ class Judge:
         )
 
     def energies_error(self, sample: MotionSample, value: Mapping[str, Any]) -> None:
-        """Compare the quantities that M, C and g are derived from, and those that follow from them.
-
-        Raises:
-            CertificationFailed: One differs by more than rounding.
-        """
+        """Compare what M, C and g are derived from, and what follows from them; raises as `compare`."""
         q, v, a = np.array(sample.q), np.array(sample.v), np.array(sample.a)
         inertia, weight = self._scales.at(q)
         centers, velocities, kinetic, potential = self.bodies(q, v)
@@ -153,17 +138,10 @@ class _Scales:
 def certify_formulas(
     table: DhTable, gravity: Array, samples: Sequence[MotionSample], values: Sequence[Mapping[str, Any]], seed: int
 ) -> EquationsCertificate:
-    """Compare every formula with Pinocchio at the samples.
+    """Compare the values of every formula with Pinocchio at the samples, which have a number for every symbol.
 
-    Args:
-        table: Table as the formulas read it; the base is left out, since they are written in frame 0.
-        gravity: Free fall in frame 0; shape (3,), [m/s²].
-        samples: States, with a number for every symbol.
-        values: Values of the formulas there.
-        seed: Random seed of the samples.
-
-    Raises:
-        CertificationFailed: One differs by more than rounding.
+    The formulas are written in frame 0: so the table, as they read it, counts without its base, and `gravity` (3,),
+    [m/s²], is in that frame. Raises CertificationFailed if one differs by more than rounding.
     """
     worst = np.zeros(3)
     for sample, value in zip(samples, values, strict=True):
@@ -177,11 +155,7 @@ def certify_formulas(
 def certify_numbers(
     table: DhTable, bodies: Sequence[LinkBody], gravity: Array, found: Sequence[NumericMotion]
 ) -> EquationsCertificate:
-    """Compare M, C and g at given configurations with Pinocchio's.
-
-    Raises:
-        CertificationFailed: One differs by more than rounding.
-    """
+    """Compare M, C and g at given configurations with Pinocchio's; raises CertificationFailed if one differs."""
     judge, worst = Judge(table, bodies, gravity), np.zeros(3)
     for one in found:
         worst = np.maximum(worst, judge.errors(one.q, one.mass_matrix, one.christoffel, one.gravity_vector))

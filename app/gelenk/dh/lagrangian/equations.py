@@ -41,20 +41,15 @@ _HALF = number(Fraction(1, 2))
 
 @dataclass(frozen=True, slots=True)
 class Equations:
-    """All quantities in symbols; lists by joint or link, Christoffel symbols as c[i][j][k].
+    """All quantities in symbols, in frame 0; lists by joint or link, Christoffel symbols as c[i][j][k].
 
     Attributes:
-        gravity: The acceleration of free fall in the axes of frame 0.
-        centers: Centres of mass, in frame 0.
-        velocities: Velocities of the centres of mass.
+        gravity: The acceleration of free fall.
+        centers, velocities: Those of the centres of mass.
         turns: Angular velocities about the plane's normal.
-        kinetic: T_i.
-        potential: U_i.
-        mass_matrix: M.
+        kinetic, potential: T_i and U_i.
         christoffel: Christoffel symbols of the first kind, symmetric in j and k.
-        coriolis: C.
-        coriolis_vector: C q̇.
-        gravity_vector: g.
+        coriolis, coriolis_vector: C and C q̇.
         skew: Ṁ - 2C.
         torques: M q̈ + C q̇ + g.
     """
@@ -84,17 +79,9 @@ def _polynomials(entries: Any) -> list[Polynomial]:
 
 
 def equations(arm: PlanarArm, bodies: Sequence[LinkBody], gravity: Gravity, values: dict[Atom, float]) -> Equations:
-    """Derive the equations of motion.
+    """Derive the equations of motion, with one body per joint and gravity in the axes of frame 0.
 
-    Args:
-        arm: The arm in its plane.
-        bodies: One per joint.
-        gravity: Free fall in the axes of frame 0.
-        values: Collects the value of each symbol that has one.
-
-    Raises:
-        TooManyTerms: An entry has too many terms.
-        ArithmeticError: Ṁ - 2C is not skew symmetric, which never happens.
+    `values` collects the value of each symbol that has one. Raises TooManyTerms if an entry has too many terms.
     """
     joints = range(1, len(arm.senses) + 1)
     masses = [quantity(Atom(MASS, (i,), "m"), body.mass, values) for i, body in zip(joints, bodies, strict=True)]

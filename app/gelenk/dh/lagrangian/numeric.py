@@ -22,11 +22,10 @@ class NumericMotion:
     """M, C and g at one configuration, in [kg], [kg m] or [kg m²] and in [N or N m].
 
     Attributes:
-        q: Joint positions; shape (n,), [rad or m].
-        v: Joint velocities; shape (n,), [rad/s or m/s]; None if none are given.
+        q, v: Joint positions and velocities, [rad or m (/s)]; shape (n,). No velocities are None.
         mass_matrix: M; shape (n, n).
         christoffel: c[i, j, k], symmetric in j and k; shape (n, n, n).
-        gravity_vector: g; shape (n,), [N m or N].
+        gravity_vector: g; shape (n,).
     """
 
     q: Array
@@ -56,14 +55,9 @@ def centers_in_frames(table: DhTable, bodies: Sequence[LinkBody]) -> list[Point]
 def numeric_motion(
     table: DhTable, bodies: Sequence[LinkBody], gravity: Array, q: Array, v: Array | None
 ) -> NumericMotion:
-    """Compute M, C and g at a configuration.
+    """Compute M, C and g at a configuration q with velocities v, each as in `NumericMotion`.
 
-    Args:
-        table: Standard or modified table.
-        bodies: One per row; a quantity that was left out counts as zero.
-        gravity: Free fall in the base; shape (3,), [m/s²].
-        q: Joint positions; shape (n,), [rad or m].
-        v: Joint velocities; shape (n,), [rad/s or m/s]; or None.
+    There is one body per row; a quantity left out counts as zero. `gravity` (3,) is free fall in the base, [m/s²].
     """
     n = len(table.joints)
     frames = table.frames(q.tolist())

@@ -36,12 +36,10 @@ class NotPlanar(Exception):
 
 @dataclass(frozen=True, slots=True)
 class PlanarArm:
-    """The arm in the axes of frame 0.
+    """The arm, with its centres of mass, in the axes of frame 0.
 
-    Attributes:
-        senses: For each joint 1 or -1 if it turns about the plane's normal or against it, 0 if it slides.
-        centers: Centres of mass.
-        lines: Line on which each centre of mass is measured if it is one number.
+    `senses` are 1 or -1 for joints that turn about the plane's normal or against it, 0 for those that slide; `lines`
+    are those on which centres of mass that are one number are measured.
     """
 
     senses: tuple[int, ...]
@@ -64,16 +62,10 @@ def quantity(atom: Atom, value: float | None, values: dict[Atom, float], zero: f
 
 
 def planar_arm(table: Table, bodies: tuple[LinkBody, ...], values: dict[Atom, float]) -> PlanarArm:
-    """Place the arm in its plane.
+    """Place the arm, with one body per row, in its plane.
 
-    Args:
-        table: Table in exact terms.
-        bodies: One per row.
-        values: Collects the value of each given coordinate of a centre of mass.
-
-    Raises:
-        NotPlanar: It moves in no plane, by the table's exact angles.
-        TooManyTerms: A coordinate has too many terms.
+    `values` collects the value of each given coordinate of a centre of mass. Raises NotPlanar if the arm moves in no
+    plane, by the table's exact angles, and TooManyTerms if a coordinate has too many terms.
     """
     frames = [frame for frame in frames_from(table, 0, MAX_TERMS) if frame is not None]
     if len(frames) <= len(table.rows):
@@ -97,7 +89,6 @@ def planar_arm(table: Table, bodies: tuple[LinkBody, ...], values: dict[Atom, fl
 
 
 def _point(frame: Transform, index: int, given: Point, values: dict[Atom, float]) -> Vector:
-    """Return a centre of mass that is given by its coordinates in the link's frame."""
     inside = tuple(
         quantity(Atom(LENGTH, (index,), name), value, values, LENGTH_TOLERANCE)
         for name, value in zip(("xc", "yc", "zc"), given, strict=True)

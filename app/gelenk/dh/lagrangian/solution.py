@@ -25,15 +25,12 @@ LINKS, VELOCITIES = "dynamics/links", "dynamics/joint_velocities"
 
 @dataclass(frozen=True, slots=True)
 class MotionSolution:
-    """The equations of motion.
+    """The equations of motion: in symbols, in numbers, and their derivation in words.
 
     Attributes:
-        texts: The equations in symbols.
         numeric: M, C and g at each given configuration; empty if a number is missing.
-        steps: The derivation in words.
         notes: What is left out, and why.
-        certificate: Certificate of the formulas.
-        numeric_certificate: Certificate of the numbers; None without numbers.
+        certificate, numeric_certificate: Those of the formulas and of the numbers; None without numbers.
     """
 
     texts: MotionTexts
@@ -47,9 +44,7 @@ class MotionSolution:
 def checked_dynamics(table: DhTable, chain: Chain, dynamics: MassProperties, count: int) -> MassProperties:
     """Return the dynamics with a body per row, and `count` velocities in the chain's order, if any.
 
-    Raises:
-        InvalidField: There is not one link per row, or not one entry of velocities per configuration.
-        WrongJointCount, MissingJoint, UnknownJoint: An entry of the velocities does not fit the table.
+    Raises InvalidField if links are not as many as rows, or velocities as configurations, and as `configurations` does.
     """
     n, given = len(table.joints), len(dynamics.bodies)
     if given not in {0, n}:
@@ -105,19 +100,9 @@ def motion_solution(
 ) -> MotionSolution | None:
     """Certify formulas and numbers; return None if a formula differs from Pinocchio.
 
-    Everything after a wrong formula follows from it, so that all formulas are left out then.
-
-    Args:
-        texts: The formulas.
-        question: Input of the symbolic part.
-        table: Table as given.
-        as_read: Table as the formulas read it.
-        dynamics: Dynamics with one body per row, and velocities at the configurations in order.
-        qs: Configurations at which the numbers are wanted; shape (N, n), [rad or m].
-        checks: Collects a formula that fails.
-
-    Raises:
-        CertificationFailed: Numbers at given configurations differ from Pinocchio's.
+    Everything after a wrong formula follows from it, so that all formulas are left out then, which `checks` collects.
+    `as_read` is the table as the formulas read it. `dynamics` has one body per row, and velocities at the
+    configurations `qs` (N, n), [rad or m], in order. Raises CertificationFailed if numbers at these differ.
     """
     in_frame_0 = replace(as_read, base=np.eye(4))
     fall = np.array(question.gravity.vector)

@@ -77,7 +77,6 @@ def _quotient(polynomial: Polynomial, chosen: Sequence[Atom], rates: Sequence[At
 
 
 def _root(monomial: Monomial, value: Fraction) -> tuple[Monomial, Fraction] | None:
-    """Return the square root of a term, if it has one."""
     top, bottom = isqrt(max(value.numerator, 0)), isqrt(value.denominator)
     exact = value > 0 and top * top == value.numerator and bottom * bottom == value.denominator
     if not exact or not monomial or any(power % 2 for _, power in monomial):

@@ -142,7 +142,6 @@ def _words(atom: Atom, lines: Sequence[Line]) -> str:
 
 
 def _values(found: Equations, table: Table, values: dict[Atom, float], sample: MotionSample) -> dict[str, Any]:
-    """Evaluate every formula at a sample."""
     known = {**table.values, **values, **_sampled(sample)}
     atoms = {atom for entry in found.all for atom in entry.atoms}
     known = replace(table, values=known).atom_values(sample.q, atoms)

@@ -11,13 +11,9 @@ from gelenk.robot.result import Result
 
 @dataclass(frozen=True, slots=True)
 class MotionSample:
-    """A state of the arm, and its bodies with a number for each quantity that was left out.
+    """A state of the arm: positions q [rad or m], velocities v [rad/s or m/s], accelerations a [rad/s² or m/s²].
 
-    Attributes:
-        q: Joint positions, [rad or m].
-        v: Joint velocities, [rad/s or m/s].
-        a: Joint accelerations, [rad/s² or m/s²].
-        bodies: One per joint.
+    There is one body per joint, with a number for each quantity that was left out.
     """
 
     q: Configuration
@@ -28,13 +24,9 @@ class MotionSample:
 
 @dataclass(frozen=True, slots=True)
 class MotionQuestion:
-    """The request as plain data.
+    """The request as plain data: `formulas` has the table, and how to write its formulas.
 
-    Attributes:
-        formulas: The table, and how to write its formulas.
-        bodies: One per joint.
-        gravity: Free fall in the axes of frame 0.
-        samples: States at which the formulas are also evaluated.
+    There is one body per joint. Gravity is in the axes of frame 0. The formulas are also evaluated at the samples.
     """
 
     formulas: SymbolicRequest
@@ -104,18 +96,11 @@ class EquationsCertificate(Result):
 
 @dataclass(frozen=True, slots=True)
 class MotionTexts:
-    """The equations of motion as text.
+    """The equations of motion as text; quantities have the names that they have in `Equations`.
 
     Attributes:
         legend: Symbols beyond those of the transforms.
-        gravity: The acceleration of free fall in frame 0.
-        links: One per joint.
-        mass_matrix: M.
         christoffel: The symbols that differ from zero.
-        coriolis: C.
-        coriolis_vector: C q̇.
-        gravity_vector: g.
-        skew: Ṁ - 2C.
         equations_of_motion: M q̈ + C q̇ + g = τ, row by row.
         missing: Symbols of M, C and g that have no value.
         values: Values at each sample of all quantities of `Equations`, by name.

@@ -95,7 +95,6 @@ def written(polynomial: Polynomial, notation: Notation, manner: Manner) -> Formu
 
 
 def _length(text: Formula) -> int:
-    """Return the length of a formula; nested brackets count extra."""
     depth, deepest = 0, 0
     for character in text.plain:
         depth += {"(": 1, ")": -1}.get(character, 0)
@@ -206,7 +205,6 @@ def _is_small(value: Fraction, most: int = 1) -> bool:
 
 
 def _groups(polynomial: Polynomial, key: Key) -> list[Polynomial]:
-    """Group the terms by their atoms of a kind."""
     groups: dict[Monomial, dict[Monomial, Fraction]] = {}
     for monomial, value in polynomial:
         groups.setdefault(tuple(item for item in monomial if key(item[0])), {})[monomial] = value

@@ -31,15 +31,10 @@ _EXACT = 1e-15
 
 
 def describe_dh(name: str, table: DhTable) -> Description:
-    """Convert a DH table to a description.
+    """Convert a DH table to a description, with the module docstring's frames and simple solids as bodies.
 
-    Args:
-        name: Name of the robot.
-        table: Standard or modified; it may begin with a prismatic joint and contain links of zero length.
-
-    Returns:
-        The description, with the frames of the module docstring and simple solids as bodies. It warns of omitted
-        limits, of angles beyond a full turn, and of leaders that are not rows.
+    The table may begin with a prismatic joint and contain links of zero length. The description warns of omitted
+    limits, of angles beyond a full turn, and of leaders that are not rows.
     """
     n = len(table.joints)
     taken = frozenset((*table.variables, *(row.name for row in table.joints)))
@@ -81,7 +76,6 @@ def _fixed(taken: frozenset[str], parent: str, child: str, T: Array) -> Joint:
 
 
 def _leaders(table: DhTable) -> list[Joint]:
-    """Create the leaders that are not rows, each on its own link beside the chain."""
     followers = _followers(table)
     return [
         Joint(name, rows[0].type, BASE_FRAME, f"leader_{k}", axis=(0.0, 0.0, 1.0), limits=_limits_of_leader(rows))
@@ -192,10 +186,6 @@ def converted(table: DhTable, convention: Convention) -> DhTable:
     A = Rz(θ) Tz(d) and X = Tx(a) Rx(α) alternate in both: standard tables pair A_i with the X after it, modified ones
     with the X before it. So a and α move by one row, and the X left over goes into the tool or the base. If the base or
     the tool is itself such an X, it goes back into the first or the last row.
-
-    Args:
-        table: Standard or modified.
-        convention: Convention of the result.
     """
     if table.convention == convention:
         return table

@@ -74,13 +74,7 @@ _THROUGH_PREVIOUS = "prismatic, so that the axis may be anywhere: put through th
 
 
 class FarNormal(NamedTuple):
-    """Two axes whose common normal is far away.
-
-    Attributes:
-        joints: Names of the two joints, as text.
-        tilt: Deviation from parallel, [rad].
-        distance: Distance of the normal along the axes, [m].
-    """
+    """Two axes, `tilt` [rad] from parallel, whose common normal is far away: `distance` [m] along the axes."""
 
     joints: str
     tilt: float
@@ -94,8 +88,7 @@ class ChainTable:
     Attributes:
         table: Its variables are the chain's, in the same order.
         notes: Choices where the convention leaves one, one sentence each.
-        rounded: Axes with a far normal that were treated as parallel.
-        far: Axes with a far normal that were not treated as parallel.
+        rounded, far: Axes with a far normal that were treated as parallel, and those that were not.
         reach: Total length of all links, [m].
     """
 
@@ -128,12 +121,9 @@ def dh_from_chain(
     snap_tolerance: float = 0.0,
     parallel_below: float = 0.0,
 ) -> ChainTable:
-    """Compute the DH table of a chain.
+    """Compute the DH table of a chain, up or down the tree.
 
     Args:
-        description: The robot.
-        chain: A chain of this robot, up or down the tree, with at least one joint.
-        convention: Standard or modified.
         snap_tolerance: Angles within this [rad] of a multiple of π/2, and lengths within this [m] of zero, become
             exact; zero allows for rounding only.
         parallel_below: Axes tilted by less than this [rad] are treated as parallel if their common normal is far away.
@@ -387,7 +377,6 @@ class _Lines:
         self._chosen.setdefault(what, []).append(self._names[i])
 
     def notes(self) -> tuple[str, ...]:
-        """Return the choices made, one sentence for each kind of choice."""
         base, tip = (quoted(end) for end in self._ends)
         notes = [
             f"frame 0 is at the foot of the origin of {base} on the first axis; base takes up the rest",
@@ -411,7 +400,6 @@ def _row(
     joint: Joint,
     parameters: tuple[float, float, float, float],
 ) -> DhJoint:
-    """Create a row from the joint's name, limits and leader, and its (a, α, d, θ)."""
     drive = description.drives[joint.name]
     limits = joint.limits
     mimic = None if drive.leader == joint.name else Mimic(drive.leader, drive.multiplier, drive.offset)
@@ -466,5 +454,4 @@ def _left_over(P: Array, u: float, alpha: float) -> float:
 
 
 def _wrapped(angle: float) -> float:
-    """Return the same angle within ±π."""
     return math.remainder(angle, 2.0 * math.pi)
