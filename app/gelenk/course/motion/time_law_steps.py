@@ -25,8 +25,7 @@ def two_point_steps(
 
     Args:
         motion: Motion of a single piece.
-        starts: Position, velocity, … at t = 0; shape (m, n), [rad or m per sᵏ].
-        ends: The same at t = T; shape (m, n).
+        starts, ends: Position, velocity, … at t = 0 and at t = T; shape (m, n), [rad or m per sᵏ].
         normalised: Coefficients of each joint in the course's normalised form; None if Δq = 0.
     """
     degree, joints = motion.coefficients.shape[1] - 1, starts.shape[1]

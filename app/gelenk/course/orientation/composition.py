@@ -43,15 +43,9 @@ class Composition:
 
 
 def composed(first: Array, further: Sequence[FrameMotion], points: Array) -> Composition:
-    """Compose a sequence of motions, and express points of the last frame in the reference frame.
+    """Compose a sequence of motions, and express points of the last frame, shape (N, 3), in the reference frame.
 
-    Args:
-        first: The first motion; shape (4, 4).
-        further: The other motions, in order.
-        points: Points in the last frame; shape (N, 3), [m].
-
-    Raises:
-        CertificationFailed: Two independent computations of a number differ.
+    Raises CertificationFailed if two independent computations of a number differ.
     """
     transforms = [first]
     for motion, about in further:
