@@ -87,7 +87,6 @@ WARM_UP = MECHANISM
 
 
 def _check_options(call: DynamicsRequest) -> None:
-    """Refuse combinations of fields that exclude each other; raises InvalidField."""
     if call.joint_accelerations is not None and call.torques is not None:
         raise InvalidField(
             "torques", "they ask for forward dynamics, `joint_accelerations` for inverse: one of the two"

@@ -69,7 +69,6 @@ def _content(
 
 
 def _spaces(chain: Chain) -> dict[str, Any]:
-    """Return the joint space and the task spaces, by their dimensions."""
     return {
         "base_frame": chain.base_frame,
         "tip_frame": chain.tip_frame,

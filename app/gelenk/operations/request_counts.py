@@ -12,8 +12,7 @@ class RequestCounts:
     Attributes:
         batch: Number of configurations or targets.
         verdicts: Number of targets of inverse kinematics, by verdict.
-        solutions: Number of solutions found.
-        iterations: Total number of iterations that led to them.
+        iterations: Total number of iterations that led to the solutions.
     """
 
     batch: int

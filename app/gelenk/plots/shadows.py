@@ -39,10 +39,7 @@ class Quantity:
     """An ellipsoid to draw.
 
     Attributes:
-        name: Name of the quantity.
         unit: Unit of the semi-axes.
-        color: Colour of the line.
-        dashes: Style of the line.
         axes: Principal axes as unit columns; shape (3, d).
         sizes: Lengths of the semi-axes, ∞ if unbounded; shape (d,).
         scale: Metres as drawn per unit.
@@ -84,9 +81,6 @@ class Outline:
     """A polytope in a plane, to draw.
 
     Attributes:
-        name: Name of the quantity.
-        unit: Unit of the vertices.
-        color: Colour of the line.
         vertices: Vertices in order; shape (V, 3); None if there is nothing to draw.
         scale: Metres as drawn per unit.
         missing: Why there is nothing to draw.
