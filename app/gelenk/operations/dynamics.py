@@ -127,7 +127,6 @@ def _check_size(call: DynamicsRequest, count: int, n: int, limits: Limits) -> No
 
 
 def _array(call: DynamicsRequest, found: Dynamics) -> Array | None:
-    """Return the part of the answer that npy holds."""
     if found.torques is not None:
         return found.torques
     if found.accelerations is not None or not call.terms:

@@ -19,11 +19,7 @@ from gelenk.robot.robot import RobotModel
 
 @dataclass(frozen=True, slots=True)
 class TargetLimits:
-    """Limits of one call; `numbers` of the answer may be None for no limit.
-
-    Attributes:
-        stepwise: Maximum number of targets with a method that is followed step by step, in Python.
-    """
+    """Limits of one call; `stepwise` holds for targets of a method that is followed step by step, in Python."""
 
     targets: int
     stepwise: int

@@ -81,7 +81,6 @@ _GRAPH = ("ground", "chain", "loop_count", "components", "bridges", "pairs", "mo
 
 
 def _graph(found: Mechanism | None) -> dict[str, Any]:
-    """Return the fields that need the graph of a mechanism; None for each without one."""
     if found is None:
         return dict.fromkeys(_GRAPH)
     graph, names = found.topology, found.links

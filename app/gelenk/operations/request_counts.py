@@ -7,13 +7,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True, slots=True)
 class RequestCounts:
-    """Counts of one call.
-
-    Attributes:
-        batch: Number of configurations or targets.
-        verdicts: Number of targets of inverse kinematics, by verdict.
-        iterations: Total number of iterations that led to the solutions.
-    """
+    """Counts of one call: its configurations or targets, and all iterations that led to the solutions."""
 
     batch: int
     verdicts: Mapping[str, int] = field(default_factory=dict)

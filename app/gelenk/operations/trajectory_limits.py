@@ -110,7 +110,6 @@ def _row(chain: Chain, given: JointValues, field: str) -> Array:
 
 
 def _first(options: Iterable[MotionOptions | TrajectoryLimits], name: str, otherwise: float) -> float:
-    """Return the value of the first options that give one."""
     given = (getattr(one, name) for one in options)
     return float(next((value for value in given if value is not None), otherwise))
 

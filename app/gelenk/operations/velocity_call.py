@@ -81,11 +81,7 @@ def asked_field(call: VelocityRequest, rates: int) -> str | None:
 
 
 def rule_of_call(chain: Chain, call: VelocityRequest, asked: str, directions: int) -> InverseRule:
-    """Return the rule of inversion.
-
-    Raises InvalidField if the inverse does not take a given option, a weight is invalid, or an exact inverse is
-    requested of a Jacobian that is not square.
-    """
+    """Return the rule of inversion; raises InvalidField if an option or a weight does not suit the inverse."""
     if call.inverse == "exact":
         for field in ("weights", "null_space"):
             if getattr(call, field) is not None:

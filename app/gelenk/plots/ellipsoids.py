@@ -93,11 +93,7 @@ def manipulability_picture(
     kind: style.PictureFormat,
     asked: Overlay = NOTHING_MORE,
 ) -> bytes:
-    """Draw the arm with its ellipsoids at one configuration q.
-
-    `translation` holds the translational ellipsoids at q alone, in the base frame, or None if the task has no
-    translational direction.
-    """
+    """Draw the arm with its ellipsoids at q alone, in the base frame; `translation` is None for a task without one."""
     points, slides = arm_line(chain, q)
     extent = max(float(np.ptp(points, axis=0).max()), float(np.linalg.norm(points[-1])), 1e-3)
     quantities = () if translation is None else _quantities(chain, translation, extent)

@@ -78,13 +78,7 @@ class Quantity:
 
 @dataclass(frozen=True, slots=True)
 class Outline:
-    """A polytope in a plane, to draw.
-
-    Attributes:
-        vertices: Vertices in order; shape (V, 3); None if there is nothing to draw.
-        scale: Metres as drawn per unit.
-        missing: Why there is nothing to draw.
-    """
+    """A polytope in a plane: vertices in order, shape (V, 3), or why there are none; a unit is `scale` metres drawn."""
 
     name: str
     unit: str
@@ -103,10 +97,9 @@ class Outline:
 
 @dataclass(frozen=True, slots=True)
 class Arrow:
-    """A direction for which transmission ratios were requested.
+    """A direction for which transmission ratios were requested, and its number in the picture, from 1.
 
     Attributes:
-        number: Number in the picture, from 1.
         direction: Unit vector; shape (3,).
         ends: Colour and distance, [m as drawn], at which a ray along it leaves each ellipsoid that is bounded there.
         words: Text for the legend.

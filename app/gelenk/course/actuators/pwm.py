@@ -17,14 +17,7 @@ _CLOSING_TOLERANCE = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Pulses:
-    """A pulse train.
-
-    Attributes:
-        supply_voltage: V_s > 0, [V].
-        duty: D in [0, 1].
-        frequency: f > 0, [Hz].
-        direction: 1, or -1 if an H-bridge reverses the supply.
-    """
+    """Pulses of V_s > 0, [V], D in [0, 1] and f > 0, [Hz]; the direction is -1 if an H-bridge reverses the supply."""
 
     supply_voltage: float
     duty: float

@@ -27,12 +27,7 @@ _QUARTER = np.array([0, 3, 1, 2])
 
 @dataclass(frozen=True, slots=True)
 class Samples:
-    """Samples read from the channels.
-
-    Attributes:
-        states: 2 A + B of each sample; shape (S,).
-        index: Z of each sample; shape (S,), or None if it was not read.
-    """
+    """States 2 A + B of each sample, and its Z, or None if that was not read; shape (S,) each."""
 
     states: Indices
     index: Flags | None

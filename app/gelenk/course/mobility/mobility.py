@@ -45,12 +45,7 @@ class PairCount(Result):
 
 @dataclass(frozen=True, slots=True)
 class Tally:
-    """The numbers in the formula.
-
-    Attributes:
-        links: n, including the ground.
-        couplings: Number of joints that follow another one, each a constraint.
-    """
+    """The numbers in the formula; a coupling, a joint that follows another one, is one more constraint."""
 
     space: Space
     links: int
@@ -91,13 +86,11 @@ def tally(found: Mechanism) -> Tally:
 def tally_of_counts(space: Space, links: int, counts: Mapping[str, int], nodes: Sequence[NodeCount]) -> Tally:
     """Return the numbers of a mechanism that is given only by how many pairs of each kind it has.
 
+    Raises InvalidField for a kind that the space does not have, or more joints of many links than joints.
+
     Args:
-        links: n, including the ground.
         counts: Joints by the kind of their pairs; each joint counts once, however many links meet there.
         nodes: Those of the joints where more than two links meet; each adds k - 2 pairs.
-
-    Raises:
-        InvalidField: A kind that the space does not have, or more joints of many links than joints.
     """
     for kind in counts:
         check_kind(space, kind, f"pairs/{kind}")

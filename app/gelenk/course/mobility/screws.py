@@ -71,12 +71,8 @@ def posture(found: Mechanism, output: int | None, tolerance: float) -> PostureMo
     """Compute the mobility at the given posture, and the freedoms of the link of index `output`.
 
     None if no pair has a position. A singular value counts if it exceeds `tolerance` times the largest, or `tolerance`
-    if the largest is below 1.
-
-    Raises:
-        InvalidField: A pair lacks a value that its kind needs, has one that its kind does not have, leaves the plane,
-            or has axes that are not independent.
-        TooLarge: More than `MAX_LINKS` links.
+    if the largest is below 1. Raises TooLarge for more than `MAX_LINKS` links, and InvalidField if a pair lacks a value
+    that its kind needs, has one that its kind does not have, leaves the plane, or has axes that are not independent.
     """
     if not any(found.geometries):
         return None

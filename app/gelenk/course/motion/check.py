@@ -27,8 +27,7 @@ class MotionClaims:
     """The claims about a motion that are checked.
 
     Attributes:
-        times: Times of the points, including start and end; shape (K,), [s].
-        points: Positions at these times; shape (K, n), [rad or m].
+        times, points: Times and positions, start and end included; shapes (K,), [s], and (K, n), [rad or m].
         start_rates, end_rates: Velocity, acceleration, … at the ends, as far as they were given; shape (m, n).
         continuity: Order up to which derivatives are continuous at the joins.
         peaks: Peaks by the order of the derivative.
