@@ -36,8 +36,7 @@ class PlanarWorkspace:
     Attributes:
         links: l_1 … l_n ≥ 0, [m].
         wrist: WS₁ of all but the last link, one ring, [m].
-        primary: WS₁ as intervals of r, [m].
-        secondary: WS₂ as intervals of r, [m], from the inside out; none, one or two.
+        primary, secondary: WS₁ and WS₂ as intervals of r, [m], from the inside out; WS₂ may have none, one or two.
     """
 
     links: tuple[float, ...]
@@ -161,13 +160,9 @@ def share(intervals: Sequence[Interval]) -> float:
 
 
 def posture(arm: PlanarWorkspace, x: float, y: float, orientation: float) -> Array:
-    """Return base, joints and tip for a tip at a point, with the elbow to the right; shape (n + 1, 2), [m].
+    """Return base, joints and tip, the elbow to the right, for a tip at (x, y); shape (n + 1, 2), [m].
 
-    Args:
-        arm: The arm.
-        x: x of the tip, [m].
-        y: y of the tip, [m].
-        orientation: φ of the last link, one of `orientations`, [rad].
+    The last link's orientation φ is one of `orientations`, [rad].
     """
     wrist = np.array([x, y]) - arm.links[-1] * np.array([math.cos(orientation), math.sin(orientation)])
     between = []
@@ -198,10 +193,8 @@ def tried(arm: PlanarWorkspace) -> WorkspaceTrial:
     """Check both workspaces by trying orientations of the last link at distances inside and outside their boundaries.
 
     The wrist's ring comes from positions of the links before it, from folded to stretched. Since the wrist's distance
-    is a continuous function of the orientation, its extremes show whether some or all orientations are reached.
-
-    Raises:
-        CertificationFailed: A distance within WS₁ is not reached, a distance outside is, or likewise for WS₂.
+    is a continuous function of the orientation, its extremes show whether some or all orientations are reached. Raises
+    CertificationFailed if a distance within WS₁ is not reached, a distance outside is, or likewise for WS₂.
     """
     reach = sum(arm.links)
     if reach == 0.0:

@@ -29,12 +29,7 @@ def step(title: str, text: str, *latex: str) -> Step:
 
 
 def tex(value: float, unit: str = "") -> str:
-    """Format a number for a formula, to ten digits, with a power of ten if it is very large or small.
-
-    Args:
-        value: The number.
-        unit: Its unit, such as "kg m^2".
-    """
+    """Format a number, with a unit such as "kg m^2", to ten digits; very large and small ones with a power of ten."""
     mantissa, _, exponent = f"{value:.{_SHOWN_DIGITS}g}".partition("e")
     number = rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
     return number + r"\,\mathrm{" + unit.replace(" ", r"\,") + "}" if unit else number

@@ -16,14 +16,8 @@ from gelenk.robot.robot import RobotModel
 def chain_and_positions(robot: RobotModel, call: Any) -> tuple[Chain, Array]:
     """Return the chain of a request and its configurations, shape (N, n), [rad or m].
 
-    Args:
-        robot: The robot.
-        call: A request with `base_frame`, `tip_frame`, `joint_positions` and `respect_limits`.
-
-    Raises:
-        UnknownFrame: The robot has no such frame.
-        InvalidField: A configuration does not have one number per joint.
-        OutsideLimits: A configuration is beyond the limits, and the request respects them.
+    The request has `base_frame`, `tip_frame`, `joint_positions` and `respect_limits`. Raises UnknownFrame; InvalidField
+    for a configuration without one number per joint; OutsideLimits for one beyond limits that the request respects.
     """
     chain = robot.chain(call.base_frame, call.tip_frame)
     return chain, positions(chain, call)
@@ -50,11 +44,7 @@ def check_count(rows: int, count: int, field: str, hint: str = "") -> None:
 
 
 def task_of(directions: Sequence[Direction] | None) -> Task:
-    """Return the task of the given directions, in their order; of all six if None.
-
-    Raises:
-        InvalidField: A direction appears twice.
-    """
+    """Return the task of the given directions, in their order, or of all six; raises InvalidField for a repetition."""
     task = Task(tuple(directions or DIRECTIONS))
     if len(set(task.directions)) < len(task):
         raise InvalidField("task", "each direction may appear only once")

@@ -99,7 +99,6 @@ def _difference(each: Difference) -> dict[str, Any]:
 
 
 def _pointer(each: Difference) -> str | None:
-    """Return the JSON pointer of a difference in the request."""
     if each.row is None:
         return "#/dh" if each.parameter == "joints" else f"#/dh/{each.parameter}"
     if each.joint is None:

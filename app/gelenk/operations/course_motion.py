@@ -29,13 +29,7 @@ PeaksByOrder = dict[int, Peaks]
 class PlannedMotion:
     """A planned motion, what its certificate promises, and further fields of the answer.
 
-    Attributes:
-        motion: Positions over time.
-        claims: Knots, derivatives at both ends, and what else the certificate promises.
-        limits: Limits of each joint.
-        title: Title of a picture.
-        further: Further fields of the answer.
-        passed: Points that a picture marks instead of the knots, if the motion only passes near them; (K,) and (K, n).
+    If the motion only passes near its knots, a picture marks the points `passed` instead, of shapes (K,) and (K, n).
     """
 
     motion: PiecewisePolynomial
@@ -62,7 +56,6 @@ def is_heavy_motion(call: SampledRequest) -> bool:
 
 
 def _picture(planned: PlannedMotion, kind: PictureFormat) -> bytes:
-    # Matplotlib takes a third of a second to load.
     from gelenk.plots.profiles import ProfileLines, profiles_picture  # noqa: PLC0415
 
     claims, limits = planned.claims, planned.limits
@@ -129,10 +122,7 @@ def _peaks_of(found: Peaks, limit: Array | None) -> list[dict[str, float | None]
 def limit_warnings(found: PeaksByOrder, limits: ScalingLimits, on_others: str = "") -> list[str]:
     """Return a warning for each joint and quantity whose limit is exceeded.
 
-    Args:
-        found: Peaks of the motion.
-        limits: Limits of each joint.
-        on_others: What to know of the joints that a worked solution does not show, where it shows only some.
+    `on_others` says what to know of the joints that a worked solution does not show, where it shows only some.
     """
     texts = []
     for order, quantity in enumerate(QUANTITIES, start=1):

@@ -39,14 +39,10 @@ def is_heavy(_: DeriveRequest) -> bool:
 
 
 def in_time(function: Callable[[_Question], _Result], question: _Question, seconds: float) -> _Result:
-    """Run a function, and break it off in time, though never while it imports a module.
+    """Run a function, but break it off with TimeoutError after `seconds`, though never while it imports a module.
 
     Only a main thread can be broken off, as a worker's is; in another one, as at the command line, the function ends
     by itself.
-
-    Raises:
-        TimeoutError: The function takes longer.
-        Exception: Whatever the function raises.
     """
 
     def stop(_: int, frame: FrameType | None) -> None:

@@ -87,7 +87,6 @@ WARM_UP = MECHANISM
 
 
 def _check_options(call: DynamicsRequest) -> None:
-    """Refuse combinations of fields that exclude each other; raises InvalidField."""
     if call.joint_accelerations is not None and call.torques is not None:
         raise InvalidField(
             "torques", "they ask for forward dynamics, `joint_accelerations` for inverse: one of the two"
@@ -128,7 +127,6 @@ def _check_size(call: DynamicsRequest, count: int, n: int, limits: Limits) -> No
 
 
 def _array(call: DynamicsRequest, found: Dynamics) -> Array | None:
-    """Return the part of the answer that npy holds."""
     if found.torques is not None:
         return found.torques
     if found.accelerations is not None or not call.terms:

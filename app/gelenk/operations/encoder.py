@@ -52,7 +52,6 @@ def is_heavy(call: EncoderRequest) -> bool:
 
 
 def _check(call: EncoderRequest) -> None:
-    """Refuse combinations of fields that exclude each other."""
     other = "absolute" if call.type == "incremental" else "incremental"
     for field in _FIELDS[other]:
         # The lines of an incremental encoder are reported for either type.

@@ -46,7 +46,6 @@ def _planned(call: FlyOverRequest) -> tuple[Given, float, Blend, BlendedMotion |
 
 
 def _picture(call: FlyOverRequest, kind: PictureFormat) -> bytes:
-    # Matplotlib takes a third of a second to load.
     from gelenk.plots.fly_over import fly_over_picture  # noqa: PLC0415
 
     _, _, blend, whole, motion = _planned(call)

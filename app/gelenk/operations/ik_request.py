@@ -19,13 +19,7 @@ from gelenk.robot.robot import RobotModel
 
 @dataclass(frozen=True, slots=True)
 class TargetLimits:
-    """Limits of one call.
-
-    Attributes:
-        targets: Maximum number of targets, with any method.
-        stepwise: Maximum number of targets with a method that is followed step by step, in Python.
-        numbers: Maximum count of numbers in the answer; None for no limit.
-    """
+    """Limits of one call; `stepwise` holds for targets of a method that is followed step by step, in Python."""
 
     targets: int
     stepwise: int
@@ -35,12 +29,7 @@ class TargetLimits:
 def parse(
     robot: RobotModel, call: InverseRequest, bounds: TargetLimits, time_limit: float | None = None
 ) -> TargetProblem:
-    """Return the problem to solve, within a time limit [s] if one is given.
-
-    Raises:
-        InvalidInput: A field is invalid; the error names it.
-        TooLarge: The request exceeds a limit.
-    """
+    """Return the problem to solve, within a time limit, [s], if given; raises InvalidInput or TooLarge."""
     _check_options(call)
     chain = robot.chain(call.base_frame, call.tip_frame)
     _check_fixed_joints(chain, call)
@@ -105,11 +94,7 @@ def _task_of(directions: frozenset[Direction]) -> Task:
 
 
 def _check_fixed_joints(chain: Chain, call: InverseRequest) -> None:
-    """Refuse to fix a joint that is not a variable of the chain, a position out of range, or all joints.
-
-    Raises:
-        InvalidField: A fixed joint is not allowed; the error says what is.
-    """
+    """Refuse to fix a joint that is not a variable of the chain, a position out of range, or all joints."""
     fixed = call.fixed_joints or {}
     for name, value in fixed.items():
         field = f"fixed_joints.{name}"
@@ -146,11 +131,6 @@ def is_stepwise(call: InverseRequest) -> bool:
 
 
 def _check_options(call: InverseRequest) -> None:
-    """Refuse combinations of fields that exclude each other.
-
-    Raises:
-        InvalidField: A field needs another that is missing, or excludes one that is given.
-    """
     if call.task is not None and len(set(call.task)) < len(call.task):
         raise InvalidField("task", "each direction may appear only once")
     if call.solutions == "all" and call.method not in {"auto", "analytic"}:

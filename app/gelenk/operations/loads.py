@@ -26,12 +26,7 @@ _QUICK_BODIES = 8
 
 
 def chain_of(robot: RobotModel, call: WrenchOptions) -> Chain:
-    """Return the chain of a request.
-
-    Raises:
-        UnknownFrame: The robot lacks a frame that the request names; the error has its field.
-        UnsupportedJoint: A floating or planar joint lies between the ends of the chain.
-    """
+    """Return the chain of a request; raises UnknownFrame, with the field, for a frame that the robot lacks."""
     for field in ("base_frame", "tip_frame", "expressed_in", "point_frame"):
         name = getattr(call, field)
         if name is not None and name not in robot.description.joints_below:
@@ -101,11 +96,7 @@ def unused_frame(call: WrenchRequest) -> str | None:
 
 
 def wrench_rows(wrenches: Vectors, count: int, components: Sequence[str]) -> Array:
-    """Return one wrench per configuration; shape (N, m), [N] and [N m].
-
-    Raises:
-        InvalidField: The number of wrenches, or of their components, does not fit.
-    """
+    """Return one wrench per configuration; shape (N, m), [N] and [N m]; raises InvalidField if numbers do not fit."""
     for i, wrench in enumerate(wrenches):
         if len(wrench) != len(components):
             raise InvalidField(

@@ -180,7 +180,6 @@ def _space(chain: Chain, part: str, ellipsoids: Ellipsoids) -> dict[str, Any]:
 
 
 def _entries(ellipsoids: Ellipsoids) -> list[dict[str, Any]]:
-    """Return ellipsoids and measures, one entry per configuration."""
     d = ellipsoids.space.dimension
     axes = ellipsoids.space.spread(ellipsoids.axes.transpose(0, 2, 1)).tolist()
     columns = zip(
@@ -264,7 +263,6 @@ def _picture(
     bounds: JointBounds | None,
     kind: PictureFormat,
 ) -> bytes:
-    # The drawing library takes a third of a second to load, which the service's start does not wait for.
     from gelenk.plots.ellipsoids import Overlay, manipulability_picture  # noqa: PLC0415
 
     translation, limited = result.parts.get("translation"), None

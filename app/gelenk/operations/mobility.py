@@ -69,7 +69,6 @@ def _content(
 
 
 def _spaces(chain: Chain) -> dict[str, Any]:
-    """Return the joint space and the task spaces, by their dimensions."""
     return {
         "base_frame": chain.base_frame,
         "tip_frame": chain.tip_frame,
@@ -82,7 +81,6 @@ _GRAPH = ("ground", "chain", "loop_count", "components", "bridges", "pairs", "mo
 
 
 def _graph(found: Mechanism | None) -> dict[str, Any]:
-    """Return the fields that need the graph of a mechanism; None for each without one."""
     if found is None:
         return dict.fromkeys(_GRAPH)
     graph, names = found.topology, found.links

@@ -24,13 +24,7 @@ class Operation:
     warm_up: WarmUp[Any] | None
 
     def run(self, robot: LoadedRobot | None, request: Any, limits: Limits) -> Outcome:
-        """Compute the outcome; raises what the operation raises.
-
-        Args:
-            robot: Robot that the path or the request names, if any.
-            request: An instance of the endpoint's request.
-            limits: Limits on the work for the answer.
-        """
+        """Compute the outcome; the robot is the one that path or request name. Raises what the operation raises."""
         if isinstance(self.endpoint, RobotEndpoint) or self.endpoint.robot_field:
             return self._run(robot, request, limits)
         return self._run(request)

@@ -15,7 +15,6 @@ def run(call: PlanarWorkspaceRequest) -> Outcome:
 
 
 def _picture(call: PlanarWorkspaceRequest, kind: PictureFormat) -> bytes:
-    # Matplotlib takes a third of a second to load.
     from gelenk.plots.planar_workspace import planar_workspace_picture  # noqa: PLC0415
 
     arm = planar.planar_workspace(call.links)

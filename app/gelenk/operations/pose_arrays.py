@@ -20,10 +20,8 @@ from gelenk.robot.poses import ROTATION_TOLERANCE, Poses
 def poses_from(given: Sequence[Pose] | Array, field: str) -> Poses:
     """Return a batch of poses from payloads, or an array (N, 7), position and quaternion x y z w, or (N, 4, 4).
 
-    Raises:
-        InvalidPose: An orientation is not a rotation, or the last row of a matrix is not 0 0 0 1.
-        InvalidArray: The array has another shape.
-        InvalidField: A number of the array is not finite, or too large.
+    Raises InvalidPose if an orientation is not a rotation, or the last row of a matrix is not 0 0 0 1; InvalidArray for
+    another shape; InvalidField for a number that is not finite, or too large.
     """
     if isinstance(given, np.ndarray):
         return _poses_from_array(given, field)

@@ -7,14 +7,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True, slots=True)
 class RequestCounts:
-    """Counts of one call.
-
-    Attributes:
-        batch: Number of configurations or targets.
-        verdicts: Number of targets of inverse kinematics, by verdict.
-        solutions: Number of solutions found.
-        iterations: Total number of iterations that led to them.
-    """
+    """Counts of one call: its configurations or targets, and all iterations that led to the solutions."""
 
     batch: int
     verdicts: Mapping[str, int] = field(default_factory=dict)

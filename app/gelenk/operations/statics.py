@@ -108,7 +108,6 @@ def _wants_subspaces(call: StaticsRequest) -> bool:
 
 
 def _check_options(call: StaticsRequest, task: Task, chain: Chain, *, weighs: bool) -> None:
-    """Refuse combinations of fields that exclude each other; raises InvalidField."""
     if call.wrenches is not None and call.torques is not None:
         raise InvalidField("torques", "they are given instead of `wrenches`, not beside them")
     if call.payload is not None and not weighs:

@@ -42,12 +42,7 @@ _ASSUMED = {
 
 @dataclass(frozen=True, slots=True)
 class SourcedLimits:
-    """Limits and their sources.
-
-    Attributes:
-        limits: Limits with the scales applied.
-        sources: Source of each joint's limit, by quantity.
-    """
+    """Limits with the scales applied, and the source of each joint's limit, by quantity."""
 
     limits: SegmentLimits
     sources: dict[str, tuple[LimitSource, ...]]
@@ -71,16 +66,9 @@ def own_velocities(robot: RobotModel, chain: Chain) -> OwnVelocities:
 
 
 def bounds_of(chain: Chain, own: OwnVelocities, layers: Mapping[str, MotionOptions]) -> SourcedLimits:
-    """Return the limits in force.
+    """Return the limits in force; raises WrongJointCount or UnknownJoint.
 
-    Args:
-        chain: Chain of the joints.
-        own: Velocity limits of the robot.
-        layers: Options that contain limits, by the prefix of their fields; later ones override earlier ones.
-
-    Raises:
-        WrongJointCount: A list does not have one number per joint.
-        UnknownJoint: A name is not a joint of the chain.
+    `layers` are options that contain limits, by the prefix of their fields; later ones override earlier ones.
     """
     values, source = own.values, np.where(own.known, "robot", "assumed")
     rows, sources = [], {}
@@ -122,7 +110,6 @@ def _row(chain: Chain, given: JointValues, field: str) -> Array:
 
 
 def _first(options: Iterable[MotionOptions | TrajectoryLimits], name: str, otherwise: float) -> float:
-    """Return the value of the first options that give one."""
     given = (getattr(one, name) for one in options)
     return float(next((value for value in given if value is not None), otherwise))
 

@@ -41,22 +41,13 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class TrajectorySizeLimits:
-    """Limits of one call.
-
-    Attributes:
-        samples: Maximum number of samples of the motion.
-        numbers: Maximum count of numbers in the samples, or in the polynomials.
-    """
+    """Most samples of a call's motion, and most numbers in the samples, or in the polynomials."""
 
     samples: int
     numbers: int
 
     def check(self, call: TrajectoryRequest, chain: Chain, duration: float) -> None:
-        """Refuse a motion whose duration, or a lower bound of it, [s], makes too many samples.
-
-        Raises:
-            InvalidField: There are too many; the message gives an allowed period.
-        """
+        """Refuse a duration, or a lower bound of it, [s], with too many samples; the error gives an allowed period."""
         period, most = call.sample_period, self._most(call, chain)
         if duration / period <= 2.0 * most and sample_count(duration, period) <= most:
             return
@@ -91,11 +82,7 @@ def sample_count(duration: float, period: float) -> int:
 
 
 def checked(robot: RobotModel, call: TrajectoryRequest, bounds: TrajectorySizeLimits) -> tuple[Chain, SourcedProblem]:
-    """Return the chain and the core's input of a call, checked as far as possible before planning.
-
-    Raises:
-        InvalidInput: A field is invalid; the error names it.
-    """
+    """Return the chain and the core's input, checked as far as possible before planning; raises InvalidInput."""
     chain = robot.chain(call.base_frame, call.tip_frame)
     question = parse(robot, chain, call)
     bounds.check(call, chain, shortest_duration(question.problem))
@@ -104,16 +91,7 @@ def checked(robot: RobotModel, call: TrajectoryRequest, bounds: TrajectorySizeLi
 
 @dataclass(frozen=True, slots=True)
 class PlannedTrajectory:
-    """A planned trajectory.
-
-    Attributes:
-        robot: The robot.
-        chain: Chain from base to tip.
-        call: The request.
-        question: Problem given to the core.
-        found: Result of planning.
-        bounds: Limits on the answer's size.
-    """
+    """A planned trajectory: the request, the problem given to the core and what it found, and the answer's limits."""
 
     robot: RobotModel
     chain: Chain
@@ -124,12 +102,7 @@ class PlannedTrajectory:
 
     @classmethod
     def of(cls, robot: RobotModel, call: TrajectoryRequest, bounds: TrajectorySizeLimits) -> "PlannedTrajectory":
-        """Plan a trajectory.
-
-        Raises:
-            InvalidInput: A field is invalid; the error names it.
-            AuditFailed: The planned motion fails its audit.
-        """
+        """Plan a trajectory; raises InvalidInput, which names the field, or AuditFailed for a motion that fails it."""
         chain, question = checked(robot, call, bounds)
         return cls(robot, chain, call, question, plan(robot, chain, question.problem), bounds)
 
@@ -149,11 +122,7 @@ class PlannedTrajectory:
         }
 
     def times(self) -> Array:
-        """Return the sample times of the motion; shape (N,), [s].
-
-        Raises:
-            InvalidField: There are too many samples.
-        """
+        """Return the sample times of the motion; shape (N,), [s]; raises InvalidField if there are too many."""
         self.bounds.check(self.call, self.chain, self.found.motion.duration)
         return sample_times(self.found.motion.duration, self.call.sample_period)
 
@@ -180,21 +149,13 @@ class PlannedTrajectory:
         return json_list(pieces())
 
     def certificate(self, times: Array) -> PoseCertificate | None:
-        """Compare the tip's poses at these times with Pinocchio's; None if they are not sent.
-
-        Raises:
-            CertificationFailed: They differ too much.
-        """
+        """Compare the poses at these times with Pinocchio's; raises CertificationFailed. None if they are not sent."""
         if not self.call.tip_poses:
             return None
         return forward_kinematics(self.robot, self.chain, self.found.motion.at(times)).certificate
 
     def to_json(self, sampled: Mapping[str, orjson.Fragment], certificate: PoseCertificate | None) -> dict[str, Any]:
-        """Return the whole answer.
-
-        Raises:
-            TooLarge: The requested polynomials hold too many numbers.
-        """
+        """Return the whole answer; raises TooLarge if the requested polynomials hold too many numbers."""
         found, bounds = self.found, self.question.bounds
         if self.call.coefficients and found.motion.coefficients.size > self.bounds.numbers:
             raise TooLarge("numbers in the answer", found.motion.coefficients.size, self.bounds.numbers)
@@ -232,7 +193,6 @@ class PlannedTrajectory:
 
     def picture(self, name: str, kind: PictureFormat) -> bytes:
         """Draw position, velocity, acceleration and jerk over time, with the robot's name in the title."""
-        # Matplotlib takes a third of a second to load.
         from gelenk.plots.profiles import ProfileLines, Span, profiles_picture  # noqa: PLC0415
 
         chain, found = self.chain, self.found

@@ -34,14 +34,7 @@ _SHORTEST = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class SourcedProblem:
-    """The problem for the core, and the sources of its limits.
-
-    Attributes:
-        problem: Problem for the core.
-        own: Velocity limits of the robot.
-        bounds: Limits of the trajectory.
-        segment_bounds: Limits of each segment.
-    """
+    """The problem for the core, the robot's own velocity limits, and all limits with their sources."""
 
     problem: TrajectoryProblem
     own: OwnVelocities
@@ -50,11 +43,7 @@ class SourcedProblem:
 
 
 def parse(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedProblem:
-    """Convert a request into the problem for the core.
-
-    Raises:
-        InvalidInput: A field is invalid; the error names it.
-    """
+    """Convert a request into the problem for the core; raises InvalidInput, which names the field."""
     waypoints = sum(len(segment.waypoints) for segment in call.segments if isinstance(segment, SplineSegment))
     if waypoints > MAX_WAYPOINTS:
         raise InvalidField("segments", f"all together have {waypoints} waypoints; at most {MAX_WAYPOINTS} are allowed")

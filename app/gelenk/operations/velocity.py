@@ -164,7 +164,6 @@ def _results(asked: _Question, speeds: Array, parts: Decomposition) -> list[dict
 
 
 def _verdict(asked: _Question, found: InverseMotion, row: int) -> dict[str, Any]:
-    """Return the verdict on one inversion."""
     inversion, residual, rows = found.inversion, found.residuals[row], np.array(asked.space.rows)
     status, damping = inversion.statuses[row], float(inversion.dampings[row])
     if status == "singular":
@@ -190,7 +189,6 @@ def _verdict(asked: _Question, found: InverseMotion, row: int) -> dict[str, Any]
 
 
 def _no_inverse(call: VelocityRequest, inversion: Inversion, row: int) -> str:
-    """Return why an inversion has no answer."""
     rank, size = inversion.decomposition.ranks[row], inversion.xs.shape[1]
     if call.inverse == "exact" and rank < size:
         return (

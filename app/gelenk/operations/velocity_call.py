@@ -30,8 +30,7 @@ _LEAST_WEIGHT, _LARGEST_WEIGHT = 1e-6, 1e6
 def positions_and_rates(chain: Chain, call: VelocityRequest) -> tuple[Array, Array]:
     """Return joint positions, shape (N, n), and the given rates q̇, q̈, …, shape (K, N, n).
 
-    Raises:
-        InvalidField: A rate is given without those before it, or not once per configuration.
+    Raises InvalidField if a rate is given without those before it, or not once per configuration.
     """
     if isinstance(call.joint_positions, np.ndarray):
         return _split(chain, call.joint_positions)
@@ -82,12 +81,7 @@ def asked_field(call: VelocityRequest, rates: int) -> str | None:
 
 
 def rule_of_call(chain: Chain, call: VelocityRequest, asked: str, directions: int) -> InverseRule:
-    """Return the rule of inversion.
-
-    Raises:
-        InvalidField: The inverse does not take a given option, a weight is invalid, or an exact inverse is requested
-            of a Jacobian that is not square.
-    """
+    """Return the rule of inversion; raises InvalidField if an option or a weight does not suit the inverse."""
     if call.inverse == "exact":
         for field in ("weights", "null_space"):
             if getattr(call, field) is not None:

@@ -8,13 +8,9 @@ from gelenk.robot.poses import transform
 
 
 def arm_line(chain: Chain, q: Array) -> tuple[Array, Flags]:
-    """Return the line from base to tip at a configuration of shape (n,), including mimic joints.
+    """Return base, a point on the axis of each of m joints, and tip; shape (m + 2, 3), [m]; and which joints slide.
 
-    The point of a prismatic joint moves with its carriage.
-
-    Returns:
-        Base, one point on the axis of each of the chain's m joints, and tip, in the base frame, shape (m + 2, 3), [m];
-        and whether each joint is prismatic, shape (m,).
+    All are in the base frame, mimic joints included. The point of a prismatic joint moves with its carriage.
     """
     flat = chain.flat
     T = np.eye(4)

@@ -68,9 +68,7 @@ class Scene:
         points: Base, a point on each joint, and tip; shape (m + 2, 3), [m].
         slides: Whether each joint is prismatic; shape (m,).
         extent: Size of the arm, [m].
-        quantities: Ellipsoids at the tip.
-        outlines: Polytopes at the tip.
-        arrows: Directions at the tip.
+        quantities, outlines, arrows: Ellipsoids, polytopes and directions at the tip.
     """
 
     points: Array
@@ -95,17 +93,7 @@ def manipulability_picture(
     kind: style.PictureFormat,
     asked: Overlay = NOTHING_MORE,
 ) -> bytes:
-    """Draw the arm with its ellipsoids.
-
-    Args:
-        name: Name of the robot.
-        chain: Chain from base to tip.
-        q: One configuration; shape (n,), [rad or m].
-        translation: Translational ellipsoids at this configuration alone, in the base frame; None if the task has no
-            translational direction.
-        kind: Format of the returned bytes.
-        asked: What to show in addition.
-    """
+    """Draw the arm with its ellipsoids at q alone, in the base frame; `translation` is None for a task without one."""
     points, slides = arm_line(chain, q)
     extent = max(float(np.ptp(points, axis=0).max()), float(np.linalg.norm(points[-1])), 1e-3)
     quantities = () if translation is None else _quantities(chain, translation, extent)

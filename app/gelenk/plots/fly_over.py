@@ -18,13 +18,7 @@ _LEAST = 0.25
 
 
 def fly_over_picture(blend: Blend, motion: PiecewisePolynomial | None, kind: style.PictureFormat) -> bytes:
-    """Draw a fly-over.
-
-    Args:
-        blend: Parabola at the corner.
-        motion: The whole motion, or that of the blend, k coordinates, [m]; None if it takes no time.
-        kind: Format of the returned bytes.
-    """
+    """Draw a fly-over; `motion` is the whole one, or that of the blend, in [m], or None if it takes no time."""
     figure = style.new_figure(6.4, 8.0)
     title = f"Fly-over in {blend.time:.4g} s: d₁ = {blend.distance_before:.4g} m, d₂ = {blend.distance_after:.4g} m"
     style.write(figure, 0.06, 0.98, [title], size=style.TITLE)
@@ -82,7 +76,6 @@ def _plane(blend: Blend) -> Any:
 
 
 def _frame(axes: Axes, points: Array) -> None:
-    """Leave room around the path."""
     low, high = points.min(axis=0), points.max(axis=0)
     size = float((high - low).max())
     half = np.maximum(0.5 * (high - low), 0.5 * _LEAST * size) + _MARGIN * size

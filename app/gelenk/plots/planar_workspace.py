@@ -20,13 +20,7 @@ _SMALLEST = 1e-6
 
 
 def planar_workspace_picture(arm: PlanarWorkspace, point: Sequence[float] | None, kind: style.PictureFormat) -> bytes:
-    """Draw the two workspaces of a planar arm.
-
-    Args:
-        arm: Arm and its workspaces.
-        point: x and y of a point, [m]; the arm is drawn with its tip there if it can reach it.
-        kind: Format of the returned bytes.
-    """
+    """Draw both workspaces of an arm, and the arm with its tip at a point (x, y), [m], if it can reach it."""
     figure = style.new_figure(6.4, 7.6)
     axes = figure.add_axes((0.13, 0.19, 0.83, 0.73))
     style.metric_axes(axes, "x / m", "y / m")

@@ -27,14 +27,7 @@ _ROOM = 0.012
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """A part of the motion with its own limits.
-
-    Attributes:
-        label: Name of the part.
-        start: Start time, [s].
-        end: End time, [s].
-        limits: Limits of velocity, acceleration and jerk; shape (n,) each.
-    """
+    """A part of the motion, [s], with its own limits of velocity, acceleration and jerk; shape (n,) each."""
 
     label: str
     start: float
@@ -47,7 +40,6 @@ class ProfileLines:
     """What is drawn in addition to the motion.
 
     Attributes:
-        names: Names of the joints.
         units: Units of position, velocity, acceleration and jerk.
         limits: Limits of velocity, acceleration and jerk; shape (n,) each, None for no limit.
         knots: Times and positions to mark; shapes (K,) and (K, n); None for none.
@@ -62,14 +54,7 @@ class ProfileLines:
 
 
 def profiles_picture(title: str, motion: PiecewisePolynomial, lines: ProfileLines, kind: style.PictureFormat) -> bytes:
-    """Draw the profiles of a motion.
-
-    Args:
-        title: Title of the picture.
-        motion: Positions over time.
-        lines: What to draw in addition.
-        kind: Format of the returned bytes.
-    """
+    """Draw the profiles of a motion, which gives positions over time."""
     joints = motion.coefficients.shape[2]
     rows = -(-joints // _A_ROW) if joints > 1 else 0
     height = 8.0 + rows * style.LINE
@@ -104,11 +89,7 @@ def time_axes(axes: Axes, label: str, *, is_last: bool) -> None:
 
 
 def curve(motion: PiecewisePolynomial) -> tuple[Array, Array]:
-    """Return points for plotting a motion: each piece with both its ends, so that a jump is a vertical line.
-
-    Returns:
-        Times of shape (N,), [s], and values of shape (N, n).
-    """
+    """Return times (N,), [s], and values (N, n) to plot: each piece with both ends, so that a jump is vertical."""
     pieces, degree = len(motion.breaks) - 1, motion.coefficients.shape[1] - 1
     count = 2 if degree == 0 else max(3, _POINTS // pieces)
     lengths = np.diff(motion.breaks)

@@ -39,10 +39,7 @@ class Quantity:
     """An ellipsoid to draw.
 
     Attributes:
-        name: Name of the quantity.
         unit: Unit of the semi-axes.
-        color: Colour of the line.
-        dashes: Style of the line.
         axes: Principal axes as unit columns; shape (3, d).
         sizes: Lengths of the semi-axes, ∞ if unbounded; shape (d,).
         scale: Metres as drawn per unit.
@@ -81,16 +78,7 @@ class Quantity:
 
 @dataclass(frozen=True, slots=True)
 class Outline:
-    """A polytope in a plane, to draw.
-
-    Attributes:
-        name: Name of the quantity.
-        unit: Unit of the vertices.
-        color: Colour of the line.
-        vertices: Vertices in order; shape (V, 3); None if there is nothing to draw.
-        scale: Metres as drawn per unit.
-        missing: Why there is nothing to draw.
-    """
+    """A polytope in a plane: vertices in order, shape (V, 3), or why there are none; a unit is `scale` metres drawn."""
 
     name: str
     unit: str
@@ -109,10 +97,9 @@ class Outline:
 
 @dataclass(frozen=True, slots=True)
 class Arrow:
-    """A direction for which transmission ratios were requested.
+    """A direction for which transmission ratios were requested, and its number in the picture, from 1.
 
     Attributes:
-        number: Number in the picture, from 1.
         direction: Unit vector; shape (3,).
         ends: Colour and distance, [m as drawn], at which a ray along it leaves each ellipsoid that is bounded there.
         words: Text for the legend.

@@ -36,8 +36,6 @@ class Picture:
 
     Attributes:
         rows: Positions and values; shape (N, k), the first three columns being x, y, z, [m].
-        columns: Names of the columns.
-        robot: Name of the robot.
         ends: Names of base and tip frame.
         notes: Lines of text beside the picture.
         origin: Centre of a voxel; shape (3,), [m].
@@ -169,22 +167,15 @@ def _corners(points: Array) -> tuple[Array, Array]:
 
 
 def _is_one_place(points: Array) -> bool:
-    """Return whether all points coincide up to rounding."""
     if not len(points):
         return False
     return bool(np.ptp(points, axis=0).max() <= _ROUNDING * np.abs(points).max())
 
 
 def elements(places: Array, values: Array, count: int) -> Array:
-    """Return the largest value in each element of a square image, NaN for an empty element.
+    """Return a square image, by row and column, of the largest value in each element; NaN for an empty one.
 
-    Args:
-        places: Column and row of each value; shape (N, 2).
-        values: Values; shape (N,).
-        count: Number of elements along an edge.
-
-    Returns:
-        Image of shape (count, count), by row and column.
+    `places`, of shape (N, 2), holds column and row of each value; `count` elements lie along an edge.
     """
     columns, rows = places.astype(np.int64).T
     inside = (columns >= 0) & (columns < count) & (rows >= 0) & (rows < count)

@@ -112,11 +112,7 @@ def operating_point(motor: Motor, voltage: float, load_torque: float) -> Operati
 
 
 def balance(motor: Motor, voltage: float, load_torque: float, point: OperatingPoint) -> tuple[float, float]:
-    """Return V - R i - k_e ω, [V], and k_t i - b ω - τ_L, [N m], at a steady state.
-
-    Raises:
-        CertificationFailed: One of them exceeds rounding.
-    """
+    """Return V - R i - k_e ω, [V], and k_t i - b ω - τ_L, [N m]; raises CertificationFailed beyond rounding."""
     volts = (voltage, -motor.resistance * point.current, -motor.back_emf_constant * point.angular_velocity)
     torques = (motor.torque_constant * point.current, -motor.viscous_friction * point.angular_velocity, -load_torque)
     for name, terms in (("the voltage of the steady state", volts), ("the torque of the steady state", torques)):
@@ -186,8 +182,7 @@ class Modes:
     Attributes:
         mean: Half the trace of A, [1/s].
         discriminant: ((a₁₁ - a₂₂) / 2)² + a₁₂ a₂₁, [1/s²]: positive for two real poles, negative for a complex pair.
-        poles: Poles, slowest first, [1/s]; one if L = 0.
-        damping: Type of the poles.
+        poles: Slowest first, [1/s]; one if L = 0.
     """
 
     mean: float
@@ -197,10 +192,7 @@ class Modes:
 
 
 def modes(motor: Motor) -> Modes:
-    """Compute the exact poles.
-
-    The slow one of two real poles is det A over the fast one, which avoids cancellation.
-    """
+    """Compute the exact poles; the slow one of two real poles is det A over the fast one, to avoid cancellation."""
     if motor.inductance == 0.0:
         pole = -1.0 / motor.mechanical_time_constant
         return Modes(pole, 0.0, (complex(pole),), "first_order")

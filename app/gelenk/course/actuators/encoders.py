@@ -45,14 +45,7 @@ class EncoderResolution(Result):
 def resolution(
     counts: int, gear_ratio: float, sample_period: float | None = None, motor_velocity: float | None = None
 ) -> EncoderResolution:
-    """Compute the resolution of an encoder.
-
-    Args:
-        counts: Counts per turn of the motor.
-        gear_ratio: N = ω_motor / ω_load > 0.
-        sample_period: T_s, [s].
-        motor_velocity: Speed of the motor, [rad/s].
-    """
+    """Compute the resolution of `counts` per turn of the motor; `sample_period` in [s], `motor_velocity` in [rad/s]."""
     motor = TURN / counts
     quantum = None if sample_period is None else motor / sample_period
     return EncoderResolution(

@@ -60,11 +60,7 @@ def table(bits: int) -> tuple[DiscPosition, ...]:
 
 
 def read_codes(codes: Sequence[str], code: Code, bits: int, field: str) -> tuple[DiscPosition, ...]:
-    """Decode readings, most significant digit first, into positions.
-
-    Raises:
-        InvalidField: A reading has characters other than 0 and 1, or not `bits` of them.
-    """
+    """Decode readings, most significant digit first; raises InvalidField if one is not `bits` digits of 0 and 1."""
     found = []
     for number, text in enumerate(codes):
         if len(text) != bits or not set(text) <= {"0", "1"}:
@@ -77,10 +73,7 @@ def read_codes(codes: Sequence[str], code: Code, bits: int, field: str) -> tuple
 
 
 def unwrapped(values: Sequence[int], bits: int) -> list[int]:
-    """Continue numbers across the end of a turn, taking each step as the shorter of the two rotations.
-
-    A step of exactly half a turn counts as backward.
-    """
+    """Continue numbers across the end of a turn by the shorter rotation; exactly half a turn counts as backward."""
     turn, half = 1 << bits, 1 << (bits - 1)
     result: list[int] = []
     for value in values:

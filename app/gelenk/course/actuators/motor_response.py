@@ -23,8 +23,7 @@ class Response:
         currents: i(t), [A]; shape (T,).
         angular_velocities: ω(t), [rad/s]; shape (T,).
         samples: Number of times at which both were recomputed by scaling and squaring.
-        current_difference: Largest difference of the current there, [A].
-        angular_velocity_difference: Largest difference of the speed there, [rad/s].
+        current_difference, angular_velocity_difference: Largest differences there, [A] and [rad/s].
     """
 
     currents: Array
@@ -37,21 +36,15 @@ class Response:
 def step_response(
     motor: Motor, voltage: float, load_torque: float, times: Array, initial_current: float, initial_speed: float
 ) -> Response:
-    """Compute the exact response x(t) = x_∞ + e^{A t} (x(0) - x_∞) to a voltage and a load applied at t = 0.
+    """Compute the exact response x(t) = x_∞ + e^{A t} (x(0) - x_∞) to V, [V], and τ_L, [N m], applied at t = 0.
 
     The matrix exponential is in closed form: for a 2×2 matrix with mean eigenvalue m and discriminant δ = s², e^{A t} =
     e^{m t} (cosh(s t) I + sinh(s t)/s (A - m I)), with cos and sin where δ < 0 and t where δ = 0.
 
     Args:
-        motor: The motor.
-        voltage: V, [V].
-        load_torque: τ_L, [N m].
-        times: Times since the step, ≥ 0, [s]; shape (T,).
+        times: Since the step, ≥ 0, [s]; shape (T,).
         initial_current: i(0), [A]; not used without inductance, because the current then has no memory.
         initial_speed: ω(0), [rad/s].
-
-    Raises:
-        CertificationFailed: Scaling and squaring gives another response.
     """
     final = operating_point(motor, voltage, load_torque)
     speed_off = initial_speed - final.angular_velocity

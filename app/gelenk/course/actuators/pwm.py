@@ -17,14 +17,7 @@ _CLOSING_TOLERANCE = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Pulses:
-    """A pulse train.
-
-    Attributes:
-        supply_voltage: V_s > 0, [V].
-        duty: D in [0, 1].
-        frequency: f > 0, [Hz].
-        direction: 1, or -1 if an H-bridge reverses the supply.
-    """
+    """Pulses of V_s > 0, [V], D in [0, 1] and f > 0, [Hz]; the direction is -1 if an H-bridge reverses the supply."""
 
     supply_voltage: float
     duty: float
@@ -58,13 +51,7 @@ class Pulses:
 
 
 def voltage_for_speed(motor: Motor, angular_velocity: float, load_torque: float) -> float:
-    """Return the average voltage that holds a speed, V = k_e ω + R (b ω + τ_L) / k_t, [V].
-
-    Args:
-        motor: The motor; its inductance and inertia have no effect.
-        angular_velocity: ω, [rad/s].
-        load_torque: τ_L, [N m].
-    """
+    """Return the average voltage that holds a speed, [rad/s], under τ_L, [N m]: k_e ω + R (b ω + τ_L) / k_t, [V]."""
     torque = motor.viscous_friction * angular_velocity + load_torque
     return motor.back_emf_constant * angular_velocity + motor.resistance * torque / motor.torque_constant
 
@@ -112,16 +99,13 @@ def exact_ripple(pulses: Pulses, resistance: float, inductance: float, back_emf:
     """Compute the current's extremes from the exponentials of both parts of a period.
 
     With a = e^{-t_on R/L} and c = e^{-t_off R/L}: highest = (V_s (1 - a)/(1 - a c) - E)/R, lowest = (V_s c (1 - a)/(1 -
-    a c) - E)/R, ripple = V_s (1 - a)(1 - c)/(R (1 - a c)). At D = 0 or 1 nothing switches.
+    a c) - E)/R, ripple = V_s (1 - a)(1 - c)/(R (1 - a c)). At D = 0 or 1 nothing switches. Raises CertificationFailed
+    if the current does not return to its lowest value after one period.
 
     Args:
-        pulses: The voltage.
         resistance: R > 0, [Ω].
         inductance: L ≥ 0, [H]; at zero the current follows the voltage instantly.
         back_emf: E, constant through a period, [V].
-
-    Raises:
-        CertificationFailed: The current does not return to its lowest value after one period.
     """
     still = -back_emf / resistance
     peak = pulses.high_voltage / resistance

@@ -27,12 +27,7 @@ _QUARTER = np.array([0, 3, 1, 2])
 
 @dataclass(frozen=True, slots=True)
 class Samples:
-    """Samples read from the channels.
-
-    Attributes:
-        states: 2 A + B of each sample; shape (S,).
-        index: Z of each sample; shape (S,), or None if it was not read.
-    """
+    """States 2 A + B of each sample, and its Z, or None if that was not read; shape (S,) each."""
 
     states: Indices
     index: Flags | None
@@ -41,12 +36,8 @@ class Samples:
 def read_samples(text: str, field: str) -> Samples:
     """Parse samples such as "00 10 11 01", or "001 100 110" with the index channel Z as a third digit.
 
-    Args:
-        text: One group of digits per sample, separated by spaces, commas or semicolons.
-        field: Name of the field in an error.
-
-    Raises:
-        InvalidField: The text has no sample, other characters, or samples of different lengths.
+    Spaces, commas or semicolons separate them. Raises InvalidField, which names `field`, for no sample, other
+    characters, or samples of different lengths.
     """
     groups = [group for group in _SEPARATORS.split(text) if group]
     if not groups:
@@ -59,7 +50,6 @@ def read_samples(text: str, field: str) -> Samples:
 
 
 def _fault(groups: Sequence[str], width: int) -> str:
-    """Describe what is wrong with the first invalid group."""
     for number, group in enumerate(groups):
         if len(group) not in {2, 3} or not set(group) <= {"0", "1"}:
             shown = "".join(c if c.isprintable() else "�" for c in group[:_SHOWN])
@@ -132,8 +122,6 @@ def decoded(
     counts nothing.
 
     Args:
-        samples: Samples of the channels.
-        decoding: Which changes count.
         counts_per_revolution: Counts per turn of the encoder, for angles and to check the index pulses.
         gear_ratio: N = ω_motor / ω_load > 0.
         counter_bits: Width of a counter, which wraps from 2^bits - 1 to 0, and from 0 to 2^bits - 1.

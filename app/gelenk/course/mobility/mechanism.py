@@ -116,12 +116,9 @@ class Mechanism:
     """Links joined by pairs.
 
     Attributes:
-        space: Planar or spatial.
-        links: Names of the links.
         ground: Index of the link at rest.
         pairs: Pairs after splitting.
         geometries: Position and axes of each pair, if known.
-        splits: Joints of more than two links.
         couplings: Number of joints that follow another one, each a further constraint.
     """
 
@@ -167,9 +164,8 @@ def mechanism(
 ) -> Mechanism:
     """Build a mechanism from its description, and split its coincident joints.
 
-    Raises:
-        InvalidField: An unknown or duplicate name, a pair of a link with itself, a kind that the space does not have,
-            or a joint with more pairs than its links need.
+    Raises InvalidField for an unknown or duplicate name, a pair of a link with itself, a kind that the space does not
+    have, or a joint with more pairs than its links need.
     """
     known = dict.fromkeys(links)
     _refuse_repeated(links, "links", "is used for more than one link")

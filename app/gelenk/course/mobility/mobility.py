@@ -45,15 +45,7 @@ class PairCount(Result):
 
 @dataclass(frozen=True, slots=True)
 class Tally:
-    """The numbers in the formula.
-
-    Attributes:
-        space: Planar or spatial, which gives λ.
-        links: n, including the ground.
-        kinds: Pairs by kind.
-        splits: Joints of more than two links.
-        couplings: Number of joints that follow another one, each a constraint.
-    """
+    """The numbers in the formula; a coupling, a joint that follows another one, is one more constraint."""
 
     space: Space
     links: int
@@ -94,14 +86,11 @@ def tally(found: Mechanism) -> Tally:
 def tally_of_counts(space: Space, links: int, counts: Mapping[str, int], nodes: Sequence[NodeCount]) -> Tally:
     """Return the numbers of a mechanism that is given only by how many pairs of each kind it has.
 
+    Raises InvalidField for a kind that the space does not have, or more joints of many links than joints.
+
     Args:
-        space: Planar or spatial, which gives λ.
-        links: n, including the ground.
         counts: Joints by the kind of their pairs; each joint counts once, however many links meet there.
         nodes: Those of the joints where more than two links meet; each adds k - 2 pairs.
-
-    Raises:
-        InvalidField: A kind that the space does not have, or more joints of many links than joints.
     """
     for kind in counts:
         check_kind(space, kind, f"pairs/{kind}")
@@ -136,11 +125,7 @@ def verdict(mobility: int) -> Verdict:
 
 
 def certify_mobility(found: Mechanism) -> int:
-    """Count M by loops: each independent loop removes λ of the pairs' freedoms.
-
-    Raises:
-        CertificationFailed: The result differs from the formula's.
-    """
+    """Count M by loops, each of which removes λ of the freedoms; raises CertificationFailed if the formula differs."""
     freedoms, graph = FREEDOMS[found.space], found.topology
     by_pairs = sum(pair.freedoms for pair in found.pairs) - found.couplings
     by_loops = by_pairs - freedoms * graph.loops + freedoms * (len(graph.components) - 1)
@@ -151,13 +136,7 @@ def certify_mobility(found: Mechanism) -> int:
 
 
 def warnings(counted: Tally, found: Mechanism | None, stands: PostureMobility | None = None) -> list[str]:
-    """Return what the number alone does not show, one sentence each.
-
-    Args:
-        counted: The numbers in the formula.
-        found: The mechanism, if more than its numbers is known.
-        stands: Its mobility at the given posture, if known.
-    """
+    """Return what the number alone does not show, one sentence each; `found` is None if only the numbers are known."""
     sentences = [_split_sentence(split) for split in counted.splits if split.added and found is not None]
     idle = 0 if found is None else len(found.idle_spins())
     if found is not None:

@@ -1,8 +1,7 @@
 """Kinematic pairs: the constraints of each kind, in the plane and in space.
 
 Of the λ freedoms of a free body, λ = 3 in the plane and 6 in space, a pair of two links leaves f and removes c = λ - f.
-Its order is low if the links touch in a surface, and high if they touch in a line or a point. The number c belongs to
-the pair: the i-th pair has c_i.
+Its order is low if the links touch in a surface, and high if they touch in a line or a point.
 """
 
 from collections.abc import Sequence
@@ -18,13 +17,7 @@ FREEDOMS: dict[Space, int] = {"planar": 3, "spatial": 6}
 
 @dataclass(frozen=True, slots=True)
 class PairKind:
-    """A kind of kinematic pair.
-
-    Attributes:
-        order: Whether the links touch in a surface (low) or in a line or point (high).
-        planar: c with λ = 3; None if the plane has no such pair.
-        spatial: c with λ = 6; None if space has no such pair.
-    """
+    """A kind of kinematic pair: its order, and c in the plane and in space, or None where there is no such pair."""
 
     order: Order
     planar: int | None

@@ -68,18 +68,11 @@ class PostureMobility(Result):
 
 
 def posture(found: Mechanism, output: int | None, tolerance: float) -> PostureMobility | None:
-    """Compute the mobility at the given posture; None if no pair has a position.
+    """Compute the mobility at the given posture, and the freedoms of the link of index `output`.
 
-    Args:
-        found: The mechanism.
-        output: Index of a link whose freedoms are wanted.
-        tolerance: A singular value counts if it exceeds this times the largest, or this if the largest is below 1.
-
-    Raises:
-        InvalidField: A pair lacks a value that its kind needs, has one that its kind does not have, leaves the plane,
-            or has axes that are not independent.
-        TooLarge: More than `MAX_LINKS` links.
-        CertificationFailed: The pairs do not allow one of the possible motions.
+    None if no pair has a position. A singular value counts if it exceeds `tolerance` times the largest, or `tolerance`
+    if the largest is below 1. Raises TooLarge for more than `MAX_LINKS` links, and InvalidField if a pair lacks a value
+    that its kind needs, has one that its kind does not have, leaves the plane, or has axes that are not independent.
     """
     if not any(found.geometries):
         return None

@@ -19,7 +19,6 @@ class Topology:
 
     Attributes:
         components: Indices of the links in each connected part, in ascending order.
-        loops: L, the number of independent loops: pairs beyond a spanning forest.
         bridges: Indices of the pairs that lie on no loop.
         pendants: Indices of the links that a single pair holds.
     """

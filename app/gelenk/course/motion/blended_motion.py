@@ -34,14 +34,12 @@ class Phase(Result):
 
 @dataclass(frozen=True, slots=True)
 class BlendedMotion:
-    """The motion over a blended corner, from rest to rest.
+    """The motion over a blended corner, from rest to rest; durations in [s].
 
     Attributes:
-        blend: The parabola that replaces the corner.
         phases: All five phases, including those of zero duration.
         motion: Position over time; k coordinates, [m].
-        duration: [s].
-        stopping_duration: Duration of the same two legs with a stop at B, [s].
+        stopping_duration: Duration of the same two legs with a stop at B.
     """
 
     blend: Blend
@@ -54,13 +52,9 @@ class BlendedMotion:
 def rest_to_rest(blend: Blend, acceleration: float) -> BlendedMotion:
     """Accelerate along AB, coast, blend, coast along BC, and decelerate; at rest at A and C.
 
-    Args:
-        blend: The blend at B, with the speeds of both legs.
-        acceleration: Acceleration when leaving A and approaching C, more than 0, [m/s²]; the blend has its own.
-
-    Raises:
-        InvalidField: A leg is too short to reach its speed before the blend or to brake after it; or a ramp or the
-            blend is too short, compared with the whole motion, to resolve the times of its ends.
+    The acceleration, more than 0, [m/s²], is that when leaving A and approaching C; the blend has its own. Raises
+    InvalidField if a leg is too short to reach its speed before the blend or to brake after it, or if a ramp or the
+    blend is too short, compared with the whole motion, to resolve the times of its ends.
     """
     corner = blend.corner
     v1, v2 = corner.speed_before, corner.speed_after
@@ -81,10 +75,7 @@ def rest_to_rest(blend: Blend, acceleration: float) -> BlendedMotion:
 
 
 def leg_duration(length: float, speed: float, acceleration: float) -> float:
-    """Return the duration from rest to rest along a line, [s]: v/a + L/v, or 2 √(L/a) if the speed is not reached.
-
-    Infinite if the speed is 0.
-    """
+    """Return the time from rest to rest, [s]: v/a + L/v, or 2 √(L/a) if the speed is not reached; infinite if v = 0."""
     if speed == 0.0:
         return math.inf
     if length <= speed * speed / acceleration:

@@ -27,10 +27,8 @@ class MotionClaims:
     """The claims about a motion that are checked.
 
     Attributes:
-        times: Times of the points, including start and end; shape (K,), [s].
-        points: Positions at these times; shape (K, n), [rad or m].
-        start_rates: Velocity, acceleration, … at the start, as far as they were given; shape (m, n).
-        end_rates: The same at the end.
+        times, points: Times and positions, start and end included; shapes (K,), [s], and (K, n), [rad or m].
+        start_rates, end_rates: Velocity, acceleration, … at the ends, as far as they were given; shape (m, n).
         continuity: Order up to which derivatives are continuous at the joins.
         peaks: Peaks by the order of the derivative.
     """
@@ -68,11 +66,7 @@ class MotionCertificate(Result):
 
 
 def certified(motion: PiecewisePolynomial, promise: MotionClaims) -> MotionCertificate:
-    """Compare a motion with the claims about it, and return the errors.
-
-    Raises:
-        CertificationFailed: An error exceeds rounding.
-    """
+    """Compare a motion with the claims about it; raises CertificationFailed if an error exceeds rounding."""
     if motion.duration == 0.0:
         error = float(np.abs(motion.coefficients[0, 0] - promise.points).max(initial=0.0))
         size = max(1.0, float(np.abs(promise.points).max()))
@@ -134,7 +128,6 @@ def _control_points(motion: PiecewisePolynomial) -> Array:
 
 
 def _derivative(control: Array, lengths: Array, order: int) -> Array:
-    """Return the control points of a time derivative."""
     degree = control.shape[1] - 1
     if order > degree:
         return np.zeros((len(control), 1, control.shape[2]))

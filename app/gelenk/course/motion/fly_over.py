@@ -33,17 +33,11 @@ class Corner:
     """The path A-B-C, and the speeds on its two legs.
 
     Attributes:
-        start: A; shape (k,), [m].
-        corner: B; shape (k,), [m].
-        end: C; shape (k,), [m].
-        speed_before: v₁ ≥ 0 along AB, [m/s].
-        speed_after: v₂ ≥ 0 along BC, [m/s].
-        length_before: |AB|, [m].
-        length_after: |BC|, [m].
-        direction_before: K_AB, unit vector along AB; shape (k,).
-        direction_after: K_BC, unit vector along BC; shape (k,).
+        start, corner, end: A, B and C; shape (k,), [m].
+        speed_before, speed_after: v₁ ≥ 0 along AB and v₂ ≥ 0 along BC, [m/s].
+        length_before, length_after: |AB| and |BC|, [m].
+        direction_before, direction_after: K_AB and K_BC, unit vectors along AB and BC; shape (k,).
         angle: Angle between the two directions, in [0, π], [rad].
-        turn: Kind of corner.
     """
 
     start: Array
@@ -76,15 +70,11 @@ class Blend:
     """The parabola at a corner.
 
     Attributes:
-        corner: The corner it replaces.
         time: ΔT, [s]; 0 if the velocity does not change.
-        distance_before: d₁ from A' to B, [m].
-        distance_after: d₂ from B to C', [m].
-        entry: A'; shape (k,), [m].
-        exit: C'; shape (k,), [m].
-        acceleration: Constant acceleration; shape (k,), [m/s²].
-        closest_distance: Smallest distance from B, [m].
-        closest_time: Time of that, since A', [s].
+        distance_before, distance_after: d₁ from A' to B and d₂ from B to C', [m].
+        entry, exit: A' and C'; shape (k,), [m].
+        acceleration: Constant; shape (k,), [m/s²].
+        closest_distance, closest_time: Smallest distance from B, [m], and its time since A', [s].
     """
 
     corner: Corner
@@ -111,11 +101,7 @@ class Blend:
 
 
 def corner_of(start: Array, corner: Array, end: Array, speed_before: float, speed_after: float) -> Corner:
-    """Return the path A-B-C with the lengths and directions of its legs.
-
-    Raises:
-        InvalidField: Two successive points coincide, or both speeds are zero.
-    """
+    """Measure the legs of A-B-C; raises InvalidField if successive points coincide or both speeds are zero."""
     if speed_before == 0.0 and speed_after == 0.0:
         raise InvalidField("speed_after", "one of the two speeds must be greater than 0: otherwise nothing moves")
     lengths = [math.dist(start, corner), math.dist(corner, end)]
@@ -132,14 +118,9 @@ def corner_of(start: Array, corner: Array, end: Array, speed_before: float, spee
 def blended(corner: Corner, given: Given, value: float) -> Blend:
     """Return the blend with a given time, distance, radius or acceleration.
 
-    Args:
-        corner: The path and its speeds.
-        given: Meaning of `value`: ΔT, d₁, d₂, the larger of d₁ and d₂, or the acceleration.
-        value: More than 0; [s], [m] or [m/s²].
-
-    Raises:
-        InvalidField: The blend would begin before A or end after C, or the given distance is on a leg whose speed
-            is 0.
+    The value, more than 0, is that of ΔT, [s], of d₁, d₂ or the larger of both, [m], or of the acceleration, [m/s²].
+    Raises InvalidField if the blend would begin before A or end after C, or if the speed is 0 on the leg of a given
+    distance.
     """
     time, longest = _time(corner, given, value), corner.longest_blend_time
     if time > longest * (1.0 + _ROUNDING):
@@ -160,7 +141,6 @@ def blended(corner: Corner, given: Given, value: float) -> Blend:
 
 
 def _time(corner: Corner, given: Given, value: float) -> float:
-    """Return ΔT, [s]."""
     if given == "blend_time":
         return value
     if given == "max_acceleration":
@@ -174,7 +154,6 @@ def _time(corner: Corner, given: Given, value: float) -> float:
 
 
 def _too_long(corner: Corner, given: Given, time: float, longest: float) -> str:
-    """Describe which leg is too short, and what would fit."""
     v1, v2 = corner.speed_before, corner.speed_after
     before, after = 0.5 * v1 * time, 0.5 * v2 * time
     what = f"the blend would end {after:g} m after B, and BC is {corner.length_after:g} m long"

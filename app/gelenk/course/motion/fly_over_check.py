@@ -33,12 +33,7 @@ class BlendCheck(Result):
 
 
 def checked(blend: Blend, motion: PiecewisePolynomial | None) -> BlendCheck:
-    """Integrate a blend step by step, and check that the phases of a motion meet.
-
-    Raises:
-        CertificationFailed: The blend does not lead to C' at the speed v₂, passes B at another distance, or phases
-            do not meet.
-    """
+    """Integrate a blend step by step, and see whether phases meet; raises CertificationFailed beyond rounding."""
     corner = blend.corner
     begin, finish = corner.speed_before * corner.direction_before, corner.speed_after * corner.direction_after
     step = blend.time / STEPS

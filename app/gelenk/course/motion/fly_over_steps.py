@@ -64,7 +64,6 @@ def _direction(symbol: str, leg: str, vector: Array, length: float, direction: A
 
 
 def _quotient(blend: Blend, given: Given, value: float) -> str:
-    """Return the formula for ΔT with the numbers put in."""
     corner, time, shown = blend.corner, tex(blend.time, "s"), tex(value)
     v1, v2 = corner.speed_before, corner.speed_after
     change = tex(math.hypot(*corner.velocity_change))

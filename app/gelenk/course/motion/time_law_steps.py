@@ -21,12 +21,10 @@ _CONDITIONS = {
 def two_point_steps(
     motion: PiecewisePolynomial, starts: Array, ends: Array, normalised: Sequence[Sequence[float] | None]
 ) -> tuple[Step, ...]:
-    """Return the steps of a cubic, quintic or septic between two points, joint by joint.
+    """Return the steps of a cubic, quintic or septic between two points, joint by joint; the motion has one piece.
 
     Args:
-        motion: Motion of a single piece.
-        starts: Position, velocity, … at t = 0; shape (m, n), [rad or m per sᵏ].
-        ends: The same at t = T; shape (m, n).
+        starts, ends: Position, velocity, … at t = 0 and at t = T; shape (m, n), [rad or m per sᵏ].
         normalised: Coefficients of each joint in the course's normalised form; None if Δq = 0.
     """
     degree, joints = motion.coefficients.shape[1] - 1, starts.shape[1]

@@ -43,16 +43,7 @@ class Composition:
 
 
 def composed(first: Array, further: Sequence[FrameMotion], points: Array) -> Composition:
-    """Compose a sequence of motions, and express points of the last frame in the reference frame.
-
-    Args:
-        first: The first motion; shape (4, 4).
-        further: The other motions, in order.
-        points: Points in the last frame; shape (N, 3), [m].
-
-    Raises:
-        CertificationFailed: Two independent computations of a number differ.
-    """
+    """Compose motions, and express points of the last frame in the reference frame; raises CertificationFailed."""
     transforms = [first]
     for motion, about in further:
         T = transforms[-1]

@@ -61,7 +61,6 @@ class Triple:
     Attributes:
         solutions: Both branches, [rad]; the representative alone in a degenerate case.
         conditioning: |sin θ| or |cos pitch|: errors of R are amplified by its inverse in the outer angles.
-        degeneracy: The degenerate case, if any.
     """
 
     solutions: tuple[tuple[float, float, float], ...]
@@ -71,13 +70,7 @@ class Triple:
 
 @dataclass(frozen=True, slots=True)
 class AxisAngle:
-    """A rotation by an angle in [0, π] about a unit axis.
-
-    Attributes:
-        angle: Angle of rotation, [rad].
-        axes: Unit axes: one; none at angle 0; both at π.
-        degeneracy: The degenerate case, if any.
-    """
+    """A rotation by an angle in [0, π], [rad]; its unit axes are none at 0, both at π, and otherwise one."""
 
     angle: float
     axes: tuple[tuple[float, float, float], ...]
@@ -92,7 +85,6 @@ class Notations:
         rotation: R; shape (3, 3).
         quaternion_xyzw: The unit quaternion with the chosen sign.
         rotation_vector: Axis times angle, [rad].
-        axis_angle: Axis and angle separately.
         zyz: (φ, θ, ψ), θ ≥ 0 first.
         rpy: (roll, pitch, yaw), pitch in [-π/2, π/2] first.
         error: Largest deviation of an entry of R when it is recomputed from the other notations.
@@ -114,11 +106,7 @@ class Notations:
 
 
 def notations(R: Array) -> Notations:
-    """Convert a rotation (3, 3) to every notation, and recompute it from each.
-
-    Raises:
-        CertificationFailed: A notation does not reproduce the rotation.
-    """
+    """Convert a rotation (3, 3) to every notation; raises CertificationFailed if one does not reproduce it."""
     Rs = np.ascontiguousarray(R)[None]
     quaternion = _signed(quaternions_xyzw_from_rotations(Rs)[0])
     turn = _axis_angle(quaternion)

@@ -39,11 +39,7 @@ class Validation(Result):
 
 
 def unit_axis(direction: Sequence[float], field: str) -> Array:
-    """Return the unit vector (3,) along a direction of any length.
-
-    Raises:
-        InvalidField: The direction is zero.
-    """
+    """Return the unit vector (3,) along a direction of any length; raises InvalidField if it is zero."""
     given = np.array(direction)
     largest = float(np.abs(given).max())
     if largest == 0.0:
