@@ -45,14 +45,10 @@ _Task: TypeAlias = tuple[Callable[[Any], Any], Any]
 
 @dataclass(eq=False)
 class _Machine:
-    """A machine of the cluster.
+    """A machine of the cluster; `is_proven`, if it has answered since its last failure: only then does it get parts.
 
-    Attributes:
-        processors: Number of processors for parts.
-        parts: Numbers of the parts that it has received and not finished.
-        heard: Time of its last answer, on the clock of `time.monotonic`, [s].
-        is_being_probed: Whether a probe is in progress.
-        is_proven: Whether it has answered since its last failure; only then does it get parts.
+    `parts` are the numbers of those that it has not finished; `heard` is the time of its last answer, on the clock of
+    `time.monotonic`, [s].
     """
 
     processors: int

@@ -37,12 +37,6 @@ class WorkerPool:
         waiting: Number of requests that may wait for a process.
         memory_bytes: Memory that each of these may allocate after its start, [bytes].
         background: Number of processes for calls of low priority, started when first needed.
-
-    Attributes:
-        requests: The workers for requests.
-        background: The workers for calls of low priority.
-        refused: Number of requests refused because the pool was full.
-        is_starting: Whether the first processes are still starting.
     """
 
     def __init__(self, count: int, waiting: int, memory_bytes: int, background: int = 1) -> None:
@@ -93,7 +87,6 @@ class WorkerPool:
 
         Args:
             function: Module-level function whose argument and result can be pickled.
-            argument: Argument of the function.
             seconds: Longest time to wait for a worker (longer while the pool starts), and then to run, [s].
             client: Client that sent the request; clients take turns.
 

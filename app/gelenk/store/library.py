@@ -68,8 +68,6 @@ class RobotUpload:
     """A robot to be stored.
 
     Attributes:
-        name: The robot's name.
-        format: Format of `model`.
         model: Bytes of the URDF, or of the DH table as JSON.
         description: One sentence for people.
         default_chain: Chain of calls that name none.
@@ -92,12 +90,7 @@ class RobotUpload:
 
 @dataclass(frozen=True, slots=True)
 class Quota:
-    """Storage limits of one client.
-
-    Attributes:
-        robots: Largest number of uploaded robots.
-        robot_bytes: Largest total size of their files, [bytes].
-    """
+    """Storage limits of one client: the number of its uploaded robots, and the size of all their files, [bytes]."""
 
     robots: int = 20_000
     robot_bytes: int = 10 * 1024**3
@@ -110,9 +103,6 @@ class Library:
         catalogue: Folder of the robots that come with the project.
         uploads: Folder of all other robots; created when first written to.
         quota: Storage limits of each client.
-
-    Attributes:
-        uploads: Folder of the uploaded robots.
     """
 
     def __init__(self, catalogue: Path, uploads: Path, quota: Quota = Quota()) -> None:
@@ -203,12 +193,7 @@ class Library:
         return name in self._catalogue
 
     def get(self, name: str) -> LoadedRobot:
-        """Return a robot, and load it if necessary.
-
-        Raises:
-            UnknownRobot: No robot has this name.
-            InvalidInput: A folder added by hand is not a robot.
-        """
+        """Return a robot, and load it if necessary; raises UnknownRobot, or InvalidInput if its folder is no robot."""
         found = self.loaded(name)
         for _ in range(_ATTEMPTS):
             if found is not None:
@@ -230,10 +215,7 @@ class Library:
         return file
 
     def add(self, upload: RobotUpload) -> bool:
-        """Store a new robot; when this returns, it is on disk and visible to every process.
-
-        Returns:
-            True if the robot is new, False if an identical one is already stored.
+        """Store a new robot, on disk and visible to all processes when this returns; False if it was there before.
 
         Raises:
             InvalidName: The name is invalid.
@@ -267,10 +249,7 @@ class Library:
     def replace(self, upload: RobotUpload) -> None:
         """Replace an uploaded robot; at any moment, either the old one or the new one exists.
 
-        Raises:
-            UnknownRobot: No robot has this name.
-            ReadOnlyRobot: The robot belongs to the catalogue.
-            KinematicsError: As for `add`.
+        Raises UnknownRobot, ReadOnlyRobot for one of the catalogue, or as `add`.
         """
         folder = self._writable(upload.name)
         file, version, contents = _files(upload)
