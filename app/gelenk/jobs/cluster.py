@@ -28,7 +28,7 @@ _SILENCE_SECONDS = 15.0
 
 
 class Cluster:
-    """Computes parts on the Ray cluster of a head at `host:port`, to which this machine belongs; safe in all threads."""
+    """Computes parts on the Ray cluster of a head `host:port`, to which this machine belongs; safe in all threads."""
 
     def __init__(self, address: str) -> None:
         self.address = address
@@ -54,7 +54,7 @@ class Cluster:
             self._kill()  # `_listen` then reports the connection as lost
 
     def submit(self, function: Callable[[Any], Any], argument: Any, _: float) -> "Future[Any]":
-        """Submit a part as `PoolExecutor.submit`, but without deadline; raises Unavailable if no machine computes now."""
+        """Submit a part as `PoolExecutor.submit`, but without deadline; raises Unavailable if no machine computes."""
         if self._closed.is_set():
             raise Cancelled
         with self._lock:

@@ -45,7 +45,7 @@ _Task: TypeAlias = tuple[Callable[[Any], Any], Any]
 
 @dataclass(eq=False)
 class _Machine:
-    """A machine of the cluster; `is_proven`, if it has answered since its last failure: only then does it get parts.
+    """A machine of the cluster; it gets parts only while `is_proven`: it has answered since its last failure.
 
     `parts` are the numbers of those that it has not finished; `heard` is the time of its last answer, on the clock of
     `time.monotonic`, [s].

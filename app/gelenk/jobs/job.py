@@ -17,7 +17,7 @@ FINAL: frozenset[State] = frozenset({"succeeded", "failed", "cancelled"})
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """The error with which a job failed, in a form that can be stored: class name, message, and typed fields by name."""
+    """The error with which a job failed, in a form that can be stored: class name, message, typed fields by name."""
 
     error: str
     detail: str

@@ -100,7 +100,7 @@ class WorkerProcess:
                 (self.exitcode,) = NUMBER.unpack(content)
 
     async def ask(self, message: Any) -> Any:
-        """Send a message over a non-blocking socket, and return the answer; raises EOFError or OSError at its end."""
+        """Send a message over the non-blocking socket, and return the answer; EOFError or OSError if the process ended."""
         await wire.send_async(self.socket, message)
         return await wire.receive_async(self.socket)
 
