@@ -100,7 +100,7 @@ class WorkerProcess:
                 (self.exitcode,) = NUMBER.unpack(content)
 
     async def ask(self, message: Any) -> Any:
-        """Send a message over the non-blocking socket, and return the answer; EOFError or OSError if the process ended."""
+        """Send a message over the non-blocking socket, return its answer; EOFError or OSError if the process ends."""
         await wire.send_async(self.socket, message)
         return await wire.receive_async(self.socket)
 
