@@ -114,7 +114,6 @@ class Supervisor:
             self._early.serve()
 
     def _watched(self) -> list[int | socket.socket]:
-        """Return the descriptors and sockets that become readable when there is something to check."""
         found: list[int | socket.socket] = [one for worker in (*self._workers, self._early) for one in worker.watched]
         return found if self._warming is None else [*found, self._warming]
 

@@ -125,7 +125,6 @@ class Cluster:
             self._fail(Unavailable(self.failure))
 
     def _listen(self, process: WorkerProcess) -> None:
-        """Pass results to the futures until the connection ends."""
         while True:
             try:
                 number, succeeded, result = wire.receive(process.socket)

@@ -63,7 +63,6 @@ class _Machine:
         return time.monotonic() > self.heard + _QUIET_SECONDS + _PROBE_SECONDS
 
     def hear(self) -> None:
-        """Record an answer: the outcome of a part or a probe."""
         self.heard, self.is_proven = time.monotonic(), True
 
 
@@ -113,7 +112,6 @@ class _Dispatcher:
         self._started = self._reported = time.monotonic()
 
     def run(self) -> None:
-        """Dispatch parts and results until the pipe closes."""
         for target in (self._receive, self._list):
             threading.Thread(target=target, daemon=True).start()
         while True:

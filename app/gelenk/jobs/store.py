@@ -48,9 +48,8 @@ class JobLimits:
 
     Attributes:
         kept: Number of jobs, including finished ones; the oldest finished ones are removed first.
-        kept_bytes: Size of the folders of all jobs, [bytes].
+        kept_bytes, job_bytes: Sizes of the folders of all jobs, and of the finished parts of one job, [bytes].
         unfinished: Number of unfinished jobs of one client; see `JobStore.check_room` for several clients.
-        job_bytes: Size of the finished parts of one job, [bytes].
         kept_seconds: How long a finished job is kept, [s].
     """
 

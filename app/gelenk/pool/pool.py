@@ -90,13 +90,8 @@ class WorkerPool:
             seconds: Longest time to wait for a worker (longer while the pool starts), and then to run, [s].
             client: Client that sent the request; clients take turns.
 
-        Raises:
-            ServiceBusy: Too many requests are waiting, or no worker becomes available in time.
-            DeadlineExceeded: The function takes longer.
-            WorkerCrashed: The process died.
-            WorkerOutOfMemory: The function exceeds the memory limit.
-            ServiceStopping: The pool has been closed.
-            Exception: Whatever the function raises.
+        Besides the function's own exceptions, it raises ServiceBusy if too many requests are waiting or no worker
+        becomes available in time, DeadlineExceeded, WorkerCrashed, WorkerOutOfMemory, and ServiceStopping.
         """
         self.requests.fill()
         self.check_room(client)

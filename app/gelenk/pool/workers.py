@@ -149,7 +149,6 @@ class Workers:
         raise value if kind == "error" else self._out_of_memory()
 
     async def _death(self, worker: WorkerProcess, seconds: float) -> Exception:
-        """Return the exception that describes why a worker ended."""
         if self._is_closed:
             return ServiceStopping()
         await asyncio.wrap_future(_in_thread(partial(worker.join, _END_SECONDS)))

@@ -69,10 +69,8 @@ class RobotUpload:
 
     Attributes:
         model: Bytes of the URDF, or of the DH table as JSON.
-        description: One sentence for people.
         default_chain: Chain of calls that name none.
-        meshes: Contents of mesh files, by relative path.
-        urdf_folder: Folder of the URDF among them.
+        meshes, urdf_folder: Contents of mesh files by relative path, and the folder of the URDF among them.
         strict: Whether a URDF with harmless faults is refused; not stored.
         owner: Client that keeps it; it counts against this client's quota.
     """
@@ -99,10 +97,7 @@ class Quota:
 class Library:
     """Robots by name; safe to use from many threads and processes.
 
-    Args:
-        catalogue: Folder of the robots that come with the project.
-        uploads: Folder of all other robots; created when first written to.
-        quota: Storage limits of each client.
+    The catalogue's robots come with the project; the folder of all others is created when first written to.
     """
 
     def __init__(self, catalogue: Path, uploads: Path, quota: Quota = Quota()) -> None:
@@ -217,12 +212,8 @@ class Library:
     def add(self, upload: RobotUpload) -> bool:
         """Store a new robot, on disk and visible to all processes when this returns; False if it was there before.
 
-        Raises:
-            InvalidName: The name is invalid.
-            RobotExists: Another robot uses the name.
-            InvalidInput: The upload does not describe a robot.
-            QuotaExceeded: The owner would have too many robots or bytes.
-            StorageFailed: The robot cannot be written.
+        Raises InvalidName, RobotExists if another robot uses the name, InvalidInput if the upload does not describe a
+        robot, QuotaExceeded if the owner would have too many robots or bytes, and StorageFailed.
         """
         if not NAME.fullmatch(upload.name):
             raise InvalidName(upload.name)

@@ -221,7 +221,6 @@ def _without_robot_file(folder: Path) -> RobotFile | None:
 
 
 def _found_meshes(record: Record, references: tuple[str, ...]) -> dict[str, list[str]]:
-    """Return the files below the mesh root that each mesh name may refer to."""
     root, urdf_folder = record.mesh_root, record.file.urdf_folder
     if root is None:
         return {reference: [] for reference in references}

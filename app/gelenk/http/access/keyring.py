@@ -67,7 +67,7 @@ def new_key(name: str, scopes: Collection[Scope]) -> tuple[str, Key]:
 def read_keys(text: str) -> dict[str, Key]:
     """Parse keys from entries separated by white space, and return them by name; `#` starts a comment.
 
-    Raises InvalidKeys for an invalid entry, which is not quoted, as it may be a secret; a name used twice; too many keys.
+    Raises InvalidKeys for an invalid entry (not quoted: it may be a secret), a name used twice, and too many keys.
     """
     keys: dict[str, Key] = {}
     for number, entry in enumerate(_COMMENT.sub("", text).split(), start=1):

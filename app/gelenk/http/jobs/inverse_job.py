@@ -89,7 +89,6 @@ def _npy(array: Array) -> bytes:
 
 
 def _work(_: Limits, folder: Path) -> Work:
-    """Return the function that computes the job whose request is in `folder`."""
     text, content = robot_text(folder), read_plain(folder / _CALL)
     call = read_json(InverseRequest, content)
     # Read from disk as they are needed: a million targets are a hundred megabytes.

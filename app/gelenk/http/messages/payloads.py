@@ -118,7 +118,6 @@ class BoundedRequest(Request):
             yield chunk
 
     async def _receive_chunk(self) -> tuple[bytes, bool]:
-        """Receive the next piece of the body, and whether more follow."""
         if self._count == 0:
             announced = self._fields.get(b"content-length", b"0")
             self._check_size(int(announced) if announced.isdigit() else 0)
@@ -228,7 +227,6 @@ def _object(text: str) -> Any:
 
 @cache
 def _json_types(model: type[BaseModel]) -> dict[str, set[Any]]:
-    """Return the types in JSON of each field of a model."""
     fields = model.model_json_schema()["properties"]
     choices = {name: field.get("anyOf") or field.get("oneOf") or [field] for name, field in fields.items()}
     return {name: {choice.get("type") for choice in these} for name, these in choices.items()}
