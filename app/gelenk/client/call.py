@@ -127,10 +127,7 @@ ROBOT = inspect.Parameter("robot", inspect.Parameter.POSITIONAL_ONLY, annotation
 def documented(
     describe: Callable[P, Call[T]], model: Callable[..., object], sentences: str, *before: inspect.Parameter
 ) -> Callable[P, Call[T]]:
-    """Give a description the signature of the model whose fields it takes by name, and a docstring about them.
-
-    The parameters `before` come first, and the sentences start the docstring.
-    """
+    """Give a description the signature of the model whose fields it takes by name, and a docstring about them."""
     parameters = [
         one.replace(annotation=_words(one.annotation)) for one in inspect.signature(model).parameters.values()
     ]

@@ -84,7 +84,6 @@ class Run:
             stage: Name of the stage, unique within the job.
             function: Module-level function that computes a part; its result must depend on the argument alone.
             argument: Returns the argument of a part, given the part's number.
-            count: Number of parts.
             span: Progress of the job at the start and at the end of the stage.
             size: Number of items per part, such as samples; used in the message about a failed part.
         """

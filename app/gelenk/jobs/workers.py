@@ -50,7 +50,7 @@ class PoolExecutor:
         """Do nothing: the first part starts the processes."""
 
     def submit(self, function: Callable[[Any], Any], argument: Any, until: float) -> "Future[Any]":
-        """Submit a part until a time of `time.monotonic`, [s]; cancelling the future cancels the part.
+        """Submit a part with a deadline on the clock of `time.monotonic`, [s]; cancelling the future cancels the part.
 
         The function is module-level; its argument and result can be pickled. The future's exception is the function's,
         `Cancelled`, `OutOfTime`, or ChildProcessError if the process died `ATTEMPTS` times. During shutdown,

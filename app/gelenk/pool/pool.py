@@ -85,13 +85,13 @@ class WorkerPool:
     ) -> _Result:
         """Run a function in a worker process and return its result; cancelling this coroutine cancels the call.
 
+        Besides the function's own exceptions, it raises ServiceBusy if too many requests are waiting or no worker
+        becomes available in time, DeadlineExceeded, WorkerCrashed, WorkerOutOfMemory, and ServiceStopping.
+
         Args:
             function: Module-level function whose argument and result can be pickled.
             seconds: Longest time to wait for a worker (longer while the pool starts), and then to run, [s].
             client: Client that sent the request; clients take turns.
-
-        Besides the function's own exceptions, it raises ServiceBusy if too many requests are waiting or no worker
-        becomes available in time, DeadlineExceeded, WorkerCrashed, WorkerOutOfMemory, and ServiceStopping.
         """
         self.requests.fill()
         self.check_room(client)

@@ -63,8 +63,7 @@ class Index:
     def entries(self, looked_at: int | None = _LOOKED_AT) -> tuple[list[IndexEntry], list[tuple[str, RobotFile]]]:
         """Return the known robots, sorted by name, and those that must be loaded before they can be listed.
 
-        Folders that are not robots are left out. Each call checks the next `looked_at` known robots for edits; None
-        stands for all.
+        Folders that are not robots are left out. Each call checks the next `looked_at` of the known ones for edits.
         """
         with self._lock:
             # In this order, a robot added in between is left out here and read by the next call.

@@ -35,7 +35,6 @@ def robot_named(
     Args:
         argument: Name, or file: URDF, xacro, a zip of one URDF and its meshes, a table as JSON, TOML or CSV.
         describe: Returns the robot of a file without meshes as the API takes it.
-        strict: Whether to refuse a URDF also for faults that do not affect kinematics.
     """
     file = Path(argument)
     if not is_file(file):

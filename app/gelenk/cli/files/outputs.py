@@ -41,7 +41,6 @@ class AnswerRows:
     """An answer as rows.
 
     Attributes:
-        rows: Cells of each row: numbers and words.
         notes: Sentences about all rows, for people.
         comments: Lines before the rows in CSV, for programs that read it again.
         array: Numbers in another shape than the rows, for npy.

@@ -20,7 +20,6 @@ class RequestContext:
     """A request and its response so far.
 
     Attributes:
-        robot: Name of the robot in the path, if any.
         headers: Headers of the request; of a repeated one, the last value.
         request_id: The caller's own if it is valid, else a new one.
         started, seconds: Start time, by `time.perf_counter`, and duration once it is over, [s].
