@@ -74,9 +74,7 @@ class Gate:
     """State that the connections of a process share: the queue of requests, and the check for slow clients.
 
     Attributes:
-        bounds: Bounds of connections.
         connections: Open connections in the order of their arrival: many arrive within one tick of the loop's clock.
-        refused: Number of requests for which there was no room.
         closed: Number of connections closed because their client was slow, or because there were too many.
         is_stopping: Whether each response is the last one of its connection.
     """
@@ -148,11 +146,7 @@ class Gate:
 
 
 class BoundedProtocol(HttpToolsProtocol):
-    """A connection within bounds.
-
-    Attributes:
-        since: Start of the current wait, on the loop's clock, [s].
-    """
+    """A connection within bounds; `since` is the start of its current wait, on the loop's clock, [s]."""
 
     def __init__(self, *arguments: Any, gate: Gate, **options: Any) -> None:
         super().__init__(*arguments, **options)

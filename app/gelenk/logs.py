@@ -46,11 +46,9 @@ def moment(seconds: float) -> str:
 
 
 class LineHandler(logging.Handler):
-    """Writes records as lines, soon and several together.
+    """Writes records as lines, soon and several together; to the current standard error stream if none is given.
 
-    Args:
-        stream: Stream to write to; the current standard error stream if left out.
-        at_once: Whether the caller writes the line, without a thread: for a process that is copied or may be killed.
+    With `at_once` the caller writes the line, without a thread: for a process that is copied or may be killed.
     """
 
     def __init__(self, stream: TextIO | None = None, at_once: bool = False) -> None:

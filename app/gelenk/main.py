@@ -57,12 +57,7 @@ _SWITCH_SECONDS = 5e-4
 
 
 def create_app(settings: Settings, pool: WorkerPool | None = None) -> Application:
-    """Build the application.
-
-    Args:
-        settings: Settings of the operator.
-        pool: Worker pool for long requests and parts of jobs; created if left out.
-    """
+    """Build the application; unless it gets a worker pool, it creates one for long requests and parts of jobs."""
     seconds = settings.request_seconds
     quota = Quota(settings.client_robots, settings.client_robot_bytes)
     limits = Limits(settings.max_answer_numbers, seconds, settings.job_bytes, settings.max_job_samples)

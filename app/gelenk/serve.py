@@ -105,10 +105,7 @@ def listeners(host: str, port: int, count: int) -> list[socket.socket]:
     """Return a listening socket for each worker process; the system spreads connections evenly among them.
 
     Of two services started at once, one fails now and not when it serves: the first socket listens alone before it
-    allows others at its address.
-
-    Raises:
-        SystemExit: Another program listens there, or listening is impossible.
+    allows others at its address. Raises SystemExit if listening is impossible.
     """
     family, both = (socket.AF_INET6, socket.has_dualstack_ipv6()) if ":" in host else (socket.AF_INET, False)
     create = partial(socket.create_server, family=family, dualstack_ipv6=both)

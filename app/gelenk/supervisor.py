@@ -44,10 +44,8 @@ logger = logging.getLogger("gelenk")
 class Supervisor:
     """Starts the workers, watches them and replaces them.
 
-    Args:
-        config: Configuration of the server that each worker runs.
-        listeners: Listening sockets, one for each worker. They stay open here and queue connections, which the
-            replacement of a failed worker then answers.
+    The listening sockets, one for each worker, stay open here and queue connections, which the replacement of a failed
+    worker then answers.
     """
 
     def __init__(self, config: uvicorn.Config, listeners: Sequence[socket.socket]) -> None:
@@ -59,11 +57,7 @@ class Supervisor:
         self._is_running, self._has_announced = True, False
 
     def run(self) -> None:
-        """Serve until SIGINT or SIGTERM, or until a worker cannot start serving.
-
-        Raises:
-            SystemExit: A worker could not start serving.
-        """
+        """Serve until SIGINT or SIGTERM, or until a worker cannot start serving, which raises SystemExit."""
         wakes, woken = socket.socketpair()
         for end in (wakes, woken):
             end.setblocking(False)
@@ -120,7 +114,6 @@ class Supervisor:
             self._early.serve()
 
     def _watched(self) -> list[int | socket.socket]:
-        """Return the descriptors and sockets that become readable when there is something to check."""
         found: list[int | socket.socket] = [one for worker in (*self._workers, self._early) for one in worker.watched]
         return found if self._warming is None else [*found, self._warming]
 
@@ -138,16 +131,9 @@ class Supervisor:
 
 
 class Worker:
-    """A worker process and its replacements.
+    """A worker process and its replacements; the system shows its name after `gelenk-`.
 
-    Args:
-        config: Configuration of the server that it runs.
-        name: Name of the process in the system, without the prefix `gelenk-`.
-        listeners: Its listening sockets.
-
-    Attributes:
-        process: The running process, or None.
-        cannot_start: Whether a process failed to start serving before any had served; a replacement would fail too.
+    `cannot_start` says that a process failed to start serving before any had served; a replacement would fail too.
     """
 
     def __init__(self, config: uvicorn.Config, name: str, listeners: Sequence[socket.socket]) -> None:
@@ -169,11 +155,7 @@ class Worker:
         return [] if self.process is None else [self.process.fileno(), self.process.socket.fileno()]
 
     def start(self) -> None:
-        """Start a process, unless one is running; it waits until `serve` is called.
-
-        Raises:
-            OSError: No process could be started.
-        """
+        """Start a process, unless one is running; it waits until `serve` is called. Raises OSError if that fails."""
         if self.process is None:
             self.process = WorkerProcess.start(partial(work, self._config), self._name)
             self._started = self._heard = time.monotonic()
@@ -238,14 +220,9 @@ class Worker:
 
 
 def work(config: uvicorn.Config, connection: socket.socket) -> None:
-    """Serve requests; a worker process runs this function.
+    """Serve requests, as the main function of a worker process; raises SystemExit if it cannot start serving.
 
-    Args:
-        config: Configuration of the server.
-        connection: Socket to the supervisor, which sends the listening sockets and receives heartbeats.
-
-    Raises:
-        SystemExit: The worker could not start serving.
+    The supervisor sends the listening sockets over the connection, and receives heartbeats.
     """
     _, descriptors, _, _ = socket.recv_fds(connection, 1, _MOST_LISTENERS)
     listeners = [socket.socket(fileno=descriptor) for descriptor in descriptors]
@@ -288,7 +265,6 @@ class _Server(uvicorn.Server):
         self._connection = connection
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Start serving, then start the heartbeats."""
         await super().startup(sockets=sockets)
         if self.started:
             self._beat()

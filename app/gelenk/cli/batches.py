@@ -36,8 +36,6 @@ def in_calls(
     of all calls, and has the largest of their errors. A refusal gives the place of the row in the whole batch.
 
     Args:
-        ask: The operation; takes the fields of a request by name.
-        body: Fields of the request.
         rows: Name of the field with the rows.
         progress: Called with the finished share of the batch, 0 to 1.
         first: Rows of the first call; the others have as many as are answered in a third of a second.

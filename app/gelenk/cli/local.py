@@ -35,7 +35,6 @@ class _Alone(WorkerPool):
         seconds: float,  # noqa: ARG002
         client: str = "",  # noqa: ARG002
     ) -> _Result:
-        """Run a function in a thread and return its result."""
         return await asyncio.to_thread(function, argument)
 
 
@@ -52,11 +51,7 @@ def _looked_at(app: ASGIApp) -> ASGIApp:
 
 
 class InProcess(httpx2.BaseTransport):
-    """Transport to an application in this process, which forgets everything when it is closed.
-
-    Args:
-        seconds: Time limit of a call, and of a job, [s].
-    """
+    """Transport to an application in this process, which forgets all when closed; no call or job exceeds `seconds`."""
 
     def __init__(self, seconds: int = 3600) -> None:
         self._stack = ExitStack()

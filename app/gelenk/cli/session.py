@@ -103,14 +103,10 @@ def draw(client: "Client", plot: Path | None, path: str, fields: Mapping[str, An
 
 @dataclass(frozen=True, slots=True)
 class Session:
-    """The options that all commands share.
+    """The options that all commands share; without a server, this process computes.
 
-    Attributes:
-        server: Address of the service; None to compute in this process.
-        output: Where the answer goes.
-        arguments: Arguments for xacro, `NAME=VALUE`.
-        packages: Packages for xacro, `NAME=FOLDER`.
-        strict: Whether faults of a URDF that do not affect kinematics are refused too.
+    `arguments` and `packages` are for xacro, `NAME=VALUE` and `NAME=FOLDER`; `strict` refuses a URDF also for faults
+    that do not affect kinematics.
     """
 
     server: str | None = None
@@ -159,9 +155,7 @@ class Session:
     def bar(self, what: str, *, is_measured: bool = True) -> Iterator[Callable[[float], None]]:
         """Show progress from 0 to 1 once the work takes long; not if standard error is no terminal.
 
-        Args:
-            what: Name of the work.
-            is_measured: Whether it reports progress; else the bar shows only that it is running.
+        Unless it is measured, the bar shows only that the work is running.
         """
         if not sys.stderr.isatty():  # whatever a variable such as FORCE_COLOR says of colours
             yield lambda _: None

@@ -35,15 +35,10 @@ class Call(Generic[T]):
     """A request to send, and how to read its answer.
 
     Attributes:
-        method: HTTP method.
         path: Path below the address of the service, without a leading slash.
-        read: Reads the answer from a response.
         query: Query parameters; a list repeats its name.
-        body: Body of the request.
-        media_type: Media type of the body.
+        media_type, accept: Media types of the body, and wanted for the answer.
         form: Fields of a form, instead of a body.
-        files: Files of the form.
-        accept: Media type wanted for the answer.
         is_later: Whether a job is to answer it.
         is_repeatable: Whether it may be sent again if it is unknown whether it was executed: it stores nothing, or the
             same as before.
@@ -132,14 +127,7 @@ ROBOT = inspect.Parameter("robot", inspect.Parameter.POSITIONAL_ONLY, annotation
 def documented(
     describe: Callable[P, Call[T]], model: Callable[..., object], sentences: str, *before: inspect.Parameter
 ) -> Callable[P, Call[T]]:
-    """Give a description the signature of the model whose fields it takes by name, and a docstring about them.
-
-    Args:
-        describe: Description.
-        model: Model of the fields.
-        sentences: Start of the docstring.
-        before: Parameters before the fields.
-    """
+    """Give a description the signature of the model whose fields it takes by name, and a docstring about them."""
     parameters = [
         one.replace(annotation=_words(one.annotation)) for one in inspect.signature(model).parameters.values()
     ]

@@ -83,8 +83,6 @@ def _check_address(url: str) -> None:
 
 
 class _Track:
-    """The last known state of a job."""
-
     def __init__(self) -> None:
         self._last: JobInfo | None = None
 

@@ -32,9 +32,8 @@ def json_call(method: str, path: str, fields: Mapping[str, Any], answer: type[A]
 def encoded(fields: Mapping[str, Any]) -> bytes:
     """Encode the fields of a request as JSON; arrays and models are sent as their content.
 
-    Raises:
-        InvalidArray: A field is an array of something other than numbers.
-        InvalidField: A number of an array is not finite, which JSON cannot express.
+    Raises InvalidArray for an array of something other than numbers, and InvalidField for a number that is not finite,
+    which JSON cannot express.
     """
     plain = {name: _finite(name, value) if isinstance(value, np.ndarray) else value for name, value in fields.items()}
     return orjson.dumps(plain, option=orjson.OPT_SERIALIZE_NUMPY, default=_plain)
@@ -77,8 +76,7 @@ def reader(answer: type[A]) -> Callable[[Response], A]:
 def numbers(array: Array) -> Array:
     """Return an array that can be sent; integers and short floats keep their type.
 
-    Raises:
-        InvalidArray: It holds something else, or masked entries, which NumPy would send as numbers.
+    Raises InvalidArray for anything else, and for masked entries, which NumPy would send as numbers.
     """
     array = np.asanyarray(array)
     if array.dtype.kind not in "iuf" or np.ma.is_masked(array):

@@ -81,8 +81,6 @@ def _operation(endpoint: RobotEndpoint[P, A]) -> Sent[Concatenate[str, P], A]:
 
 
 def _without_robot(path: str, request: Callable[P, BaseModel], answer: type[A]) -> Sent[P, A]:
-    """Define a call whose path names no robot."""
-
     def describe(*_: P.args, **fields: P.kwargs) -> Call[A]:
         return json_call("POST", path, fields, answer)
 

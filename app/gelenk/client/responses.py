@@ -52,11 +52,7 @@ class Patience:
         return None
 
     def after_failure(self, error: httpx2.TransportError) -> float:
-        """Return the seconds until the next attempt.
-
-        Raises:
-            NotAnswering: There were enough attempts, or the call may have been executed already.
-        """
+        """Return the seconds until the next attempt; NotAnswering if there were enough, or the call may be executed."""
         self._tried += 1
         is_safe = isinstance(error, _NEVER_SENT) or (self._call.is_repeatable and isinstance(error, _BROKEN_OFF))
         if not is_safe or self._tried >= _ATTEMPTS:
@@ -89,16 +85,9 @@ def _seconds(retry_after: str) -> float | None:
 
 
 def answer(call: Call[T], response: httpx2.Response, url: str) -> T:
-    """Read the answer in a response.
+    """Read the answer in a response; raises Refused if the service refuses the call, or something in front of it does.
 
-    Args:
-        call: The call that was sent.
-        response: The whole response.
-        url: Address of the service.
-
-    Raises:
-        Refused: The service refuses the call, or something in front of it does.
-        NotAnswering: Something other than the service has answered.
+    Raises NotAnswering if something other than the service has answered.
     """
     if not response.is_success:
         raise refusal(_problem(response, url))

@@ -141,7 +141,6 @@ def route(endpoint: Endpoint[Any, Any], handle: Handler, max_body_bytes: int) ->
 def _robot_and_call(
     library: Library, endpoint: Endpoint[Any, Any], task_request: TaskRequest
 ) -> tuple[LoadedRobot | None, Any]:
-    """Return the robot that the path or the request names, and the parsed request."""
     robot = library.get(task_request.robot) if task_request.robot else None
     call = _parsed(endpoint, task_request.query, task_request.body, task_request.npy)
     if endpoint.robot_field and (name := getattr(call, endpoint.robot_field)) is not None:

@@ -28,13 +28,7 @@ _LOOK_SECONDS = 1.0
 class Readiness:
     """Readiness of all that requests need: the kernels (compiled or from their cache), the pool, the disk.
 
-    Args:
-        pool: Processes for long requests.
-        data_dir: Folder of uploads and jobs.
-        jobs_failure: Returns why jobs cannot run, or None.
-
-    Attributes:
-        failure: Why the kernels will never be ready, or None.
+    `jobs_failure` returns why jobs cannot run, or None; `failure` is why the kernels will never be ready, or None.
     """
 
     def __init__(self, pool: WorkerPool, data_dir: Path, jobs_failure: Callable[[], str | None]) -> None:

@@ -28,11 +28,7 @@ _SILENCE_SECONDS = 15.0
 
 
 class Cluster:
-    """Computes parts on a Ray cluster; safe to use from many threads.
-
-    Args:
-        address: Address of the cluster's head, `host:port`; this machine belongs to the cluster.
-    """
+    """Computes parts on the Ray cluster of a head `host:port`, to which this machine belongs; safe in all threads."""
 
     def __init__(self, address: str) -> None:
         self.address = address
@@ -58,12 +54,7 @@ class Cluster:
             self._kill()  # `_listen` then reports the connection as lost
 
     def submit(self, function: Callable[[Any], Any], argument: Any, _: float) -> "Future[Any]":
-        """Submit a part; see `PoolExecutor.submit`, but there is no deadline. Cancelling the future stops the part.
-
-        Raises:
-            Unavailable: The cluster is not connected, or none of its machines computes.
-            Cancelled: The service is shutting down.
-        """
+        """Submit a part as `PoolExecutor.submit`, but without deadline; raises Unavailable if no machine computes."""
         if self._closed.is_set():
             raise Cancelled
         with self._lock:
@@ -134,7 +125,6 @@ class Cluster:
             self._fail(Unavailable(self.failure))
 
     def _listen(self, process: WorkerProcess) -> None:
-        """Pass results to the futures until the connection ends."""
         while True:
             try:
                 number, succeeded, result = wire.receive(process.socket)

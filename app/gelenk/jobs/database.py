@@ -50,11 +50,7 @@ logger = logging.getLogger("gelenk")
 
 
 class Database:
-    """The table of jobs; safe to use from many threads and processes.
-
-    Args:
-        folder: Folder of the file and its lock; created on the first write.
-    """
+    """The table of jobs; safe to use from many threads and processes; its folder is created on the first write."""
 
     def __init__(self, folder: Path) -> None:
         self._folder, self._path = folder, folder / _FILES[0]
@@ -82,10 +78,9 @@ class Database:
 
     @contextmanager
     def transaction(self, is_durable: bool = True) -> Iterator[None]:
-        """Run the context as one transaction, which excludes all other writers.
+        """Run the context as one transaction, which excludes all other writers; if durable, it is then on disk.
 
-        If it is durable, the changes are on disk when the context ends. If the file cannot be written, it raises
-        StorageFailed, or StorageFull without room on the disk.
+        Raises StorageFailed, or StorageFull without room on the disk.
         """
         with self._lock, self._translating():
             connection = self._open()
@@ -171,10 +166,7 @@ class Database:
 
 
 def import_earlier(root: Path, database: Database) -> None:
-    """Move the records of jobs from earlier versions, each a file in its folder, into the table.
-
-    Their requests, parts and results stay where they are.
-    """
+    """Move the records of jobs from earlier versions, each a file in its folder, into the table; other files stay."""
     jobs = [job for path in root.glob(f"*/{_EARLIER}") if (job := _earlier(path)) is not None]
     if jobs:
         with database.transaction():

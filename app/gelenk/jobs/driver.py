@@ -45,14 +45,10 @@ _Task: TypeAlias = tuple[Callable[[Any], Any], Any]
 
 @dataclass(eq=False)
 class _Machine:
-    """A machine of the cluster.
+    """A machine of the cluster; it gets parts only while `is_proven`: it has answered since its last failure.
 
-    Attributes:
-        processors: Number of processors for parts.
-        parts: Numbers of the parts that it has received and not finished.
-        heard: Time of its last answer, on the clock of `time.monotonic`, [s].
-        is_being_probed: Whether a probe is in progress.
-        is_proven: Whether it has answered since its last failure; only then does it get parts.
+    `parts` are the numbers of those that it has not finished; `heard` is the time of its last answer, on the clock of
+    `time.monotonic`, [s].
     """
 
     processors: int
@@ -67,7 +63,6 @@ class _Machine:
         return time.monotonic() > self.heard + _QUIET_SECONDS + _PROBE_SECONDS
 
     def hear(self) -> None:
-        """Record an answer: the outcome of a part or a probe."""
         self.heard, self.is_proven = time.monotonic(), True
 
 
@@ -117,7 +112,6 @@ class _Dispatcher:
         self._started = self._reported = time.monotonic()
 
     def run(self) -> None:
-        """Dispatch parts and results until the pipe closes."""
         for target in (self._receive, self._list):
             threading.Thread(target=target, daemon=True).start()
         while True:

@@ -17,13 +17,7 @@ FINAL: frozenset[State] = frozenset({"succeeded", "failed", "cancelled"})
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """The error with which a job failed, in a form that can be stored.
-
-    Attributes:
-        error: Class name of the error.
-        detail: Message of the error.
-        facts: Typed fields of the error, by name.
-    """
+    """The error with which a job failed, in a form that can be stored: class name, message, typed fields by name."""
 
     error: str
     detail: str
@@ -49,20 +43,14 @@ class JobRecord:
     """The stored record of a job.
 
     Attributes:
-        id: Unique id, chosen by the client or random.
-        kind: Kind of computation.
         digest: Digest of the request, to recognize a repeated request with the same id.
         owner: Name of the process of the service that runs the job, see `Owners`.
-        created: Time of submission, [s] since 1970.
-        state: Current state.
+        created, started, finished: Times of submission, first start and final state, [s] since 1970.
         progress: Completed share, from 0 to 1.
-        started: Time of the first start, [s] since 1970.
-        finished: Time at which it reached a final state, [s] since 1970.
-        failure: The error, if the job failed.
         attempts: Number of starts, counted from the last one that made progress.
-        robot_digest: SHA-256 of the URDF of the job's robot, if it has one.
         number: Position in the order of submission, from 1; times cannot give it, because clocks can be set back.
         client: Client that submitted the job; empty if clients are not distinguished.
+        robot_digest: SHA-256 of the URDF of the job's robot, if it has one.
     """
 
     id: str

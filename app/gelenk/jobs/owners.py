@@ -9,11 +9,7 @@ from gelenk.store.folders import is_locked, open_plain
 
 
 class Owners:
-    """The processes of the service that own jobs, as seen by one of them.
-
-    Args:
-        folder: Folder of the locked files; created by `register`.
-    """
+    """The processes of the service that own jobs, as seen by one of them; `register` creates their folder."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder

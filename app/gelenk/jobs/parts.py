@@ -29,13 +29,7 @@ _KEY = 16
 class Parts:
     """The finished parts of a job by name; only one thread or process at a time may write the same part.
 
-    Args:
-        folder: Folder of the job.
-        digest: Digest of the job's request.
-        most_bytes: Largest allowed size of all parts, [bytes].
-
-    Attributes:
-        bytes: Size of all parts, [bytes]: those found at first, and those that the caller has added since.
+    `bytes` is the size of all, [bytes]: of those found at first, and those that the caller has added since.
     """
 
     def __init__(self, folder: Path, digest: str, most_bytes: int) -> None:
@@ -63,15 +57,9 @@ class Parts:
             yield part
 
     def write(self, name: str, content: bytes) -> int:
-        """Write a part.
+        """Write a part; return the size of its file, [bytes], which the process that counts must add to `bytes`.
 
-        Returns:
-            Size of its file, [bytes], which the process that counts must add to `bytes`.
-
-        Raises:
-            TooLarge: The parts would exceed `most_bytes`.
-            UnknownJob: The job has been removed.
-            StorageFailed: The disk cannot store the part.
+        Raises TooLarge beyond `most_bytes`, UnknownJob if the job has been removed, and StorageFailed.
         """
         if self.bytes + _DIGEST + len(content) > self._most_bytes:
             raise TooLarge("bytes of the parts of a job", self.bytes + len(content), self._most_bytes)

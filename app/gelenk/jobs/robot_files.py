@@ -17,13 +17,7 @@ _ENCODING = "utf-8", "surrogatepass"
 
 
 class RobotText(NamedTuple):
-    """A robot in the form that is sent to other processes.
-
-    Attributes:
-        name: Name of the robot.
-        urdf: Encoded URDF of the robot.
-        ends: Base and tip frames of its default chain.
-    """
+    """A robot in the form that is sent to other processes; `ends` are the base and tip frames of its default chain."""
 
     name: str
     urdf: bytes

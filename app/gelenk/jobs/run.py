@@ -53,13 +53,7 @@ class Executor(Protocol):
 class Run:
     """A job while it runs: hands out its parts and reports its progress.
 
-    Attributes:
-        job: As it was when it was started.
-        until: When it is given up, on the clock of `time.monotonic`, [s].
-        executor: Computes them.
-        workers: The processes of this machine.
-        store: The store that contains the job.
-        parts: The finished parts.
+    `job` is as it was at the start. It is given up at the time `until`, on the clock of `time.monotonic`, [s].
     """
 
     job: JobRecord
@@ -84,18 +78,14 @@ class Run:
     ) -> None:
         """Compute the parts of a stage that are not on disk yet; afterwards, `parts.of` yields them all.
 
+        Raises TooLarge if they take more room than a job may use, StorageFailed, or as `apart`.
+
         Args:
             stage: Name of the stage, unique within the job.
             function: Module-level function that computes a part; its result must depend on the argument alone.
             argument: Returns the argument of a part, given the part's number.
-            count: Number of parts.
             span: Progress of the job at the start and at the end of the stage.
             size: Number of items per part, such as samples; used in the message about a failed part.
-
-        Raises:
-            TooLarge: The parts take more room than a job may use.
-            StorageFailed: A part cannot be written.
-            Exception: As for `apart`.
         """
         waiting: deque[Future[bytes | int] | None] = deque()
         try:
@@ -129,13 +119,8 @@ class Run:
     def apart(self, function: Callable[[_Argument], _Result], argument: _Argument) -> _Result:
         """Run a module-level function in a process of this machine, and return its result.
 
-        The process has access to the disk and, unlike a thread of the service, does not delay the event loop.
-
-        Raises:
-            JobFailed: The process died.
-            Cancelled: The job was cancelled or removed.
-            OutOfTime: The job has exceeded its time limit.
-            Exception: Any exception of the function.
+        The process has access to the disk and, unlike a thread of the service, does not delay the event loop. Besides
+        the function's own exceptions, it raises JobFailed if the process died, Cancelled and OutOfTime.
         """
         future: Future[_Result] = self.workers.submit(function, argument, self.until)
         try:

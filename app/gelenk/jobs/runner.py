@@ -48,8 +48,6 @@ class Runner:
     """Runs the jobs of this process of the service, and gives access to the results of all jobs.
 
     Args:
-        store: All jobs.
-        kinds: The kinds of jobs by their names.
         workers: The pool of this process, which puts results together and draws pictures of them.
         running: Number of jobs that run at a time; see `Turns` for when there are more.
         seconds: Longest run time of a job, [s].
@@ -104,12 +102,8 @@ class Runner:
     def cancel(self, job_id: str, *, remove: bool = False) -> JobRecord:
         """Cancel an unfinished job, whichever process runs it; if `remove`, remove a finished one with its results.
 
-        Returns:
-            The job as it is now, or as it was before it was removed.
-
-        Raises:
-            UnknownJob: No job has this id.
-            JobFinished: The job was already finished, or finished at this moment, and stays.
+        Return the job as it is now, or was before its removal. Raises UnknownJob, and JobFinished if it finished before
+        or at this moment and stays.
         """
         was_final = self.store.get(job_id).is_final
         job = self.store.change(job_id, state="cancelled")
@@ -120,14 +114,7 @@ class Runner:
         return job
 
     def result(self, job_id: str, name: str) -> Path:
-        """Return the path of a result file.
-
-        Raises:
-            UnknownJob: No job has this id.
-            JobNotFinished: The job is queued or running.
-            JobCancelled: The job was cancelled.
-            KinematicsError: The job failed with this error.
-        """
+        """Return the path of a result file; raises UnknownJob, JobNotFinished, JobCancelled, or why the job failed."""
         job = self.store.get(job_id)
         match job.state:
             case "queued" | "running":
@@ -141,10 +128,7 @@ class Runner:
     def rendered(self, function: Callable[[Any], bytes], argument: Any) -> bytes:
         """Render a result by a module-level function in another process, because that takes long.
 
-        Raises:
-            JobTookTooLong: The function exceeded its time limit.
-            JobFailed: The process died.
-            ServiceStopping: The service is shutting down.
+        Raises JobTookTooLong, JobFailed if the process died, and ServiceStopping.
         """
         try:
             found: bytes = self.workers.submit(function, argument, time.monotonic() + _RENDERING_SECONDS).result()

@@ -48,9 +48,8 @@ class JobLimits:
 
     Attributes:
         kept: Number of jobs, including finished ones; the oldest finished ones are removed first.
-        kept_bytes: Size of the folders of all jobs, [bytes].
+        kept_bytes, job_bytes: Sizes of the folders of all jobs, and of the finished parts of one job, [bytes].
         unfinished: Number of unfinished jobs of one client; see `JobStore.check_room` for several clients.
-        job_bytes: Size of the finished parts of one job, [bytes].
         kept_seconds: How long a finished job is kept, [s].
     """
 
@@ -62,12 +61,7 @@ class JobLimits:
 
 
 class JobStore:
-    """All jobs below a folder; safe to use from many threads and processes.
-
-    Args:
-        root: The folder, on a local disk; created on the first write.
-        limits: Limits on the jobs.
-    """
+    """All jobs below a folder on a local disk, created on the first write; safe in many threads and processes."""
 
     def __init__(self, root: Path, limits: JobLimits) -> None:
         self._root, self._limits = root, limits
@@ -95,24 +89,11 @@ class JobStore:
     def add(
         self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None, client: str = ""
     ) -> tuple[JobRecord, bool]:
-        """Add a job, on disk when this returns, or find the existing one with the same id and request.
+        """Add a job, or find the one with the same id and request; return it, and whether it is new.
 
-        A new job replaces an existing one that failed with `JobInterrupted`.
-
-        Args:
-            kind: Name of the kind of job.
-            digest: Digest of the request.
-            request: Files of the request by name, from which the job can be run at any time.
-            job_id: Id of the job; random if omitted.
-            client: Client that submits the job.
-
-        Returns:
-            The job, and whether it is new.
-
-        Raises:
-            JobExists: A job with another request has this id.
-            TooManyJobs: Too many jobs are unfinished.
-            StorageFailed: The job cannot be written.
+        A new job is on disk when this returns, with the files of its request by name, from which it can be run at any
+        time. It replaces one that failed with `JobInterrupted`; its id is random if omitted. Raises JobExists if a job
+        with another request has the id, TooManyJobs if too many are unfinished, and StorageFailed.
         """
         with folders.exclusive(self._root):
             folders.sweep(self._root)
@@ -178,20 +159,11 @@ class JobStore:
         return self.change(job, state="running", started=started, attempts=job.attempts + 1)
 
     def change(self, which: JobRecord | str, **changes: Any) -> JobRecord:
-        """Change fields of an unfinished job; a finished job is not changed.
+        """Change fields of an unfinished job, and return it; a finished job is not changed.
 
-        A new state is on disk when this returns; a crash of the machine may lose other changes.
-
-        Args:
-            which: Id of the job; or its record, to exclude a new job that has the same id.
-            changes: New values of the fields.
-
-        Returns:
-            The job after the change.
-
-        Raises:
-            UnknownJob: The job does not exist, or another process owns it now.
-            StorageFailed: The table cannot be written.
+        A new state is on disk when this returns; a crash of the machine may lose other changes. A record in place of an
+        id excludes a new job that has the same id. Raises UnknownJob if the job does not exist or another process owns
+        it now, and StorageFailed.
         """
         job = self._same(which)
         if job.is_final or job == replace(job, **changes):
@@ -226,13 +198,10 @@ class JobStore:
         return Counter(self._as_seen(job).state for job in self._jobs())
 
     def check_room(self, client: str) -> None:
-        """Check that a client may submit another job, before any costly work for it.
+        """Raise TooManyJobs unless a client may submit another job; called before any costly work for it.
 
         If no other client has unfinished jobs, the client may have `unfinished` of them, otherwise half as many. All
         clients together may have one and a half times `unfinished`, which leaves room for clients that come later.
-
-        Raises:
-            TooManyJobs: The client, or all clients together, have too many unfinished jobs.
         """
         clients = [job.client for job in self._jobs(_UNFINISHED)]
         own, half = clients.count(client), max(1, self._limits.unfinished // 2)
@@ -295,9 +264,7 @@ class JobStore:
 def write_result(folder: Path, name: str, content: Callable[[IO[bytes]], object]) -> None:
     """Write a result file, on disk when this returns; it is not read before the job has succeeded.
 
-    Raises:
-        UnknownJob: The job has been removed.
-        StorageFailed: The file cannot be written.
+    Raises UnknownJob if the job has been removed, and StorageFailed.
     """
     with folders.writing():
         try:

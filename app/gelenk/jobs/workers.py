@@ -28,11 +28,7 @@ class Unavailable(Exception):
 
 
 class PoolExecutor:
-    """Computes parts in a pool's background processes; safe in all threads except that of the pool's event loop.
-
-    Args:
-        pool: The worker pool.
-    """
+    """Computes parts in a pool's background processes; safe in all threads except that of the pool's event loop."""
 
     failure = None
     """Always None: unlike a cluster, the pool is always available."""
@@ -54,16 +50,11 @@ class PoolExecutor:
         """Do nothing: the first part starts the processes."""
 
     def submit(self, function: Callable[[Any], Any], argument: Any, until: float) -> "Future[Any]":
-        """Submit a part to the pool; cancelling the future cancels the part.
+        """Submit a part with a deadline on the clock of `time.monotonic`, [s]; cancelling the future cancels the part.
 
-        Args:
-            function: Module-level function whose argument and result can be pickled.
-            argument: Argument of the function.
-            until: Deadline on the clock of `time.monotonic`, [s].
-
-        Returns:
-            Future of the function's result. Its exception is the function's, `Cancelled`, `OutOfTime`, or
-            ChildProcessError if the process died `ATTEMPTS` times. `Cancelled` is raised at once during shutdown.
+        The function is module-level; its argument and result can be pickled. The future's exception is the function's,
+        `Cancelled`, `OutOfTime`, or ChildProcessError if the process died `ATTEMPTS` times. During shutdown,
+        `Cancelled` is raised at once.
         """
         if self._loop is None or self._loop.is_closed():
             raise Cancelled

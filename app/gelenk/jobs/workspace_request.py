@@ -28,14 +28,8 @@ _TOO_LOW = 1.25
 class WorkspaceWork:
     """A checked request for a workspace, and the plan for computing it.
 
-    Attributes:
-        name: Name of the robot.
-        description: Description of the robot.
-        chain: The chain.
-        wish: The requested options.
-        plan: Plan of the samples.
-        asked: Orientations of a dexterity map, else None.
-        excluded: Why the chain cannot reach all of these in any region, if so; see `dexterity.excluded`.
+    `asked` are the orientations of a dexterity map, else None. If the chain cannot reach all of these in any region,
+    `excluded` says why; see `dexterity.excluded`.
     """
 
     name: str
@@ -55,12 +49,7 @@ class WorkspaceWork:
 
 
 def question(name: str, robot: RobotModel, call: WorkspaceRequest) -> WorkspaceWork:
-    """Check a request as far as that depends on the robot, and plan its computation.
-
-    Raises:
-        InvalidField: A value is not allowed.
-        KinematicsError: As for `RobotModel.chain`.
-    """
+    """Check a request as far as that depends on the robot, and plan its computation; raises InvalidField."""
     chain = robot.chain(call.base_frame, call.tip_frame)
     wish = Wish(
         call.kind,
@@ -110,11 +99,7 @@ def _spread_notes(motion: TipReach, plane: Plane | None, asked: Orientations) ->
 
 
 def check_size(asked: WorkspaceWork) -> None:
-    """Check that the samples do not fall into too many voxels, before a job is created.
-
-    Raises:
-        InvalidField: They do; the message names a voxel size and a number of samples that are allowed.
-    """
+    """Raise InvalidField if the samples fall into too many voxels; it names what is allowed instead."""
     plan, rotations = asked.plan, 1 if asked.asked is None else len(asked.asked.rotations)
     most = MAX_VOXELS if asked.asked is None else min(MAX_VOXELS, MAX_POSES // rotations)
     if min(plan.sampling.count, plan.grid.most_cells(plan.extent)) <= most:

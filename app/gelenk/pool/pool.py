@@ -37,12 +37,6 @@ class WorkerPool:
         waiting: Number of requests that may wait for a process.
         memory_bytes: Memory that each of these may allocate after its start, [bytes].
         background: Number of processes for calls of low priority, started when first needed.
-
-    Attributes:
-        requests: The workers for requests.
-        background: The workers for calls of low priority.
-        refused: Number of requests refused because the pool was full.
-        is_starting: Whether the first processes are still starting.
     """
 
     def __init__(self, count: int, waiting: int, memory_bytes: int, background: int = 1) -> None:
@@ -91,19 +85,13 @@ class WorkerPool:
     ) -> _Result:
         """Run a function in a worker process and return its result; cancelling this coroutine cancels the call.
 
+        Besides the function's own exceptions, it raises ServiceBusy if too many requests are waiting or no worker
+        becomes available in time, DeadlineExceeded, WorkerCrashed, WorkerOutOfMemory, and ServiceStopping.
+
         Args:
             function: Module-level function whose argument and result can be pickled.
-            argument: Argument of the function.
             seconds: Longest time to wait for a worker (longer while the pool starts), and then to run, [s].
             client: Client that sent the request; clients take turns.
-
-        Raises:
-            ServiceBusy: Too many requests are waiting, or no worker becomes available in time.
-            DeadlineExceeded: The function takes longer.
-            WorkerCrashed: The process died.
-            WorkerOutOfMemory: The function exceeds the memory limit.
-            ServiceStopping: The pool has been closed.
-            Exception: Whatever the function raises.
         """
         self.requests.fill()
         self.check_room(client)

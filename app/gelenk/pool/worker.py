@@ -49,12 +49,7 @@ class Priority:
 
 
 def serve(priority: Priority, stream: socket.socket) -> None:
-    """Run calls until the service disconnects, memory runs out, or a fresh process should replace this one.
-
-    Args:
-        priority: Priority of the calls, with the limits to set.
-        stream: Socket that calls come from and replies go to.
-    """
+    """Run calls until the service disconnects, memory runs out, or a fresh process should replace this one."""
     os.nice(priority.niceness)
     _limit(resource.RLIMIT_CORE, 0)
     at_start = _held_bytes()

@@ -34,15 +34,9 @@ logger = logging.getLogger("gelenk")
 
 
 class Workers:
-    """Worker processes of one priority; use each instance in one event loop only.
-
-    Args:
-        count: Number of workers; `Turns` explains when there are more.
-        priority: Priority of their calls.
+    """Worker processes of one priority; `Turns` explains when there are more than `count`; for one event loop only.
 
     Attributes:
-        turns: Queue of waiting calls.
-        busy: Number of workers that are running a call.
         restarts: Number of workers replaced after a crash, a missed deadline, lack of memory or an abandoned call.
         seconds_a_call: Exponential moving average of the duration of a call, [s].
     """
@@ -94,9 +88,7 @@ class Workers:
     async def turn(self, client: str, seconds: float | None) -> WorkerProcess:
         """Wait for the client's turn and return a worker for one call; `run` gives the worker back.
 
-        Raises:
-            TimeoutError: The turn does not come within `seconds`; None means no limit.
-            ServiceStopping: The pool has been closed.
+        Raises TimeoutError if the turn does not come within `seconds` (None: no limit), and ServiceStopping.
         """
         if self._is_closed:
             raise ServiceStopping
@@ -157,7 +149,6 @@ class Workers:
         raise value if kind == "error" else self._out_of_memory()
 
     async def _death(self, worker: WorkerProcess, seconds: float) -> Exception:
-        """Return the exception that describes why a worker ended."""
         if self._is_closed:
             return ServiceStopping()
         await asyncio.wrap_future(_in_thread(partial(worker.join, _END_SECONDS)))

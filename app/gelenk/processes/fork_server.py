@@ -52,12 +52,7 @@ def main(control: int) -> None:
 
 
 class ForkServer:
-    """Forks the process that it runs in, which must have no other threads.
-
-    Args:
-        control: Socket that requests come from.
-        loaded: The imported module `LOADED`.
-    """
+    """Forks the process that it runs in, which must have no other threads."""
 
     def __init__(self, control: socket.socket, loaded: Any) -> None:
         self._control, self._loaded = control, loaded

@@ -13,14 +13,11 @@ _PRESENT_SECONDS = 2.0
 
 
 class Turns(Generic[_Turn]):
-    """A queue for each client, and the number of places that each client holds.
+    """A queue for each client, and the number of places that each client holds, of `size` in total.
 
     Clients take turns: between two turns of one client, each other waiting client has one. A single client may use all
     places; beside others, it may hold more than half of them only if it leaves one free. If all places are taken, a
     client without one gets an extra place, up to half the size in total, because running work is never interrupted.
-
-    Args:
-        size: Number of places.
     """
 
     def __init__(self, size: int) -> None:

@@ -29,12 +29,8 @@ fork_server.main(int(sys.argv[2]))
 class WorkerProcess:
     """Handle of a child process; safe to use from several threads.
 
-    The process ignores SIGINT and SIGTERM unless it sets handlers; it is killed when the service ends.
-
-    Attributes:
-        pid: Process id.
-        socket: Connection to the process, for messages of `wire`.
-        exitcode: Exit code, or minus the number of the signal that ended the process; None while unknown.
+    The process ignores SIGINT and SIGTERM unless it sets handlers; it is killed when the service ends. `exitcode` is
+    minus the number of a signal that ended it, and None while unknown.
     """
 
     def __init__(self, pid: int, to_process: socket.socket, lifeline: socket.socket) -> None:
@@ -44,14 +40,9 @@ class WorkerProcess:
 
     @classmethod
     def start(cls, target: Callable[[socket.socket], object], name: str) -> "WorkerProcess":
-        """Start a process that calls a function with its end of the socket; the very first start takes seconds.
+        """Start a process that calls a picklable function with its end of the socket; raises ChildProcessError.
 
-        Args:
-            target: Function to call; it must be picklable.
-            name: Name of the process in the system, without the prefix `gelenk-`; at most 8 letters.
-
-        Raises:
-            ChildProcessError: No process could be started.
+        The very first start takes seconds. The system shows `gelenk-` and the name, which has at most 8 letters.
         """
         (ours, theirs), (lifeline, far_end) = socket.socketpair(), socket.socketpair()
         try:
@@ -109,10 +100,7 @@ class WorkerProcess:
                 (self.exitcode,) = NUMBER.unpack(content)
 
     async def ask(self, message: Any) -> Any:
-        """Send a message and return the answer, in an event loop; the socket must be non-blocking.
-
-        If the process has ended, this raises EOFError or OSError.
-        """
+        """Send a message over the non-blocking socket, return its answer; EOFError or OSError if the process ends."""
         await wire.send_async(self.socket, message)
         return await wire.receive_async(self.socket)
 

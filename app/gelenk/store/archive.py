@@ -34,13 +34,9 @@ _END_RECORD = struct.Struct("<4s4H2LH")
 
 @dataclass(frozen=True, slots=True)
 class UnpackedRobot:
-    """Contents of an archive.
+    """Contents of an archive: a URDF and its folder, "" at the top, and mesh files by their path.
 
-    Attributes:
-        urdf: Bytes of the URDF.
-        urdf_folder: Folder of the URDF in the archive, "" at the top.
-        meshes: Mesh files by their path in the archive: parts of an unnamed file that disappears when the context of
-            `unpacked` or the process ends.
+    The meshes are parts of an unnamed file that disappears when the context of `unpacked` or the process ends.
     """
 
     urdf: bytes
@@ -50,17 +46,10 @@ class UnpackedRobot:
 
 @contextmanager
 def unpacked(file: BinaryIO, max_unpacked: int = MAX_UNPACKED, root: Path | None = None) -> Iterator[UnpackedRobot]:
-    """Unpack an archive for the duration of the context.
+    """Unpack an archive for the duration of the context, on the disk of `root`, else that of temporary files.
 
-    Args:
-        file: The zip.
-        max_unpacked: Largest number of unpacked bytes.
-        root: Folder on whose disk the archive is unpacked; the folder for temporary files if omitted.
-
-    Raises:
-        InvalidArchive: Not a zip, not exactly one URDF, or an entry that is not allowed.
-        TooLarge: More entries or bytes than allowed.
-        StorageFailed: The disk has no room to unpack it.
+    Raises InvalidArchive if it is no zip, has not exactly one URDF or an entry that is not allowed, TooLarge with more
+    entries than allowed or more than `max_unpacked` bytes, and StorageFailed without room on the disk.
     """
     _check_directory(file)
     try:

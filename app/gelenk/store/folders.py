@@ -29,13 +29,7 @@ _PROBE = 64 * 1024
 
 @dataclass(frozen=True, slots=True)
 class FileRange:
-    """A part of an open file.
-
-    Attributes:
-        file: Open for reading.
-        start: Offset of the part in the file, [bytes].
-        size: Length of the part, [bytes].
-    """
+    """A part of a file that is open for reading: its start and size in the file, [bytes]."""
 
     file: IO[bytes]
     start: int
@@ -59,11 +53,7 @@ def pieces(content: Content) -> Iterator[bytes]:
 
 
 def open_plain(path: Path, mode: str = "rb") -> IO[Any]:
-    """Open a regular file of the data folder, without blocking if a pipe is in its place.
-
-    Raises:
-        FileNotFoundError: The path is missing, or is a pipe, a device, a socket or a folder.
-    """
+    """Open a regular file of the data folder, not blocking on a pipe; raises FileNotFoundError for anything else."""
     try:
         file = open(path, mode, opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK, 0o666))  # noqa: SIM115
     except OSError as error:

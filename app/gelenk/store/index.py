@@ -31,14 +31,9 @@ _SPARE_LINES = 1000
 
 
 class IndexEntry(NamedTuple):
-    """The index entry of an uploaded robot.
+    """The index entry of an uploaded robot: the stamp of its `robot.json`, and its JSON in the list of robots.
 
-    Attributes:
-        name: The robot's name.
-        stamp: Stamp of its `robot.json`.
-        owner: Client that keeps it.
-        kept_bytes: Size of its files as counted for the quota, [bytes].
-        summary: Its JSON in the list of robots.
+    `kept_bytes` is the size of its files as counted for the quota of its owner, [bytes].
     """
 
     name: str
@@ -49,12 +44,7 @@ class IndexEntry(NamedTuple):
 
 
 class Index:
-    """An index of the uploaded robots; safe to use from many threads and processes.
-
-    Args:
-        uploads: Folder of the uploaded robots.
-        reserved: Names that no uploaded robot may have.
-    """
+    """An index of the uploaded robots, whose names are not `reserved`; safe in many threads and processes."""
 
     def __init__(self, uploads: Path, reserved: Collection[str]) -> None:
         self._uploads, self._reserved = uploads, reserved
@@ -73,11 +63,7 @@ class Index:
     def entries(self, looked_at: int | None = _LOOKED_AT) -> tuple[list[IndexEntry], list[tuple[str, RobotFile]]]:
         """Return the known robots, sorted by name, and those that must be loaded before they can be listed.
 
-        Folders that are not robots are left out.
-
-        Args:
-            looked_at: Number of known robots that are checked for edits; None for all. The next call continues from
-                there.
+        Folders that are not robots are left out. Each call checks the next `looked_at` of the known ones for edits.
         """
         with self._lock:
             # In this order, a robot added in between is left out here and read by the next call.

@@ -68,13 +68,9 @@ class RobotUpload:
     """A robot to be stored.
 
     Attributes:
-        name: The robot's name.
-        format: Format of `model`.
         model: Bytes of the URDF, or of the DH table as JSON.
-        description: One sentence for people.
         default_chain: Chain of calls that name none.
-        meshes: Contents of mesh files, by relative path.
-        urdf_folder: Folder of the URDF among them.
+        meshes, urdf_folder: Contents of mesh files by relative path, and the folder of the URDF among them.
         strict: Whether a URDF with harmless faults is refused; not stored.
         owner: Client that keeps it; it counts against this client's quota.
     """
@@ -92,12 +88,7 @@ class RobotUpload:
 
 @dataclass(frozen=True, slots=True)
 class Quota:
-    """Storage limits of one client.
-
-    Attributes:
-        robots: Largest number of uploaded robots.
-        robot_bytes: Largest total size of their files, [bytes].
-    """
+    """Storage limits of one client: the number of its uploaded robots, and the size of all their files, [bytes]."""
 
     robots: int = 20_000
     robot_bytes: int = 10 * 1024**3
@@ -106,13 +97,7 @@ class Quota:
 class Library:
     """Robots by name; safe to use from many threads and processes.
 
-    Args:
-        catalogue: Folder of the robots that come with the project.
-        uploads: Folder of all other robots; created when first written to.
-        quota: Storage limits of each client.
-
-    Attributes:
-        uploads: Folder of the uploaded robots.
+    The catalogue's robots come with the project; the folder of all others is created when first written to.
     """
 
     def __init__(self, catalogue: Path, uploads: Path, quota: Quota = Quota()) -> None:
@@ -203,12 +188,7 @@ class Library:
         return name in self._catalogue
 
     def get(self, name: str) -> LoadedRobot:
-        """Return a robot, and load it if necessary.
-
-        Raises:
-            UnknownRobot: No robot has this name.
-            InvalidInput: A folder added by hand is not a robot.
-        """
+        """Return a robot, and load it if necessary; raises UnknownRobot, or InvalidInput if its folder is no robot."""
         found = self.loaded(name)
         for _ in range(_ATTEMPTS):
             if found is not None:
@@ -230,17 +210,10 @@ class Library:
         return file
 
     def add(self, upload: RobotUpload) -> bool:
-        """Store a new robot; when this returns, it is on disk and visible to every process.
+        """Store a new robot, on disk and visible to all processes when this returns; False if it was there before.
 
-        Returns:
-            True if the robot is new, False if an identical one is already stored.
-
-        Raises:
-            InvalidName: The name is invalid.
-            RobotExists: Another robot uses the name.
-            InvalidInput: The upload does not describe a robot.
-            QuotaExceeded: The owner would have too many robots or bytes.
-            StorageFailed: The robot cannot be written.
+        Raises InvalidName, RobotExists if another robot uses the name, InvalidInput if the upload does not describe a
+        robot, QuotaExceeded if the owner would have too many robots or bytes, and StorageFailed.
         """
         if not NAME.fullmatch(upload.name):
             raise InvalidName(upload.name)
@@ -267,10 +240,7 @@ class Library:
     def replace(self, upload: RobotUpload) -> None:
         """Replace an uploaded robot; at any moment, either the old one or the new one exists.
 
-        Raises:
-            UnknownRobot: No robot has this name.
-            ReadOnlyRobot: The robot belongs to the catalogue.
-            KinematicsError: As for `add`.
+        Raises UnknownRobot, ReadOnlyRobot for one of the catalogue, or as `add`.
         """
         folder = self._writable(upload.name)
         file, version, contents = _files(upload)

@@ -32,12 +32,7 @@ def ends(name: str) -> list[str]:
 
 
 class MeshFiles:
-    """Mesh files, found by the ends of their paths.
-
-    Args:
-        paths: Relative paths of the files.
-        urdf_folder: Folder of the description among them, "" at the top.
-    """
+    """Mesh files, found by the ends of their relative paths; `urdf_folder` is "" for a description at the top."""
 
     def __init__(self, paths: Collection[str], urdf_folder: str) -> None:
         self._paths, self._urdf_folder = frozenset(paths), urdf_folder

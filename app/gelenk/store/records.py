@@ -41,8 +41,7 @@ class Record:
     Attributes:
         name: Name of the robot, and of the folder.
         source: Which of the two roots contains the folder.
-        file: The contents of `robot.json`.
-        file_path: Path of `robot.json`, even if that is missing.
+        file, file_path: Contents and path of `robot.json`, even if that is missing.
         model_path: Path of the URDF or DH file.
         mesh_root: Folder to search for mesh files, if any.
         signature: Stamps of both files when they were read.
@@ -66,8 +65,6 @@ class LoadedRobot:
     """A record with the robot that it describes.
 
     Attributes:
-        record: Record from which the robot was loaded.
-        robot: The robot, ready for computation.
         urdf: The description as URDF text: as uploaded, or as written from the DH table.
         table: The DH table; None for a URDF.
         found: Files below `mesh_root` that each mesh name of the description may refer to.
@@ -97,9 +94,8 @@ class LoadedRobot:
 def read_record(folder: Path, source: Source) -> Record | None:
     """Read a folder's record; return None if the folder is missing or holds nothing that could be a robot.
 
-    Raises:
-        InvalidRobotFolder: Its `robot.json` is invalid or leads out of the folder, or a file cannot be read.
-        FileNotFoundError: The model file is missing; also while the folder is being replaced.
+    Raises InvalidRobotFolder if it leads out of the folder or cannot be read, and FileNotFoundError if the model file
+    is missing; also while the folder is being replaced.
     """
     try:
         return _read_record(folder, source)
@@ -143,13 +139,7 @@ def _read_record(folder: Path, source: Source) -> Record | None:
 
 
 def load(record: Record) -> LoadedRobot:
-    """Load the robot that a record describes.
-
-    Raises:
-        FileNotFoundError: The record has been replaced in the meantime.
-        InvalidInput: The file does not describe a robot.
-        UnknownFrame: The default chain names a frame that the robot does not have.
-    """
+    """Load the robot that a record describes; raises FileNotFoundError if it has been replaced in the meantime."""
     size = record.model_path.stat().st_size
     if size > MAX_BYTES:
         raise TooLarge(f"bytes of {record.model_path.name}", size, MAX_BYTES)
@@ -163,9 +153,6 @@ def describe(name: str, format_: str, content: bytes, strict: bool = False) -> t
     """Return the description in a model file, the same as URDF text, and the DH table if the file holds one.
 
     A table is written as URDF and read like any other, so all robots use one code path; see `read_urdf` for `strict`.
-
-    Raises:
-        InvalidInput: The file does not describe a robot.
     """
     if format_ == "urdf":
         try:
@@ -234,7 +221,6 @@ def _without_robot_file(folder: Path) -> RobotFile | None:
 
 
 def _found_meshes(record: Record, references: tuple[str, ...]) -> dict[str, list[str]]:
-    """Return the files below the mesh root that each mesh name may refer to."""
     root, urdf_folder = record.mesh_root, record.file.urdf_folder
     if root is None:
         return {reference: [] for reference in references}

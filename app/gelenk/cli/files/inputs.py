@@ -33,10 +33,8 @@ def robot_named(
     """Provide a robot's name at the service: its own, or a temporary one for a file.
 
     Args:
-        client: Client of the service.
         argument: Name, or file: URDF, xacro, a zip of one URDF and its meshes, a table as JSON, TOML or CSV.
         describe: Returns the robot of a file without meshes as the API takes it.
-        strict: Whether to refuse a URDF also for faults that do not affect kinematics.
     """
     file = Path(argument)
     if not is_file(file):

@@ -41,8 +41,6 @@ class AnswerRows:
     """An answer as rows.
 
     Attributes:
-        columns: Names of the columns.
-        rows: Cells of each row: numbers and words.
         notes: Sentences about all rows, for people.
         comments: Lines before the rows in CSV, for programs that read it again.
         array: Numbers in another shape than the rows, for npy.
@@ -57,12 +55,7 @@ class AnswerRows:
 
 @dataclass(frozen=True, slots=True)
 class Output:
-    """Where answers are written, and in which format.
-
-    Attributes:
-        form: Format; None for that of the file's suffix, or a table.
-        file: File to write to; None for standard output.
-    """
+    """Where answers are written, by default standard output; in `form`, by default the file's suffix or a table."""
 
     form: Format | None = None
     file: Path | None = None

@@ -30,13 +30,10 @@ _PI = re.compile(r"([+-]?)(?:(\d+(?:\.\d*)?)\s*\*?\s*)?pi(?:\s*/\s*(\d+(?:\.\d*)
 
 @dataclass(frozen=True, slots=True)
 class InputRows:
-    """Rows as the user gave them.
+    """Rows as the user gave them: each with cells as text or numbers, or what JSON holds in place of a row.
 
-    Attributes:
-        source: Name of their source, for errors.
-        rows: Cells as text, numbers, or what JSON holds in place of a row.
-        lines: Line number of each row in a text.
-        header: Names of the columns, if the first row holds names.
+    `source` names their source, for errors; `lines` are their line numbers in a text; the header holds the names of
+    the columns, if the first row does.
     """
 
     source: str
@@ -94,16 +91,10 @@ class InputRows:
 
 
 def rows_of(given: Sequence[str], file: str | None, field: str) -> InputRows:
-    """Return rows of a field from arguments, or from a file or standard input: CSV, npy, or JSON.
+    """Return rows of a field from arguments, or from a file or standard input (`-`): CSV, npy, or JSON.
 
-    Args:
-        given: Rows as text: numbers separated by commas or blanks.
-        file: Path, or `-` for standard input.
-        field: Name of the field.
-
-    Raises:
-        InvalidArray: The file cannot be read.
-        InvalidField: No rows are given, or both arguments and a file.
+    Arguments are rows of numbers separated by commas or blanks. Raises InvalidArray if the file cannot be read, and
+    InvalidField if no rows are given, or both arguments and a file.
     """
     if given and file is not None:
         raise InvalidField(field, "give them as arguments or as a file, not both")

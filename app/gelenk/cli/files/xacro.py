@@ -14,16 +14,10 @@ _FINDER = "ament_index_python.packages"
 
 
 def expanded(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path]) -> str:
-    """Return the URDF that a xacro file expands to.
+    """Return the URDF that a xacro file expands to, with values of its `xacro:arg`s; raises InvalidUrdf.
 
-    Args:
-        file: The xacro file.
-        arguments: Values of its `xacro:arg`s.
-        packages: Folders for `$(find NAME)`; other packages are searched for above the file, and in ROS if it is
-            installed.
-
-    Raises:
-        InvalidUrdf: It cannot be expanded, or expands to no link.
+    `packages` are folders for `$(find NAME)`; other packages are searched for above the file, and in ROS if it is
+    installed.
     """
     # Loading it takes a tenth of a second, which few calls need.
     import xacro  # noqa: PLC0415

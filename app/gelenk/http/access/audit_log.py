@@ -56,12 +56,8 @@ class AuditLog:
 
     A line is on disk before the write is acknowledged. Refusals of valid keys are summed up, and requests without a
     valid key appear only in the request log, so that callers cannot flood this file.
-
-    Args:
-        folder: Folder of the log; created at the first write.
-        most_bytes: Maximum size of a file; a full one becomes `audit.1.jsonl`, the one before that `audit.2.jsonl`.
-        kept: Number of full files to keep.
-        sum_seconds: Time over which refused writes are summed up after the first one, [s].
+    A file of `most_bytes` becomes `audit.1.jsonl`, the one before that `audit.2.jsonl`; `kept` of them remain. Refused
+    writes are summed up for `sum_seconds` after the first one, [s]. The first write creates the folder.
     """
 
     def __init__(
@@ -72,10 +68,7 @@ class AuditLog:
         self._lock = threading.Lock()
 
     def write(self, exchange: RequestContext, location: str | None) -> None:
-        """Append a line, or count a refusal. A line that cannot be written to disk goes to the log.
-
-        `location` is that header of the response, if it has one.
-        """
+        """Append a line, with the response's `Location`, or count a refusal; what the disk refuses goes to the log."""
         facts = _facts(exchange) | {"location": location}
         if exchange.was_let_in:
             self._append(facts)
@@ -125,13 +118,9 @@ class AuditLog:
 
 @dataclass(slots=True)
 class _Refusals:
-    """Writes refused to one key since its last line in the audit log.
+    """Writes refused to one key since its last line in the audit log, which sums them up.
 
-    Attributes:
-        count: Number of refusals.
-        last: Entry of the last refusal.
-        since: Time of the first refusal, [s] since 1970.
-        clients: Some of the addresses that they came from.
+    `last` is the entry of the last one, `since` the time of the first, [s] since 1970; `clients` are some addresses.
     """
 
     count: int = 0
@@ -140,7 +129,6 @@ class _Refusals:
     clients: set[str] = field(default_factory=set)
 
     def add(self, facts: dict[str, Any]) -> None:
-        """Count one more refusal."""
         self.since = self.since if self.count else time.time()
         self.count, self.last = self.count + 1, facts
         if len(self.clients) < _MOST_CLIENTS:

@@ -33,11 +33,7 @@ def repeated(exchange: RequestContext) -> Response | None:
 
 
 class TrustedHosts:
-    """Refuses requests for unknown hosts.
-
-    Args:
-        names: Accepted names, in lower case; `*.` before a name accepts all names below it, `*` every host.
-    """
+    """Refuses requests for hosts not in `names`, in lower case: `*.lab` accepts all below `lab`, `*` every host."""
 
     def __init__(self, names: Sequence[str]) -> None:
         self._any = "*" in names

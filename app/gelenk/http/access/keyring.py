@@ -38,13 +38,9 @@ class InvalidKeys(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """A key as the service stores it: with a salted hash instead of its text.
+    """A key as the service stores it: its owner's name, which appears in logs, and a salted hash instead of its text.
 
-    Attributes:
-        name: Name of the owner; appears in logs.
-        scopes: Scopes that the key grants.
-        salt: 16 random bytes.
-        digest: BLAKE2b of the key under the salt, 32 bytes.
+    `salt` is 16 random bytes, `digest` the BLAKE2b of the key under it, 32 bytes.
     """
 
     name: str
@@ -71,9 +67,7 @@ def new_key(name: str, scopes: Collection[Scope]) -> tuple[str, Key]:
 def read_keys(text: str) -> dict[str, Key]:
     """Parse keys from entries separated by white space, and return them by name; `#` starts a comment.
 
-    Raises:
-        InvalidKeys: An entry is invalid, a name is used twice, or there are too many. An entry, perhaps a secret, is
-            not quoted.
+    Raises InvalidKeys for an invalid entry (not quoted: it may be a secret), a name used twice, and too many keys.
     """
     keys: dict[str, Key] = {}
     for number, entry in enumerate(_COMMENT.sub("", text).split(), start=1):
@@ -93,13 +87,9 @@ def read_keys(text: str) -> dict[str, Key]:
 
 
 class Keyring:
-    """The keys that are valid now.
+    """The keys that are valid now: entries, or those of a file, which is read again when it has changed.
 
-    Args:
-        setting: Entries, or the path of a file that holds them. The file is read again when it has changed.
-
-    Raises:
-        InvalidKeys: The setting is neither, or holds no key.
+    Raises InvalidKeys if the setting is neither entries nor the path of a file, or holds no key.
     """
 
     def __init__(self, setting: str) -> None:

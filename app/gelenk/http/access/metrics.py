@@ -40,13 +40,7 @@ _Metric = TypeVar("_Metric", Counter, Histogram)
 
 
 class Metrics:
-    """The metrics of this process, and of all processes together.
-
-    Args:
-        robots: Names of robots that have a label from the start.
-        pool: Worker pool of this process.
-        jobs: Returns the number of jobs by state, over all processes.
-    """
+    """The metrics of this process, and of all processes together; `robots` have a label from the start."""
 
     def __init__(self, robots: Sequence[str], pool: WorkerPool, jobs: Callable[[], Mapping[str, int]]) -> None:
         self._registry = CollectorRegistry()

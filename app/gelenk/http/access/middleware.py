@@ -36,13 +36,7 @@ COMMON: Headers = [
 class Middleware:
     """Passes requests through the checks, in order, to the application; completes the headers of responses.
 
-    Attributes:
-        app: The ASGI application.
-        directory: Table of its operations.
-        root_path: Path prefix under which a proxy serves it.
-        checks: Checks in order; the first refusal counts.
-        metrics: Counts all requests, refused ones included.
-        audit: Log of the writes.
+    The first refusal counts; the metrics count refused requests too. `root_path` is the path prefix of a proxy.
     """
 
     app: ASGIApp

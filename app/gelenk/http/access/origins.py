@@ -24,8 +24,7 @@ _PREFLIGHT_SECONDS = b"600"
 class Origins:
     """Refuses writes from pages of other origins; lets pages of allowed origins write and read the responses.
 
-    Args:
-        allowed: Origins such as `https://lab.example.org`, in lower case; `*` allows all.
+    Allowed are origins such as `https://lab.example.org`, in lower case; `*` allows all.
     """
 
     def __init__(self, allowed: Sequence[str]) -> None:

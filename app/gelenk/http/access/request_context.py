@@ -20,17 +20,12 @@ class RequestContext:
     """A request and its response so far.
 
     Attributes:
-        scope: ASGI scope of the request.
-        operation: The requested operation.
-        robot: Name of the robot in the path, if any.
         headers: Headers of the request; of a repeated one, the last value.
         request_id: The caller's own if it is valid, else a new one.
-        started: Start time, by `time.perf_counter`, [s].
+        started, seconds: Start time, by `time.perf_counter`, and duration once it is over, [s].
         key: Name of the caller's key; "" without a valid one.
         answer_headers: Headers of the response besides those common to all.
         status: HTTP status of the response; 0 until it starts.
-        was_let_in: Whether it has passed all checks.
-        seconds: Duration once it is over, [s].
         counts: Batch size and verdicts for the metrics, if any.
     """
 

@@ -25,11 +25,7 @@ UNKNOWN = Route(name="unknown", path="", tag="Service", summary="", scope=None)
 
 
 class RouteTable:
-    """Table of the operations of an application.
-
-    Args:
-        routes: All of its routes.
-    """
+    """Table of the operations of an application."""
 
     def __init__(self, routes: Iterable[RouteContext]) -> None:
         self._operations: dict[str, dict[str, Route]] = {}

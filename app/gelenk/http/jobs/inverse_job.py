@@ -57,11 +57,7 @@ def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[
 
 
 def _check_room(most_bytes: int, problem: TargetProblem, call: InverseRequest) -> None:
-    """Refuse a call whose results would take more than `most_bytes`, as estimated from some of its targets.
-
-    Raises:
-        InvalidField: The results are too large; the message says how many targets there is room for.
-    """
+    """Refuse a call whose results would exceed `most_bytes`, as some targets show; say how many there is room for."""
     count = len(problem)
     rows = call.max_solutions if call.solutions == "all" else MAX_TRACE if call.trace else 1
     if count * rows * (len(problem.chain) + 4) * _BYTES_A_NUMBER <= most_bytes:
@@ -93,7 +89,6 @@ def _npy(array: Array) -> bytes:
 
 
 def _work(_: Limits, folder: Path) -> Work:
-    """Return the function that computes the job whose request is in `folder`."""
     text, content = robot_text(folder), read_plain(folder / _CALL)
     call = read_json(InverseRequest, content)
     # Read from disk as they are needed: a million targets are a hundred megabytes.
@@ -167,7 +162,6 @@ def _write_json(target: IO[bytes], frame: bytes, parts: Iterator[bytes]) -> None
 
 
 def _write_npy(target: IO[bytes], shape: tuple[int, int], parts: Iterator[bytes]) -> None:
-    """Write all rows, part by part."""
     np.lib.format.write_array_header_1_0(target, {"descr": "<f8", "fortran_order": False, "shape": shape})
     for part in parts:
         target.write(np.ascontiguousarray(unpacked(part)["rows"]).tobytes())

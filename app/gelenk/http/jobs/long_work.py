@@ -37,9 +37,8 @@ HEADERS = "headers.json"
 class LongWork(Generic[_Request]):
     """Computes an operation as a job.
 
-    Attributes:
-        request: Checks a call and returns the files that the job is computed from, besides the robot's.
-        work: Returns the function that computes the job from the folder of these files.
+    `request` checks a call and returns the files that the job is computed from, besides the robot's. `work` returns
+    the function that computes the job from the folder of these files.
     """
 
     request: Callable[[LoadedRobot, _Request, Limits], dict[str, bytes]]
@@ -57,10 +56,7 @@ def as_bytes(content: bytes) -> NDArray[np.uint8]:
 
 
 async def submitted(runner: Runner, kind: str, request: Request, planned: bytes, headers: dict[str, str]) -> Response:
-    """Submit a planned job and return the response, 202 with the job's address and these headers.
-
-    Raises as `Runner.submit`.
-    """
+    """Submit a planned job; return 202 with the job's address and these headers; raises as `Runner.submit`."""
 
     def submit() -> Response:
         files = {name: content.tobytes() for name, content in unpacked(planned).items()}

@@ -40,12 +40,9 @@ def npy_response(array: Array, headers: dict[str, str]) -> Response:
 
 
 def read_npy(body: bytes) -> Array:
-    """Return the array in an npy body, as native float64.
+    """Return the array in an npy body, as native float64; raises InvalidArray for any other body.
 
     The header is checked against the actual bytes before anything is allocated, and no object is unpickled.
-
-    Raises:
-        InvalidArray: The body is not npy, does not hold numbers, or is not as long as its header says.
     """
     header, start = _header(body)
     kind = _NUMBERS.fullmatch(header["descr"])

@@ -56,12 +56,6 @@ class Bodies:
     """Counts the bytes of large bodies that a process holds, from their arrival until their requests are answered.
 
     Received bytes count, not announced ones: a client that announces many and sends none takes no room from others.
-
-    Args:
-        allowed: Maximum number of bytes over all bodies.
-
-    Attributes:
-        held: Bytes held now.
     """
 
     def __init__(self, allowed: int) -> None:
@@ -77,11 +71,6 @@ class BoundedRequest(Request):
     """A request whose body is never read beyond the limit; leaving its context returns its bytes to `bodies`.
 
     It reads headers and body itself, more simply than Starlette does, because every call pays for that.
-
-    Args:
-        scope: As in Starlette's `Request`; so are `receive` and `send`.
-        max_bytes: Maximum size of the body.
-        bodies: Count of the large bodies of this process.
     """
 
     def __init__(self, scope: Scope, receive: Receive, send: Send, max_bytes: int, bodies: Bodies) -> None:
@@ -122,20 +111,13 @@ class BoundedRequest(Request):
         return [piece async for piece in self.stream()]
 
     async def stream(self) -> AsyncGenerator[bytes, None]:
-        """Yield the body in pieces.
-
-        Raises:
-            TooLarge: The body is larger than allowed, or announces that it is.
-            NoRoomForBody: Other large bodies take all the room.
-            ClientDisconnect: The client has left.
-        """
+        """Yield the body in pieces; raises TooLarge even for an announced size, NoRoomForBody and ClientDisconnect."""
         more = True
         while more:
             chunk, more = await self._receive_chunk()
             yield chunk
 
     async def _receive_chunk(self) -> tuple[bytes, bool]:
-        """Receive the next piece of the body, and whether more follow."""
         if self._count == 0:
             announced = self._fields.get(b"content-length", b"0")
             self._check_size(int(announced) if announced.isdigit() else 0)
@@ -204,12 +186,7 @@ def csv_response(columns: Sequence[str], array: Array, headers: dict[str, str]) 
 
 
 def read_json(model: type[_Model], body: bytes) -> _Model:
-    """Parse and check a payload.
-
-    Raises:
-        InvalidPayload: The body does not match the model.
-        TooLarge: It has more than `MAX_MEMBERS`.
-    """
+    """Parse and check a payload; raises InvalidPayload, or TooLarge for more than `MAX_MEMBERS`."""
     if body.count(b":") > MAX_MEMBERS:
         raise TooLarge("members in the body", body.count(b":"), MAX_MEMBERS)
     try:
@@ -250,7 +227,6 @@ def _object(text: str) -> Any:
 
 @cache
 def _json_types(model: type[BaseModel]) -> dict[str, set[Any]]:
-    """Return the types in JSON of each field of a model."""
     fields = model.model_json_schema()["properties"]
     choices = {name: field.get("anyOf") or field.get("oneOf") or [field] for name, field in fields.items()}
     return {name: {choice.get("type") for choice in these} for name, these in choices.items()}
@@ -259,9 +235,7 @@ def _json_types(model: type[BaseModel]) -> dict[str, set[Any]]:
 def read_query(model: type[_Model], query: QueryParams) -> _Model:
     """Read a payload from the query string, for an array body; a list repeats its key, an object is JSON.
 
-    Raises:
-        InvalidPayload: The query does not match the model.
-        TooLarge: There are more than `MAX_PARAMETERS`.
+    Raises InvalidPayload, or TooLarge for more than `MAX_PARAMETERS`.
     """
     count = len(query.multi_items())
     if count > MAX_PARAMETERS:

@@ -101,15 +101,7 @@ class UnsupportedMediaType(Exception):
 def problem(
     request: Request, status: HTTPStatus, kind: str, detail: str, facts: Mapping[str, object] | None = None
 ) -> Response:
-    """Return a problem as a response.
-
-    Args:
-        request: Request that it answers.
-        status: HTTP status.
-        kind: Words joined by `-`, the same for all problems of that kind.
-        detail: Sentence about this occurrence.
-        facts: Typed data of this kind of problem.
-    """
+    """Return a problem as a response: its kind in words joined by `-`, a sentence on this occurrence, typed data."""
     content: dict[str, Any] = {
         "type": f"urn:gelenk:{kind}",
         "title": kind.replace("-", " ").capitalize(),

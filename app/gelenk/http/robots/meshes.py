@@ -19,15 +19,9 @@ _PIECE = 256 * 1024
 
 
 def mesh_response(file: Path, path: str, accepted: str) -> Response:
-    """Return a mesh, a material or a picture as a response in pieces.
+    """Return a mesh, a material or a picture as a response in pieces; raises UnknownMesh if it has been removed.
 
-    Args:
-        file: File on disk, with `.gz` at the end of its name if it is compressed.
-        path: Path that the client requested.
-        accepted: The request's `Accept-Encoding`.
-
-    Raises:
-        UnknownMesh: The file has been removed.
+    The file's name ends in `.gz` if it is compressed; the path is the requested one, `accepted` the `Accept-Encoding`.
     """
     try:
         kept = open_plain(file)  # once open, it stays readable to its end, even if the robot is replaced

@@ -143,11 +143,7 @@ async def _receive(request: BoundedRequest, pool_client: PoolClient, name: str |
 class Keep:
     """Checks and stores an upload; replaces the robot `name` if that is given.
 
-    Attributes:
-        name: Robot to replace; None adds one.
-        root_path: Path prefix of its address.
-        owner: Owner of the robot.
-        form: Fields that come with an archive; None if the body is JSON.
+    `form` holds the fields that come with an archive; None if the body is JSON.
     """
 
     name: str | None

@@ -33,12 +33,7 @@ _Result = TypeVar("_Result")
 class PoolClient:
     """Sends requests to the worker pool and returns the responses.
 
-    Args:
-        pool: Worker pool.
-        context: What the answers of the workers depend on.
-        library: Library of robots of this process.
-        seconds: Longest wait of a request for a worker, and longest run time, [s].
-        share: Maximum number of requests of one client that wait or run.
+    A request waits for a worker, and then runs, for at most `seconds` each; of one client, at most `share` wait or run.
     """
 
     def __init__(self, pool: WorkerPool, context: Context, library: Library, seconds: float, share: int) -> None:
@@ -99,11 +94,9 @@ def load(context: Context, task_request: TaskRequest) -> Response:
 
 
 async def while_wanted(receive: Receive, work: Coroutine[Any, Any, _Result]) -> _Result:
-    """Await work and return its result; cancel the work if the client disconnects.
+    """Await work and return its result; if the client disconnects, cancel the work and raise ClientDisconnect.
 
-    Raises:
-        ClientDisconnect: The client has disconnected.
-        ServiceStopping: The server has cancelled the work because its shutdown can wait no longer.
+    Raises ServiceStopping if the server has cancelled the work because its shutdown can wait no longer.
     """
     doing, leaving = asyncio.ensure_future(work), asyncio.ensure_future(_left(receive))
     try:

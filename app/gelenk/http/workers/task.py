@@ -21,14 +21,7 @@ from gelenk.store.library import Library, Quota
 
 @dataclass(frozen=True, slots=True)
 class Context:
-    """What answers depend on besides the request; sent along with each task.
-
-    Attributes:
-        catalogue: Folder of the robots that come with the project.
-        uploads: Folder of the uploaded robots.
-        limits: Limits on the work for an answer.
-        quota: Limits on what one client may store.
-    """
+    """What answers depend on besides the request; sent along with each task."""
 
     catalogue: Path
     uploads: Path
@@ -46,15 +39,10 @@ _library = lru_cache(maxsize=1)(Library)
 
 @dataclass(frozen=True, slots=True)
 class TaskRequest:
-    """Parts of a request that its answer depends on.
+    """Parts of a request that its answer depends on: its body in the pieces in which it arrived, and its query.
 
-    Attributes:
-        pieces: Body, in the pieces in which it arrived.
-        robot: Name of the robot in the path, or empty.
-        query: Query string of the URL.
-        npy: Whether the body is an array in the NPY format.
-        wanted: Media type of the answer.
-        endpoint: Name of the operation, if it is in the table of endpoints.
+    `robot` is the name in the path, `wanted` the media type of the answer, `endpoint` the name of the operation if it
+    is in the table of endpoints; `npy` says whether the body is an array.
     """
 
     pieces: Sequence[PickleBuffer] = ()
