@@ -100,9 +100,6 @@ def branches(
     """Find the solutions of each target within the limits.
 
     Args:
-        flat: The chain.
-        plan: The plan of the closed form.
-        goal: Task and tolerances.
         limits: Lower and upper limits of the variables, infinite if they do not count; shape (2, n), [rad or m].
         targets: Rotation row by row, then position; shape (N, 12).
         seeds: One configuration for all targets or one each; shape (1 or N, n), [rad or m].
@@ -147,7 +144,6 @@ def _branches(
     elbow_angles: Array,
     most: int,
 ) -> tuple[Array, Indices, Indices, Indices]:
-    """See `branches`."""
     flat = FlatChain(placements, joints, drives)
     plan = SubproblemPlan(kind, backwards, form, placed, axes, points, slides, order, lines, zero, reach, terms)
     goal = Goal(bounds, weights, what, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
@@ -203,7 +199,6 @@ def _elbow_angles(
     terms: Array,
     qs: Array,
 ) -> Array:
-    """See `elbow_angles`."""
     plan = SubproblemPlan(kind, backwards, form, placed, axes, points, slides, order, lines, zero, reach, terms)
     angles = np.empty(len(qs))
     for i in range(len(qs)):
@@ -226,7 +221,6 @@ def _solve_all(
     work: Work,
     table: tuple[Array, Indices, Indices, Indices],
 ) -> None:
-    """Fill the table, one target after another."""
     qs, labels, firsts, doubtful = table
     total, n = 0, seeds.shape[1]
     for i in range(len(targets)):
@@ -452,7 +446,6 @@ def _insert(kept: _Kept, count: int, flat: FlatChain, seed: Array) -> int:
 
 @inlined
 def _copy(kept: _Kept, source: int, place: int) -> None:
-    """Copy one row of the solutions into another."""
     for j in range(kept.qs.shape[1]):
         kept.qs[place, j] = kept.qs[source, j]
     kept.distances[place], kept.errors[place] = kept.distances[source], kept.errors[source]

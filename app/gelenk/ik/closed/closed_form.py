@@ -62,10 +62,6 @@ class ClosedForm:
 
     Attributes:
         name: The geometric property that allows it, in words.
-        chain: The chain.
-        task: The pose directions that count.
-        plan: How the chain is solved.
-        choices: Meaning of each root.
         tolerance: Allowed deviation of the geometry from the plan: sine of an angle, or distance [m].
     """
 
@@ -92,7 +88,6 @@ class ClosedForm:
             targets: Desired T_base_tip; N of them.
             seeds: One configuration for all targets or one each; shape (1 or N, n), [rad or m].
             tolerances: Of position [m] and orientation [rad].
-            respect_limits: Whether solutions must be within the joint limits.
             elbow_angles: Angles of a free elbow, one for all targets or one each; by default the seeds', [rad].
             most: Largest number of solutions of one target.
         """
@@ -134,10 +129,9 @@ class ClosedForm:
         return self.plan.kind == ELBOW
 
     def elbow_angles(self, qs: Array) -> Array:
-        """Elbow angle about the line from shoulder to wrist, zero in the plane of that line and axis 1; (N,), [rad].
+        """Elbow angles about the line from shoulder to wrist, of configurations (N, 7) [rad]; shape (N,), [rad].
 
-        Args:
-            qs: Configurations of an arm with a free elbow; shape (N, 7), [rad].
+        They are zero in the plane of that line and axis 1.
         """
         return elbow_angles(self.chain.flat, self.plan, np.ascontiguousarray(qs))
 
@@ -168,8 +162,7 @@ class Choice:
         name: `shoulder`, `elbow` or `wrist`; `arm` if roots are numbered.
         bit: Bit of the root in the code; 0 if roots are numbered.
         values: Names of the root if the bit is 0, and if it is 1.
-        turned_by: Another bit that may swap the two names.
-        turns: Whether that bit swaps them.
+        turned_by, turns: Another bit, and whether it swaps the two names.
     """
 
     name: str
@@ -267,8 +260,7 @@ class JointScrews:
     """The lines of the joints at the zero configuration, in solving order.
 
     Attributes:
-        axes: Unit vectors; shape (n, 3).
-        points: A point on each line; shape (n, 3), [m].
+        axes, points: Unit vectors, and a point on each line [m]; shape (n, 3) each.
         slides: Which joints are prismatic; shape (n,).
         tip: Origin of the tip at zero if solving starts at the base, else of the base; shape (3,), [m].
         zero: T_0⁻¹, rotation row by row, then translation; shape (12,).
@@ -491,7 +483,6 @@ def _parallel_plans(screws: JointScrews) -> Iterator[tuple[str, SubproblemPlan]]
 
 
 def _general_plan(screws: JointScrews) -> SubproblemPlan:
-    """Return the plan for six revolute joints of any geometry."""
     lines = np.zeros((_LINES, 3))
     points = screws.points.copy()
     for i in range(5):
@@ -536,7 +527,6 @@ def _feet(p: Array, a: Array, q: Array, b: Array, tolerance: float) -> tuple[Arr
 
 
 def _square_to(h: Array) -> Array:
-    """Return a unit vector perpendicular to a unit vector."""
     x = np.cross(np.eye(3)[int(np.argmin(np.abs(h)))], h)
     return np.asarray(x / np.linalg.norm(x))
 

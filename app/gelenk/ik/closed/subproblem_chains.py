@@ -74,8 +74,7 @@ class SubproblemPlan(NamedTuple):
         backwards: 1 if the arm is solved from its tip.
         form: How the positioning joints are solved: `SKEW`, `COPLANAR`, `OBLIQUE`, `SQUARE` or `RAILS`.
         placed: Number of joints that position the wrist point; 3 for `ELBOW`.
-        axes: Joint axes at zero; shape (n, 3).
-        points: A point on each axis; shape (n, 3), [m].
+        axes, points: Joint axes at zero, and a point on each [m]; shape (n, 3) each.
         slides: 1 for a prismatic joint; shape (n,).
         order: The positioning joints in the order of elimination; shape (3,).
         lines: Constants of the positioning arm, see `closed_form`; shape (16, 3).
@@ -108,7 +107,6 @@ class Candidates(NamedTuple):
         roots: Space for the roots of an equation; shape (8,).
         first: Values of the positioning joints, in the order of elimination; shape (8, 3), [rad or m].
         marks: Their codes and bit masks of free joints; shape (2, 8).
-        space: Space for a general arm.
         doubtful: 1 if a root may be double, so that rounding may have cost solutions; shape (1,).
     """
 
@@ -131,11 +129,8 @@ def compose(plan: SubproblemPlan, target: Array, seed: Array, elbow_angle: float
     """Compute the candidates of one target, T_base_tip as rotation row by row, then position; return their number.
 
     Args:
-        plan: The arm.
-        target: The target; shape (12,).
         seed: Joint values that free joints keep, in solving order; shape (n,), [rad or m].
         elbow_angle: Desired angle of the elbow on its circle, [rad]; used by `ELBOW` alone.
-        found: Output.
     """
     M = _displacement(plan, target)
     found.doubtful[0] = 0
@@ -826,7 +821,6 @@ def _general(plan: SubproblemPlan, M: Motion, found: Candidates) -> int:
 
 @inlined
 def _screwed(axes: Array, points: Array, i: int, angle: float, p: Vector) -> Vector:
-    """Turn a point about the line of joint i."""
     return plus(row(points, i), 1.0, turned(row(axes, i), angle, minus(p, row(points, i))))
 
 

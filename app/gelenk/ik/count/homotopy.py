@@ -35,10 +35,8 @@ class Room(NamedTuple):
     """Working space for one path.
 
     Attributes:
-        q: Joint values; shape (6,).
-        slope: Derivatives of the joint values by t; shape (6,).
-        before: Joint values one step before; shape (6,).
-        slope_before: Their derivatives by t; shape (6,).
+        q, slope: Joint values, and their derivatives by t; shape (6,) each.
+        before, slope_before: The same one step before.
         trial: Predicted, then corrected joint values; shape (6,).
         turns: Cosine and sine of each joint value; shape (6, 2).
         place: Axes, points and target at some t; shape (16, 3).
@@ -222,7 +220,6 @@ def _put(rows: ComplexArray, i: int, a: _Vector) -> None:
 
 @unmanaged
 def _put_in_place(screws: ComplexArray, targets: ComplexArray, t: float, place: ComplexArray) -> None:
-    """Fill `place` with axes, points and target at t."""
     for i in range(2 * JOINTS):
         p = plus(scaled(1.0 - t, _row(screws[0], i)), t, _row(screws[1], i))
         length: Any = cmath.sqrt(dot(p, p))

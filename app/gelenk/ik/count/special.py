@@ -55,8 +55,7 @@ def geometry(axes: Array, points: Array, tolerance: float) -> JointLines:
     """Compute the parameters of an arm, with lengths and sines of α up to a tolerance set to 0.
 
     Args:
-        axes: Unit vectors; shape (n, 3).
-        points: A point on each axis; shape (n, 3).
+        axes, points: Unit vectors, and a point on each; shape (n, 3) each.
         tolerance: Sine of an angle, or length in the unit of the points.
     """
     links, angle, distance, reach = [], 0.0, 0.0, 0.0
@@ -104,7 +103,7 @@ def drawn(
 
 
 def reaches(screws: ComplexArray, off: tuple[float, float], qs: ComplexArray) -> Array | None:
-    """Bound the motion of each solution as the target moves; None if solutions may meet on the way.
+    """Bound each solution's motion as the target moves, (N, n) [rad]; None if solutions may meet on the way.
 
     Near a solution the loop is exp(J_1 x_1) ⋯ exp(J_n x_n). In the basis of the twists J_k, each in units of the
     first-order motion of x_k, the summed sizes of their brackets measure how much the loop bends. If that is small, a
@@ -114,9 +113,6 @@ def reaches(screws: ComplexArray, off: tuple[float, float], qs: ComplexArray) ->
         screws: Axes, then points, of revolute joints; shape (2 n, 3).
         off: Motion of the target: angle [rad], and distance at the origin.
         qs: All solutions of the target, each isolated; shape (N, n), [rad].
-
-    Returns:
-        Bounds on the joint motions; shape (N, n), [rad].
     """
     Js = _twists(screws, qs)
     inverses = np.linalg.inv(Js)

@@ -63,8 +63,6 @@ class Goal(NamedTuple):
         chord_tolerance: Largest 2 sin(θ/2), θ being the angle of the orientation error, or of its parts that count.
         slack: Share of the tolerances subtracted from the errors: 0, the best, drives errors to zero; 0.9 makes use
             of loose tolerances.
-        starts: Number of starts of each target.
-        random_seed: Seed of the random starts.
     """
 
     bounds: Array
@@ -83,14 +81,11 @@ class Work(NamedTuple):
 
     Attributes:
         state: Target, errors and counts of each lane.
-        q: Configuration of each lane.
-        previous: Configuration of each lane when it was last judged.
-        columns: Jacobian with one column per joint.
-        J: Jacobian with one column per variable.
+        q, previous: Configuration of each lane, now and when it was last judged.
+        columns, J: Jacobian with one column per joint, and per variable.
         candidates: The nearest configurations that failed starts reached, one after another.
         errors: Squared errors of the candidates, infinite in empty places; shape (KEPT,).
-        starts: Number of each lane's current start; shape (LANES,).
-        owners: Index of each lane's current target; shape (LANES,).
+        starts, owners: Number of each lane's current start, and index of its target; shape (LANES,) each.
         coupled: Whether the columns by variable differ from those by joint.
     """
 

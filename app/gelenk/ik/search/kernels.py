@@ -67,8 +67,6 @@ def search(
     """Solve each target by its first start that converges.
 
     Args:
-        flat: The chain.
-        goal: Task, tolerances and bounds.
         targets: Rotation row by row, then position; shape (N, 12).
         seeds: One configuration for all targets or one each; shape (1 or N, n).
         all_or_none: Whether to give up at the first unsolved target, without a search for the nearest configuration.
@@ -111,7 +109,6 @@ def _search(
     seeds: Array,
     all_or_none: bool,
 ) -> tuple[Array, Indices]:
-    """See `search`."""
     flat = FlatChain(placements, joints, drives)
     goal = Goal(bounds, weights, kind, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
     count, n = len(targets), seeds.shape[1]
@@ -138,7 +135,6 @@ def _gather(
     target: Array,
     seed: Array,
 ) -> Array:
-    """See `gather`."""
     flat = FlatChain(placements, joints, drives)
     goal = Goal(bounds, weights, kind, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
     found = np.empty((starts, len(seed)))
@@ -172,7 +168,6 @@ def _search_all(
 
 @unmanaged
 def _gather_all(flat: FlatChain, goal: Goal, target: Array, seed: Array, work: Work, found: Array) -> int:
-    """Fill `found` with the configurations of `gather` and return their number."""
     count = 0
     starts = work.starts
     for lane in range(LANES):
@@ -447,7 +442,6 @@ def _has(ended: int, bit: int) -> bool:
 
 @inlined
 def _wind(goal: Goal, seed: Array, q: Array) -> None:
-    """Turn freely turning joints by full turns into their limits, as near to the seed as possible."""
     for j in range(len(q)):
         lower, upper = goal.bounds[4, j], goal.bounds[5, j]
         if lower <= upper:

@@ -20,10 +20,8 @@ def linearise(chain: Chain, targets: Poses, qs: Array, task: Task, *, chords: bo
     aligned, the rotation is the shortest one that aligns it.
 
     Args:
-        chain: Base and tip.
         targets: Desired T_base_tip; N of them.
         qs: Configurations; shape (N, n), [rad or m].
-        task: Which directions count; m of them.
         chords: Whether to scale rotation errors to length 2 sin(θ/2), as the kernels do, instead of θ.
 
     Returns:

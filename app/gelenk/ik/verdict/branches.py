@@ -185,7 +185,6 @@ def wound(problem: TargetProblem, i: int, qs: Array, complete: bool) -> tuple[Ar
 
     Args:
         problem: The targets; its options give the largest number of configurations.
-        i: Index of the target.
         qs: Solutions; shape (k, n), [rad or m].
         complete: Whether these are all solutions modulo full turns.
 

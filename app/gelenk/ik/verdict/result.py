@@ -18,11 +18,8 @@ class UnsolvedTarget:
     """The reason why a target is unsolved, and the nearest configuration found.
 
     Attributes:
-        status: The verdict.
-        reason: Explanation in words.
         nearest: Nearest configuration, within the limits if they count; shape (n,), [rad or m].
-        position_error: Distance of its pose from the target, [m].
-        orientation_error: Angle of its pose to the target, [rad].
+        position_error, orientation_error: Distance [m] and angle [rad] of its pose to the target.
         blocking_joints: For `outside_limits`, the joints beyond their limits.
         unserved_directions: Unit twists in the base's axes, linear before angular, that the tip cannot follow there;
             shape (k, 6).
@@ -45,8 +42,7 @@ class InverseKinematics:
 
     Attributes:
         qs: Solutions; shape (M, n), [rad or m].
-        position_errors: Errors of the poses recomputed with Pinocchio; shape (M,), [m].
-        orientation_errors: Likewise; shape (M,), [rad].
+        position_errors, orientation_errors: Errors of the poses recomputed with Pinocchio; shape (M,), [m] and [rad].
         iterations: Iterations of the start that led to each solution; shape (M,).
         restarts: Number of starts that failed before it; shape (M,).
         codes: Bits of the roots chosen in the closed form; `COUNTED` for a solution from continuation, -1 from a
@@ -58,7 +54,6 @@ class InverseKinematics:
         every: Whether all solutions were requested.
         doubts: Why a solved target may have other solutions, by its index.
         paths: Path of each target, if a single method was run or a trace requested.
-        form: The closed form used, if any.
         is_counted: Whether continuation was used for six joints without a closed form.
         families: Families of targets with infinitely many solutions, by index, if all were requested.
     """
