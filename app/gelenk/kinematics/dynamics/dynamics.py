@@ -29,13 +29,10 @@ class Dynamics:
 
     Attributes:
         is_definite: Whether M is positive definite at all recomputed configurations.
-        certificate: Differences from the second computation.
-        mass_matrices: M; shape (N, n, n).
-        coriolis_matrices: C, with Ṁ - 2C skew; shape (N, n, n).
-        coriolis_torques: C q̇; shape (N, n), [N m or N].
-        gravity_torques: g; shape (N, n), [N m or N].
-        kinetic_energies: T; shape (N,), [J].
-        potential_energies: U, zero where the moving bodies' centre of mass is level with the root; shape (N,), [J].
+        mass_matrices, coriolis_matrices: M, and C with Ṁ - 2C skew; shape (N, n, n) each.
+        coriolis_torques, gravity_torques: C q̇ and g; shape (N, n) each, [N m or N].
+        kinetic_energies, potential_energies: T, and U, which is zero where the moving bodies' centre of mass is level
+            with the root; shape (N,) each, [J].
         torques: τ by inverse dynamics; shape (N, n), [N m or N].
         accelerations: q̈ by forward dynamics; shape (N, n), [rad/s² or m/s²].
     """
@@ -67,10 +64,7 @@ def dynamics(
 
     Args:
         robot: The robot; joints off the chain are locked at zero.
-        state: Configurations, velocities and the torques of the wrench at the tip.
-        terms: The requested terms.
         gravity: Gravity in the axes of the robot's root; shape (3,), [m/s²].
-        load: A payload on the tip.
         accelerations: q̈, for inverse dynamics; shape (N, n), [rad/s² or m/s²].
         torques: τ, for forward dynamics; shape (N, n), [N m or N].
 
@@ -121,12 +115,10 @@ class _Computation:
         return found
 
     def inverse(self, accelerations: Array) -> Array:
-        """Compute τ from q̈; shape (N, n), [N m or N]."""
         by = self.by
         return self._each(accelerations.shape[1:], by.inverse, self.state.qs, self.state.speeds, accelerations)
 
     def forward(self, torques: Array) -> Array:
-        """Compute q̈ from τ; shape (N, n), [rad/s² or m/s²]."""
         by, state = self.by, self.state
         Ms = self._each((torques.shape[1],) * 2, by.mass_matrix, state.qs)
         self._refuse_singular(Ms)

@@ -30,8 +30,7 @@ class JointBounds:
     """Symmetric limits of a chain's variables, NaN for no limit.
 
     Attributes:
-        velocity: q̇max; shape (n,), [rad/s or m/s].
-        effort: τmax; shape (n,), [N m or N].
+        velocity, effort: q̇max [rad/s or m/s] and τmax [N m or N]; shape (n,) each.
     """
 
     velocity: Array

@@ -53,11 +53,6 @@ def certify_motion(
         rates: q̇, q̈, q⃛, q⁗, the first one to four of them; shape (K, N, n), [rad/sᵏ or m/sᵏ].
         derivatives: (ṗ; ω), (p̈; ω̇), … in the reference, K of them; shape (N, 6) each.
         spatial: The spatial acceleration in the reference; shape (N, 6).
-        reference: See `tip_motion`.
-        seed: Seed of the sample selection in a large batch.
-
-    Raises:
-        CertificationFailed: The two differ by more than `TOLERANCE`, relative to `motion_scales`.
     """
     # Without joints nothing moves, and Pinocchio crashes on the Jacobian of a robot without joints.
     rows = sampled_rows(len(qs) if len(chain) else 0, seed)

@@ -21,7 +21,6 @@ class ForwardKinematics:
     Attributes:
         poses: N poses T_base_tip.
         frames: N poses T_base_frame of each requested frame, by its name.
-        certificate: Largest differences of all these from Pinocchio's poses.
     """
 
     poses: Poses
@@ -34,7 +33,6 @@ def forward_kinematics(robot: RobotModel, chain: Chain, qs: Array, frames: Seque
 
     Args:
         qs: Configurations in the chain's order; shape (N, n), [rad or m].
-        frames: Names of other frames whose poses are requested.
 
     Raises:
         UnknownFrame: The robot has no such frame.

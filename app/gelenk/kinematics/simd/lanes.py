@@ -61,7 +61,6 @@ def _compiled_call(emitter: Callable[..., Any]) -> Any:
 
 
 def _splat(builder: ir.IRBuilder, scalar: ir.Value) -> ir.Value:
-    """Copy one number to every lane."""
     vector = builder.insert_element(ir.Constant(_DOUBLES, ir.Undefined), scalar, ir.Constant(ir.IntType(32), 0))
     zeros = ir.Constant(ir.VectorType(ir.IntType(32), LANES), [0] * LANES)
     return builder.shuffle_vector(vector, ir.Constant(_DOUBLES, ir.Undefined), zeros)

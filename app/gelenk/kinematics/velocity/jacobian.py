@@ -33,7 +33,6 @@ class Jacobians:
         poses: T_base_tip.
         values: J; shape (N, 6, n), [m or rad per rad or m].
         hessians: H[:, k, i, j] = ∂J[k, i]/∂q_j; shape (N, 6, n, n). None if not requested.
-        certificate: Largest differences from Pinocchio's Jacobian and its time variation.
     """
 
     poses: Poses
@@ -108,9 +107,7 @@ def in_reference(poses: Poses, Js: Array, Hs: Array | None, reference: Reference
     """Express geometric Jacobians in the base's axes at the tip, and their derivatives, in another reference.
 
     Args:
-        poses: T_base_tip; N of them.
-        Js: Jacobians; shape (N, 6, n).
-        Hs: ∂J/∂q; shape (N, 6, n, n). None if not requested.
+        Js, Hs: Jacobians, shape (N, 6, n), and ∂J/∂q, shape (N, 6, n, n), None if not requested.
         reference: See `jacobians`.
     """
     if reference == "local":
