@@ -299,7 +299,6 @@ def first_of_each(found: InverseKinematics) -> InverseKinematics:
 
 
 def _answer(problem: TargetProblem, form: ClosedForm, table: BranchTable) -> InverseKinematics:
-    """Build the answer from the branches that Pinocchio confirms as solutions."""
     counts = np.diff(table.firsts)
     owners = np.repeat(np.arange(len(counts)), counts)
     judgement = judged(problem if (counts == 1).all() else problem.taken(owners), table.qs)

@@ -279,7 +279,6 @@ def _every(problem: TargetProblem) -> InverseKinematics:
 
 
 def _every_of(problem: TargetProblem, i: int, system: Continuation | None) -> Branches:
-    """Find all solutions of one target, by continuation if it is available."""
     options = problem.options
     if system is None:
         return all_branches(problem, i, windings=options.windings)

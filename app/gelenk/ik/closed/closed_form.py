@@ -360,7 +360,6 @@ def _is_positioned(screws: JointScrews, placed: int, centre: Array) -> bool:
 
 
 def _carried(screws: JointScrews, q: Array, point: Array) -> Array:
-    """Move a point by the first joints; shape (3,), [m]."""
     for i in reversed(range(len(q))):
         h, o = screws.axes[i], screws.points[i]
         if screws.slides[i]:

@@ -258,7 +258,6 @@ def third_joint(space: Scratch) -> int:
 
 @unmanaged
 def _series_at(series: Array, q: float) -> tuple[float, float, float]:
-    """Evaluate a trigonometric polynomial and its first two derivatives."""
     c, s = math.cos(q), math.sin(q)
     value, slope, bend = series[0, 0], 0.0, 0.0
     cm, sm = 1.0, 0.0

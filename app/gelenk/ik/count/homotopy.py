@@ -96,7 +96,6 @@ def follow(
 def _followed(
     screws: ComplexArray, targets: ComplexArray, slides: Indices, longest: float, far: float, room: Room
 ) -> float:
-    """Follow one path from `q`, in place; return the length of the last Newton step, infinite if the path is lost."""
     t, h, t_before = 0.0, _FIRST, -1.0
     _rates(screws, targets, slides, t, room)
     for _ in range(_STEPS):
@@ -182,7 +181,6 @@ def _is_far(slides: Indices, far: float, q: ComplexArray) -> bool:
 
 @unmanaged
 def _newton(slides: Indices, q: ComplexArray, room: Room) -> float:
-    """Take one step of Newton's method; return its length."""
     _close(slides, q, True, room)
     length = _solve(room.system)
     if length < 1e3:

@@ -336,7 +336,6 @@ def _approach(flat: FlatChain, goal: Goal, work: Work, q: Array) -> None:
 
 @unmanaged
 def _approach_from(flat: FlatChain, goal: Goal, work: Work, first: int, n: int, rounds: int) -> None:
-    """Drive eight of the candidates downhill, one per lane."""
     for lane in range(LANES):
         # If fewer starts than lanes have failed, some lanes share a candidate.
         k = first + lane if work.errors[first + lane] < np.inf else first
@@ -411,7 +410,6 @@ def _improve(
 
 @inlined
 def _has_jumped(work: Work, lane: int, seed: Array, q: Array) -> bool:
-    """Check whether an answer is far from a seed that was near its target."""
     first = np.sqrt(work.state[FIRST * LANES + lane])
     jumped: bool = first < _NEAR and _largest_difference(q, seed) > max(_JUMP, _STRETCH * first)
     return jumped
@@ -450,7 +448,6 @@ def _wind(goal: Goal, seed: Array, q: Array) -> None:
 
 @inlined
 def _set_start(goal: Goal, work: Work, lane: int, seed: Array, start: int) -> None:
-    """Set a lane to a start, clipped to the bounds."""
     for j in range(len(seed)):
         value = seed[j]
         if start > 0:

@@ -68,11 +68,8 @@ def search(
 ) -> Found:
     """Solve each target by its first start that converges; start 0 is the seed, the others are random.
 
-    Args:
-        problem: The targets; their seeds may be outside the limits.
-        max_iterations: Budget for each target.
-        slack: Share of the tolerances subtracted from the errors, see `Goal.slack`.
-        threads: Threads for a large batch; by default one per processor.
+    Seeds may be outside the limits. The iterations are for each target, the slack is that of `Goal`. A large batch is
+    shared between threads, by default one per processor.
     """
     chain, seeds, count = problem.chain, problem.seeds, len(problem)
     goal = problem.goal(max(1, max_iterations // ITERATIONS_PER_START), slack)

@@ -132,14 +132,10 @@ def balance(still: Statics, torques: Array, tolerance: float) -> NearestWrench:
 def components(
     inside: Array, outside: Array, vector: Array, tolerance: float
 ) -> tuple[Array, Array, tuple[bool, bool]]:
-    """Split a vector into its components in two complementary orthogonal subspaces.
+    """Split a vector into its components in two complementary orthogonal subspaces, given by orthonormal columns.
 
-    Args:
-        inside, outside: Orthonormal bases of the two subspaces as columns.
-        tolerance: The vector lies in one subspace if its other component is at most this times its length.
-
-    Returns:
-        Both components, and whether the vector lies in the first and in the second: a zero vector lies in both.
+    Also return whether it lies in the first and in the second: it does if its other component is at most `tolerance`
+    times its length. A zero vector lies in both.
     """
     first, second = inside @ (inside.T @ vector), outside @ (outside.T @ vector)
     most = tolerance * float(np.linalg.norm(vector))

@@ -61,7 +61,6 @@ def certify_poses(
     Args:
         chain: The chain in whose base the poses are expressed.
         qs: Configurations of the chain; shape (N, n), [rad or m].
-        frames: Poses of one or more frames at these configurations, N each.
     """
     rows = sampled_rows(len(qs), seed)
     worst = Differences(max_position_error=0.0, max_orientation_error=0.0)

@@ -36,7 +36,7 @@ def certify_table(
 
 
 def certify_conversion(table: DhTable, other: DhTable, seed: int = 0) -> PoseCertificate:
-    """Compare two tables of the same variables, each as a robot in Pinocchio; raises if they differ by more than rounding."""
+    """Compare two tables of the same variables, each as a robot in Pinocchio; raises if they differ beyond rounding."""
     robots = [RobotModel(describe_dh("table", described)) for described in (table, other)]
     chains = [robot.chain(BASE_FRAME, TOOL_FRAME) for robot in robots]
     qs = table_configurations(chains[0], TABLE_SAMPLES, seed)

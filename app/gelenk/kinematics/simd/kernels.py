@@ -294,7 +294,6 @@ def store_frame(frame: Frame, rows: Array) -> None:
 
 @inlined
 def _scatter_pose(pose: Array, lane: int, position: Array, rotation: Array) -> None:
-    """Copy one lane's frame into a row of the results."""
     for j in range(3):
         position[j] = pose[(9 + j) * LANES + lane]
         for k in range(3):

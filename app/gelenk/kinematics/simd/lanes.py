@@ -74,8 +74,6 @@ def _as_lanes(context: Any, builder: ir.IRBuilder, type_: Any, value: ir.Value) 
 
 
 def _operator(function: Callable[..., Any], result: Any, emit: Callable[..., Any], *operands: tuple[Any, ...]) -> None:
-    """Define an operator on operands of any of the given kinds."""
-
     class Template(AbstractTemplate):
         key = function
 
@@ -118,7 +116,6 @@ _operator(operator.or_, mask_type, ir.IRBuilder.or_, (MaskType, MaskType))
 
 
 def _call(builder: ir.IRBuilder, name: str, *values: ir.Value) -> ir.Value:
-    """Call an LLVM intrinsic on vectors."""
     function_type = ir.FunctionType(_DOUBLES, [_DOUBLES] * len(values))
     module = builder.module
     full = f"llvm.{name}.v{LANES}f64"

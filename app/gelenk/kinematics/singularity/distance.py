@@ -193,7 +193,7 @@ class _Projection:
 
 
 def _minima(projection: _Projection, radius: float, seed: int) -> Array:
-    """Minima of the manipulability measure on rays of a given length, nearest first; at most `_STARTS`, then q itself."""
+    """Minima of the manipulability measure on rays of a given length, nearest first; at most `_STARTS`, then q."""
     q, n = projection.q, len(projection.q)
     rays = _rays(_deciding_joints(projection.chain, projection.space), n, seed)
     stations = radius * np.arange(1, _STATIONS + 1) / _STATIONS

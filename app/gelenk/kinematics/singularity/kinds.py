@@ -191,7 +191,6 @@ def _positioning(trials: list[JointAxes], placed: int, *, with_wrist: bool) -> F
 def _arm_factors(
     trials: list[JointAxes], placed: int
 ) -> Callable[[JointAxes, Array, float], dict[SingularityKind | None, float]] | None:
-    """Factors of the joints that move the wrist centre."""
     if placed == 3:
         z = [lines.axes[1] for lines in trials]
         follows = all(

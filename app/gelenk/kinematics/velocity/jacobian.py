@@ -104,11 +104,9 @@ def condition_numbers(sigmas: Array, counts: Indices) -> list[float | None]:
 
 
 def in_reference(poses: Poses, Js: Array, Hs: Array | None, reference: Reference) -> tuple[Array, Array | None]:
-    """Express geometric Jacobians in the base's axes at the tip, and their derivatives, in another reference.
+    """Express geometric Jacobians in the base's axes at the tip, and their derivatives, in a reference of `jacobians`.
 
-    Args:
-        Js, Hs: Jacobians, shape (N, 6, n), and ∂J/∂q, shape (N, 6, n, n), None if not requested.
-        reference: See `jacobians`.
+    The shapes are (N, 6, n) and (N, 6, n, n); derivatives are None if not requested.
     """
     if reference == "local":
         return _in_tip_axes(poses, Js, Hs)

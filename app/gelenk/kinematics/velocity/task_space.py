@@ -201,9 +201,8 @@ def slides(chain: Chain) -> Flags:
 def aligned_basis(basis: Array, snap: float = 0.0) -> Array:
     """Return a basis of the same space, as close to the coordinate axes as possible, with positive largest entries.
 
-    Args:
-        basis: Orthonormal columns; shape (m, k).
-        snap: Deviation from a space spanned by coordinate axes that counts as rounding.
+    The columns, shape (m, k), are orthonormal. A deviation of up to `snap` from a space spanned by coordinate axes
+    counts as rounding.
     """
     if basis.size == 0:
         return basis

@@ -71,8 +71,7 @@ def tip_motion(
 def product_rule(Js: Array, rates: Array) -> tuple[Array, ...]:
     """Combine derivatives of J and q into those of the tip, r⁽ᵏ⁾ = Σ_j (k-1 over j) J⁽ʲ⁾ q⁽ᵏ⁻ʲ⁾; shape (N, 6) each.
 
-    Args:
-        Js, rates: J, J̇, …, shape (K, N, 6, n), and q̇, q̈, …, shape (K, N, n).
+    `Js` are J, J̇, …, shape (K, N, 6, n), and `rates` q̇, q̈, …, shape (K, N, n).
     """
     results = []
     for k in range(1, len(rates) + 1):

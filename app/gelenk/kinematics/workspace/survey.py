@@ -159,10 +159,8 @@ def volume_bounds(grid: Grid, table: VoxelTable, farthest: float) -> tuple[float
 
     The region contains the inner cells, and lies within the cells it meets. If the samples are too few to find nearly
     all of these, cells of twice the size are used. The number of cells still missing is estimated from those with one
-    or two samples [Chao1984]. Without samples the only bound is the ball that the tip cannot leave.
-
-    Args:
-        farthest: Upper bound of the tip's distance from the base's origin, [m].
+    or two samples [Chao1984]. Without samples the only bound is the ball that the tip cannot leave, of radius
+    `farthest` [m].
     """
     d = grid.dimensions
     if d == 0:

@@ -106,8 +106,7 @@ class TipReach:
     def ranks(self, direction_only: bool) -> tuple[int, int]:
         """Count the independent velocities of the tip: in position, and in position and orientation together.
 
-        Args:
-            direction_only: Whether only the direction of the tip's z axis counts as orientation.
+        With `direction_only`, only the direction of the tip's z axis counts as orientation.
         """
         Js = self._Js[:, :, self._moves]
         moving = Js[:, :3] / max(self.farthest, np.finfo(float).tiny)
@@ -121,7 +120,6 @@ def in_axes(Js: Array, turn: Array | None) -> Array:
 
 
 def _largest_rank(matrices: Array) -> int:
-    """Largest rank of any of the matrices; shape (N, m, n)."""
     scale = float(np.abs(matrices).max(initial=np.finfo(float).tiny))
     return int(np.linalg.matrix_rank(matrices, tol=_STRUCTURAL * scale).max()) if matrices.size else 0
 
