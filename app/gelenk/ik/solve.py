@@ -144,8 +144,7 @@ def _analytic(problem: TargetProblem, form: ClosedForm) -> InverseKinematics:
 def solve_quickly(problem: TargetProblem, starts: int, *, by_form: bool = False) -> InverseKinematics | None:
     """Return one solution for each of a few targets if that takes only tens of microseconds, else None.
 
-    Args:
-        by_form: Whether to accept solutions of a closed form alone.
+    With `by_form`, only solutions of a closed form count.
     """
     chain, count = problem.chain, len(problem)
     if not is_looked_at(chain, problem.task):

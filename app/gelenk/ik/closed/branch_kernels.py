@@ -62,8 +62,7 @@ class BranchTable(NamedTuple):
 
     Attributes:
         qs: Solutions, nearest to the seed first; shape (M, n), [rad or m].
-        codes: Bits of the roots chosen; shape (M,).
-        free: Bit mask: bit j is set if variable j was free and kept the seed's value; shape (M,).
+        codes, free: Bits of the roots chosen, and of the free variables, which kept the seed's value; shape (M,) each.
         firsts: First row of each target's solutions, and M at the end; shape (N + 1,).
         doubtful: 1 if rounding may have cost solutions of a target; shape (N,), or empty if not needed.
     """
@@ -334,7 +333,6 @@ def _refine(flat: FlatChain, goal: Goal, work: Work, kept: _Kept) -> int:
 
 @inlined
 def _good(goal: Goal, work: Work) -> int:
-    """Bit mask of the lanes that are within the tolerances."""
     good: int = bits(within(goal, load(work.state, _POSITION), load(work.state, _ORIENTATION)))
     return good
 

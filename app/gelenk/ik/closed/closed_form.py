@@ -156,11 +156,10 @@ class ClosedForm:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The meaning of a root in branch codes.
+    """The meaning of a root in branch codes; the bit is 0 if roots are numbered.
 
     Attributes:
         name: `shoulder`, `elbow` or `wrist`; `arm` if roots are numbered.
-        bit: Bit of the root in the code; 0 if roots are numbered.
         values: Names of the root if the bit is 0, and if it is 1.
         turned_by, turns: Another bit, and whether it swaps the two names.
     """
@@ -264,7 +263,6 @@ class JointScrews:
         slides: Which joints are prismatic; shape (n,).
         tip: Origin of the tip at zero if solving starts at the base, else of the base; shape (3,), [m].
         zero: T_0⁻¹, rotation row by row, then translation; shape (12,).
-        backwards: Whether solving starts at the tip.
         tolerance: Distance [m] at which lines count as intersecting, and sine at which they count as parallel.
     """
 

@@ -56,8 +56,7 @@ class Scratch(NamedTuple):
         right: Right sides without their constants; shape (EQUATIONS, 8).
         values: Right sides at nine pairs of angles; shape (9, EQUATIONS).
         matrix: Matrix of the determinant; shape (ORDER, ORDER).
-        series: Cosine and sine coefficients of the determinant; shape (2, _DEGREE + 1).
-        samples: Samples of the determinant; shape (_SAMPLES,).
+        series, samples: Cosine and sine coefficients of the determinant, (2, _DEGREE + 1), and samples, (_SAMPLES,).
         turns: Zeros of its slope, [rad]; shape (48,).
         stack: Bernstein coefficients of the slope on arcs still to examine; shape (64, _TERMS).
         edges: Beginnings and widths of these arcs, [rad]; shape (2, 64).

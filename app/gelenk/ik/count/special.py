@@ -22,8 +22,7 @@ class JointLines(NamedTuple):
 
     Attributes:
         links: θ, d, a and α from each line to the next, with θ = d = 0 for the first; shape (n - 1, 4).
-        first: Frame on the first line; shape (4, 4).
-        last: Frame on the last line of the actual arm; shape (4, 4).
+        first, last: Frames on the first line, and on the last of the actual arm; shape (4, 4) each.
         off: Largest deviation of the last line from these parameters over all joint values: angle [rad], and distance
             at the origin.
     """

@@ -57,10 +57,9 @@ class Goal(NamedTuple):
             starts are drawn; 4 and 5, limits of freely turning variables, else NaN; shape (6, n), [rad or m].
         weights: 1 for each direction that counts, else 0: x y z in the base's axes, rx ry rz about the target's;
             shape (6,).
-        kind: `FULL`, `AXIS` or `SOME`.
-        axis: For `AXIS`, index of the tip's axis to align with the target's.
-        position_tolerance: Largest position error, [m].
-        chord_tolerance: Largest 2 sin(θ/2), θ being the angle of the orientation error, or of its parts that count.
+        kind, axis: `FULL`, `AXIS` or `SOME`; for `AXIS`, index of the tip's axis to align with the target's.
+        position_tolerance, chord_tolerance: Largest position error [m], and largest 2 sin(θ/2), θ being the angle of
+            the orientation error, or of its parts that count.
         slack: Share of the tolerances subtracted from the errors: 0, the best, drives errors to zero; 0.9 makes use
             of loose tolerances.
     """
@@ -173,7 +172,6 @@ def _with_angles(work: Work, w: tuple[Lanes, Lanes, Lanes]) -> tuple[Lanes, Lane
 
 @inlined
 def _in_target(state: Array, w0: Lanes, w1: Lanes, w2: Lanes) -> tuple[Lanes, Lanes, Lanes]:
-    """Express a vector of the base in the target's axes."""
     return (
         load(state, 0) * w0 + load(state, 3) * w1 + load(state, 6) * w2,
         load(state, 1) * w0 + load(state, 4) * w1 + load(state, 7) * w2,

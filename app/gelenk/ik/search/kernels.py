@@ -425,7 +425,6 @@ def _largest_difference(q: Array, other: Array) -> float:
 
 @inlined
 def _first(starts: Indices) -> int:
-    """Return the lane of the start with the lowest number."""
     first = 0
     for lane in range(LANES):
         if starts[lane] < starts[first]:

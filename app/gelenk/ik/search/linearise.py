@@ -17,10 +17,8 @@ def linearise(chain: Chain, targets: Poses, qs: Array, task: Task, *, chords: bo
 
     e points from tip to target: the position difference in the base's axes, and the rotation vector, in the base's
     axes for a full pose, else in the target's. J is the geometric Jacobian in the same axes. If one axis is to be
-    aligned, the rotation is the shortest one that aligns it.
-
-    Args:
-        chords: Whether to scale rotation errors to length 2 sin(θ/2), as the kernels do, instead of θ.
+    aligned, the rotation is the shortest one that aligns it. `chords` scales rotation errors to length 2 sin(θ/2),
+    as the kernels do, instead of θ.
     """
     positions, Rs, Js = chain_jacobians(chain.flat, qs)
     errors = np.empty((len(qs), 6))

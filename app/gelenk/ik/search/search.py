@@ -35,8 +35,7 @@ class Found:
         qs: Solutions, within the limits and as near to the seed as full turns allow; for an unsolved target the
             nearest configuration found; shape (N, n), [rad or m].
         solved: Whether the errors are within the tolerances; shape (N,).
-        restarts: Number of starts that failed before; shape (N,).
-        iterations: Iterations of the start that converged; shape (N,).
+        restarts, iterations: Starts that failed before, and iterations of the one that converged; shape (N,) each.
         followed: k if the search followed the path from the seed in small steps with initial damping 10⁻ᵏ, else -1;
             shape (N,).
         in_time: Whether the target was tried before time ran out; shape (N,).

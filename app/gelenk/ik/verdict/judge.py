@@ -24,8 +24,7 @@ def judged(
     """Check by Pinocchio which configurations solve their targets within the limits; also return the errors [m], [rad].
 
     Args:
-        problem: The problem, with one target per configuration.
-        qs: Configurations; shape (N, n), [rad or m].
+        qs: Configurations, one per target; shape (N, n), [rad or m].
         claimed: Which of them the solver claims as solutions, default all; shape (N,).
         worth: Which of them Pinocchio recomputes, default all; our own kernels compute the others; shape (N,).
     """

@@ -43,15 +43,13 @@ class InverseKinematics:
     Attributes:
         qs: Solutions; shape (M, n), [rad or m].
         position_errors, orientation_errors: Errors of the poses recomputed with Pinocchio; shape (M,), [m] and [rad].
-        iterations: Iterations of the start that led to each solution; shape (M,).
-        restarts: Number of starts that failed before it; shape (M,).
+        iterations, restarts: Of the start that led to each solution, and starts failed before it; shape (M,) each.
         codes: Bits of the roots chosen in the closed form; `COUNTED` for a solution from continuation, -1 from a
             search; shape (M,).
         free: Bit mask: bit j is set if variable j was free and kept the seed's value; shape (M,).
         firsts: First row of each target's solutions, and M at the end; shape (N + 1,).
         method: Name of the iterative method.
         failures: Failure of each unsolved target, by its index.
-        every: Whether all solutions were requested.
         doubts: Why a solved target may have other solutions, by its index.
         paths: Path of each target, if a single method was run or a trace requested.
         is_counted: Whether continuation was used for six joints without a closed form.

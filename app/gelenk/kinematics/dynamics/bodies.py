@@ -31,8 +31,7 @@ class Load:
     """A rigid payload on the tip.
 
     Attributes:
-        mass: Mass, [kg].
-        center: Centre of mass in the tip frame; shape (3,), [m].
+        mass, center: Mass, [kg], and its centre in the tip frame; shape (3,), [m].
         inertia: Inertia about the centre of mass, in the tip's axes; shape (3, 3), [kg m²].
     """
 
@@ -148,8 +147,7 @@ class Motions:
     """Bodies at N configurations, in the axes of the root; B bodies, n variables.
 
     Attributes:
-        masses: Masses; shape (B,), [kg].
-        centers: Centres of mass in the root frame; shape (N, B, 3), [m].
+        masses, centers: Masses, shape (B,), [kg], and their centres in the root frame, shape (N, B, 3), [m].
         inertias: Inertias about the centres of mass; shape (N, B, 3, 3), [kg m²].
         linear, angular: J_v of the centres of mass, and J_ω; shape (N, B, 3, n) each.
         speeds: q̇, zero if no rates were requested; shape (N, n).

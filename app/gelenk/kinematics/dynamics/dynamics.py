@@ -33,8 +33,7 @@ class Dynamics:
         coriolis_torques, gravity_torques: C q̇ and g; shape (N, n) each, [N m or N].
         kinetic_energies, potential_energies: T, and U, which is zero where the moving bodies' centre of mass is level
             with the root; shape (N,) each, [J].
-        torques: τ by inverse dynamics; shape (N, n), [N m or N].
-        accelerations: q̈ by forward dynamics; shape (N, n), [rad/s² or m/s²].
+        torques, accelerations: τ by inverse, q̈ by forward dynamics; shape (N, n) each, [N m or N], [rad/s² or m/s²].
     """
 
     is_definite: bool
@@ -65,8 +64,7 @@ def dynamics(
     Args:
         robot: The robot; joints off the chain are locked at zero.
         gravity: Gravity in the axes of the robot's root; shape (3,), [m/s²].
-        accelerations: q̈, for inverse dynamics; shape (N, n), [rad/s² or m/s²].
-        torques: τ, for forward dynamics; shape (N, n), [N m or N].
+        accelerations, torques: q̈ for inverse, τ for forward dynamics; shape (N, n) each, as in `Dynamics`.
 
     Raises:
         InvalidField: The mass matrix is singular, so forward dynamics has no solution.
@@ -89,8 +87,6 @@ def dynamics(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Computation:
-    """Pinocchio's dynamics for a batch of states."""
-
     found: ChainMechanism
     state: State
     by: PinocchioDynamics

@@ -87,7 +87,6 @@ def mechanism(robot: RobotModel, chain: Chain) -> ChainMechanism:
 
 
 def _carrier(robot: RobotModel, frame: str) -> tuple[int, pin.SE3]:
-    """Pinocchio's joint that carries a frame, and the frame's placement on it."""
     found = robot.model.frames[robot.frame_id(frame)]
     return int(found.parentJoint), found.placement.copy()
 
@@ -157,11 +156,8 @@ class PinocchioDynamics:
         """Compute torques that hold the robot while its tip exerts a wrench, and the power of that wrench at q̇.
 
         The tip exerts the wrench on surroundings at rest in the base frame: if the chain moves the base relative to the
-        root, the reaction acts on the base.
-
-        Args:
-            point: Point where the force acts, in the base frame; shape (3,), [m].
-            wrench: Force and moment in the base's axes; shape (6,), [N] and [N m].
+        root, the reaction acts on the base. The point where the force acts, [m], and the wrench, shape (6,), [N] and
+        [N m], are in the base's axes.
         """
         model, data, full_q = self._model, self._data, self._full(q)
         pin.forwardKinematics(model, data, full_q, self._matrix @ v)

@@ -101,11 +101,7 @@ class Ellipsoids:
 
 @dataclass(frozen=True, slots=True)
 class Manipulability:
-    """Ellipsoids at N configurations, by part.
-
-    Attributes:
-        Js: Jacobians in the reference; shape (N, 6, n).
-    """
+    """Ellipsoids at N configurations, by part, and the Jacobians in the reference; shape (N, 6, n)."""
 
     parts: dict[Part, Ellipsoids]
     Js: Array

@@ -160,8 +160,7 @@ def certify_statics(still: Statics, wrenches: Array, torques: Array, seed: int =
     """Compare torques that hold the robot while its tip exerts a wrench with Pinocchio's; raises if they differ.
 
     Args:
-        wrenches: Wrenches at the tip; shape (N, m), [N] and [N m].
-        torques: Joint torques, including weight; shape (N, n), [N m or N].
+        wrenches, torques: At the tip, shape (N, m), and of the joints, including weight, shape (N, n).
         seed: Seed of the sample selection, the joint velocities and a random wrench that tests the whole Jacobian.
     """
     robot, chain, qs = still.robot, still.chain, still.qs

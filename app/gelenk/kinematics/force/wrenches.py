@@ -62,11 +62,7 @@ class WrenchFrame:
 
 
 def frame_jacobians(robot: RobotModel, chain: Chain, qs: Array, frame: WrenchFrame) -> tuple[Poses, Array, Array]:
-    """Compute the pose of a wrench frame, and the Jacobian in it.
-
-    Args:
-        robot: The robot; joints off the chain are at zero.
-        qs: Configurations; shape (N, n), [rad or m].
+    """Compute the pose of a wrench frame, and the Jacobian in it; joints off the chain are at zero.
 
     Returns:
         Point and axes in the base frame, Jacobians of shape (N, 6, n), linear before angular, and the terms of their

@@ -58,9 +58,7 @@ def certify_poses(
 ) -> PoseCertificate:
     """Compare poses with Pinocchio's; raises CertificationFailed if they differ by more than `TOLERANCE`.
 
-    Args:
-        chain: The chain in whose base the poses are expressed.
-        qs: Configurations of the chain; shape (N, n), [rad or m].
+    The configurations, shape (N, n), are those of the chain in whose base the poses are expressed.
     """
     rows = sampled_rows(len(qs), seed)
     worst = Differences(max_position_error=0.0, max_orientation_error=0.0)
@@ -86,11 +84,9 @@ def certify_jacobians(
     """Compare geometric Jacobians (in the base frame, at the tip) with Pinocchio's, and ∂J/∂q through J̇; see `agreed`.
 
     Args:
-        qs: Configurations of the chain; shape (N, n), [rad or m].
-        Js: Geometric Jacobians; shape (N, 6, n).
-        hessians: ∂J/∂q of these; shape (N, 6, n, n).
-        view: The reference frame, or the angles, of `values`.
-        values: The Jacobians that are sent; shape (N, 6, n). Not compared if None, or the geometric ones themselves.
+        Js, hessians: Geometric Jacobians, shape (N, 6, n), and their ∂J/∂q, shape (N, 6, n, n).
+        values: The Jacobians that are sent, in the view; shape (N, 6, n). Not compared if None, or the geometric ones
+            themselves.
         seed: Seed of the sample selection in a large batch, and of the joint velocities for J̇.
     """
     # Without joints there is no column to compare, and Pinocchio crashes on the Jacobian of a robot without joints.

@@ -26,7 +26,7 @@ def certify_table(
     Args:
         chain: A chain of this robot; its variables are the table's, in the same order.
         exact: Whether to refuse more than rounding, at the scale of the table's longest length; a table that was
-            simplified on purpose may differ by more.
+            simplified on purpose may differ by more, but not by NaN.
     """
     qs = table_configurations(chain, TABLE_SAMPLES, seed)
     Ts = np.array([table.pose(q) for q in qs.tolist()])

@@ -16,12 +16,7 @@ from gelenk.robot.robot import RobotModel
 
 @dataclass(frozen=True, slots=True)
 class ForwardKinematics:
-    """Poses at N configurations, in the chain's base frame.
-
-    Attributes:
-        poses: N poses T_base_tip.
-        frames: N poses T_base_frame of each requested frame, by its name.
-    """
+    """N poses T_base_tip, and as many T_base_frame of each requested frame, by its name."""
 
     poses: Poses
     frames: dict[str, Poses]

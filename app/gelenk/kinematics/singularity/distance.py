@@ -36,7 +36,6 @@ class NearestSingularity:
     """The nearest singular configuration found.
 
     Attributes:
-        q: The configuration; shape (n,), [rad or m].
         distance: Norm of the joint motion to it, [rad and m].
         joints: Indices of the joints that move.
         sigma: The smallest singular value there, zero up to rounding.

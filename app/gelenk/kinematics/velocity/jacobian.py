@@ -180,7 +180,6 @@ def _rpy_rates(rotations: Array) -> tuple[Array, Array]:
 
 
 def _matrices(rows: list[list[Array]]) -> Array:
-    """Stack entries of shape (N,) into matrices of shape (N, 3, 3)."""
     return np.moveaxis(np.array(rows), -1, 0)
 
 

@@ -56,11 +56,9 @@ class Decomposition:
     """Singular value decompositions A = U diag(σ) Vᵀ at N configurations.
 
     Attributes:
-        left: Columns u_i; shape (N, k, k).
+        left, right: Columns u_i, shape (N, k, k), and rows v_iᵀ, shape (N, n, n).
         sigmas: σ, largest first; shape (N, min(k, n)). Units are mixed unless a characteristic length is given.
-        right: Rows v_iᵀ; shape (N, n, n).
-        ranks: Numerical ranks; shape (N,).
-        least: Singular values up to this are rounding and never used; shape (N,).
+        ranks, least: Numerical ranks, and bounds up to which singular values are rounding and never used; shape (N,).
         row_scales, column_scales: The diagonals of S, shape (k,), and W^(-1/2), shape (n,).
     """
 
@@ -105,8 +103,7 @@ class Inversion:
     """The solutions of N equations J x = b.
 
     Attributes:
-        xs: Solutions, zero where none exists; shape (N, n).
-        residuals: b - J x; shape (N, k).
+        xs, residuals: Solutions, zero where none exists, shape (N, n), and b - J x, shape (N, k).
         statuses: `solved`; `approximate`: no x gives b, or damping prevents it; `singular`: no solution exists.
         dampings: λ of each equation; shape (N,).
         shares: Share of the null-space motion that the velocity limits allow, in [0, 1]; shape (N,).

@@ -32,12 +32,7 @@ _ITERATIONS = 1280
 
 @dataclass(frozen=True, slots=True)
 class Orientations:
-    """A set of orientations to reach.
-
-    Attributes:
-        spread: What the set covers; `fixed` if the tip never rotates.
-        rotations: Rotation matrices; shape (K, 3, 3).
-    """
+    """A set of orientations to reach, K of them, shape (K, 3, 3); its spread is `fixed` if the tip never rotates."""
 
     spread: Spread
     rotations: Array
@@ -68,10 +63,8 @@ def excluded(motion: TipReach, dimensions: int, spread: Spread) -> str | None:
     """Explain why a chain cannot reach all orientations in any region of positions; None if it may.
 
     A region with all its orientations has as many dimensions as both together; the set of poses that a chain reaches
-    has at most as many dimensions as its tip has independent velocities.
-
-    Args:
-        dimensions: Dimensions of the grid: fewer in a slice than in the workspace.
+    has at most as many dimensions as its tip has independent velocities. The region's are those of the grid: fewer in
+    a slice than in the workspace.
     """
     turns = ("fixed", "turns", "approach_directions", "rotations").index(spread)
     moves, both = motion.ranks(spread == "approach_directions")
@@ -113,8 +106,7 @@ def shares(robot: RobotModel, chain: Chain, positions: Array, seeds: Array, aske
     a closed form the share is a lower bound.
 
     Args:
-        positions: Positions of the tip in the base frame; shape (M, 3), [m].
-        seeds: Start configuration for each position; shape (M, n), [rad or m].
+        positions, seeds: Of the tip in the base frame, shape (M, 3), [m], and start configurations, shape (M, n).
     """
     count = len(asked.rotations)
     targets = Poses(np.repeat(positions, count, axis=0), np.tile(asked.rotations, (len(positions), 1, 1)))

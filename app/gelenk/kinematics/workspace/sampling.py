@@ -29,12 +29,7 @@ _TABLE = 4096
 
 @dataclass(frozen=True, slots=True)
 class Ranges:
-    """The sampling bounds of each variable.
-
-    Attributes:
-        lower, upper: Shape (n,) each, [rad or m].
-        notes: The assumptions made, one sentence each.
-    """
+    """The sampling bounds of each variable, shape (n,), [rad or m], and the assumptions made, one sentence each."""
 
     lower: Array
     upper: Array

@@ -31,9 +31,8 @@ _LATE = 0.1
 class Measures:
     """Yoshikawa's measure over the samples that count.
 
-    Attributes:
-        position, joint_positions: Of the tip, shape (3,), [m], and the joints, shape (n,), [rad or m], where it is
-            largest. None if all measures are zero.
+    The position, shape (3,), [m], and the joint positions, shape (n,), [rad or m], are those at the largest measure;
+    None if all measures are zero.
     """
 
     min: float
@@ -51,7 +50,6 @@ class Workspace:
         count: Number of samples that count.
         bounds: Smallest and largest coordinates; shape (2, 3), [m].
         reach: Smallest and largest distance of the tip from the base's origin, [m].
-        voxels: The cells that contain these samples.
         inner: Number of cells with neighbours on every side, including edges and corners.
         volume: Lower and upper bound of the volume of the reachable region, [m³, m² or m].
         late: Share of the cells that only the last tenth of the samples found.

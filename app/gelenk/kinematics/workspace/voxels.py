@@ -86,7 +86,6 @@ class Grid:
         return keys
 
     def _steps(self) -> list[int]:
-        """Differences between the keys of neighbouring cells, one per axis."""
         return [1 << (_BITS * axis) for axis in range(self.dimensions)]
 
 
@@ -95,10 +94,8 @@ class VoxelTable:
     """The cells that contain samples, in ascending order of their keys.
 
     Attributes:
-        keys: Keys of the cells, see `Grid.keys`; shape (M,).
-        counts: Number of samples in each cell; shape (M,).
-        best: Largest measure in each cell; shape (M,).
-        first: Number of the first sample in each cell; shape (M,).
+        keys, counts: Keys of the cells, see `Grid.keys`, and number of samples in each; shape (M,) each.
+        best, first: Largest measure and number of the first sample in each cell; shape (M,) each.
     """
 
     keys: Indices
