@@ -85,11 +85,9 @@ class ClosedForm:
         """Compute the branches of each target, nearest to the seed first.
 
         Args:
-            targets: Desired T_base_tip; N of them.
             seeds: One configuration for all targets or one each; shape (1 or N, n), [rad or m].
             tolerances: Of position [m] and orientation [rad].
             elbow_angles: Angles of a free elbow, one for all targets or one each; by default the seeds', [rad].
-            most: Largest number of solutions of one target.
         """
         chain = self.chain
         goal = make_goal(chain, self.task, tolerances, False, 1)
@@ -260,7 +258,6 @@ class JointScrews:
 
     Attributes:
         axes, points: Unit vectors, and a point on each line [m]; shape (n, 3) each.
-        slides: Which joints are prismatic; shape (n,).
         tip: Origin of the tip at zero if solving starts at the base, else of the base; shape (3,), [m].
         zero: T_0⁻¹, rotation row by row, then translation; shape (12,).
         tolerance: Distance [m] at which lines count as intersecting, and sine at which they count as parallel.
@@ -548,7 +545,6 @@ def _trial(form: ClosedForm, count: int) -> tuple[Array, BranchTable]:
 
 
 def _branches_of(form: ClosedForm, qs: Array, seeds: Array) -> BranchTable:
-    """Solve the poses of configurations, with the elbow where it is."""
     poses = Poses(*chain_poses(form.chain.flat, qs))
     elbows = form.elbow_angles(qs) if form.has_free_elbow else None
     return form.solve(poses, seeds, respect_limits=False, elbow_angles=elbows)

@@ -62,7 +62,6 @@ def follow(
     Args:
         screws: Axes, then points, of the arm at either end; shape (2, 12, 3).
         targets: Quaternion w x y z, then position, at either end; shape (2, 7).
-        slides: 1 for a prismatic joint; shape (6,).
         starts: Solutions at t = 0; shape (k, 6).
         longest: Largest first correction [rad or sizes of the arm]; a larger one shortens the step.
         far: Imaginary part [rad] beyond which a path counts as lost to infinity.

@@ -65,9 +65,7 @@ class Options:
             which start from the seed alone.
         max_iterations: Budget for a target; None for the method's default.
         time_limit: Time for all targets without compilation, [s].
-        objective: Function that a redundant arm minimises by its freedom.
         elbow_angle: Desired angle of a free elbow, [rad]; only for a closed form that has one.
-        trace: Whether to report each iteration.
         fixed_joints: Values of the held variables by name, [rad or m].
     """
 

@@ -49,11 +49,10 @@ class InverseKinematics:
         free: Bit mask: bit j is set if variable j was free and kept the seed's value; shape (M,).
         firsts: First row of each target's solutions, and M at the end; shape (N + 1,).
         method: Name of the iterative method.
-        failures: Failure of each unsolved target, by its index.
-        doubts: Why a solved target may have other solutions, by its index.
+        failures, doubts, families: By a target's index, why it is unsolved, why it may have other solutions, and its
+            families of infinitely many, if all were requested.
         paths: Path of each target, if a single method was run or a trace requested.
         is_counted: Whether continuation was used for six joints without a closed form.
-        families: Families of targets with infinitely many solutions, by index, if all were requested.
     """
 
     qs: Array

@@ -191,7 +191,6 @@ def unserved_directions(problem: TargetProblem, i: int, q: Array) -> Array:
 
 
 def _linearised(problem: TargetProblem, i: int, q: Array) -> tuple[Array, Array, Flags]:
-    """Error and Jacobian at a configuration, and flags of the joints blocked at a limit."""
     (e,), (J,) = problem.linearised(i, q[None])
     return e, J, blocked(J.T @ e, q, problem.bounds)
 
