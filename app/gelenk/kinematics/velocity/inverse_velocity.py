@@ -60,7 +60,7 @@ def inverse_motion(
     Args:
         qs: Configurations; shape (N, n), [rad or m].
         rates: The known rates, none, q̇, or q̇ and q̈; shape (K, N, n), K from 0 to 2, [rad/sᵏ or m/sᵏ].
-        targets: Desired twist, acceleration or jerk in the directions that count; shape (N, k), [m/sᵏ, rad/sᵏ].
+        targets: Desired twist, acceleration or jerk in the rows and reference of `space`; shape (N, k), [m/sᵏ, rad/sᵏ].
         null_motion: ξ, whose component in ker J is added; shape (N, n).
 
     Raises:
