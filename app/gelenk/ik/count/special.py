@@ -53,7 +53,7 @@ class JointLines(NamedTuple):
 def geometry(axes: Array, points: Array, tolerance: float) -> JointLines:
     """Compute the parameters of an arm, with lengths and sines of α up to a tolerance set to 0.
 
-    The axes are unit vectors, the points lie on them; shape (n, 3) each. Lengths are in the unit of the points.
+    Axes are unit vectors, points lie on them in any unit of length; shape (n, 3) each.
     """
     links, angle, distance, reach = [], 0.0, 0.0, 0.0
     at, first, before = points[0], np.eye(4), np.eye(4)

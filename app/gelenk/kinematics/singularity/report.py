@@ -116,9 +116,8 @@ def certify_reports(
     """Check with Pinocchio's Jacobian that internal motions leave the tip at rest and lost directions need no torque.
 
     Both come from our own Jacobians, and from the chain's structure at other configurations. There is one report per
-    configuration (N, n). The result has the fields that `SingularityCertificate` adds.
-
-    Raises CertificationFailed if the motion or the torque is more than the singular values allow.
+    configuration (N, n). The result has the fields that `SingularityCertificate` adds; raises CertificationFailed if
+    motion or torque is more than the singular values allow.
     """
     worst = Differences(max_internal_motion=0.0, max_lost_direction=0.0)
     for row in sampled_rows(len(qs) if len(chain) else 0, seed):

@@ -112,9 +112,9 @@ def descent(chain: Chain, qs: Array, objective: Objective, gain: float, space: T
 
 
 def velocity_limits(robot: RobotModel, chain: Chain) -> Array:
-    """Return the largest speed of each variable that its own joint and the chain's joints mimicking it allow.
+    """Return the largest speed of each variable that its own joint and those of the chain mimicking it allow; (n,).
 
-    The shape is (n,), [rad/s or m/s]; inf where the description gives no limit.
+    It is inf where the description gives no limit.
     """
     description = robot.description
     own = [description.joint[name].limits.velocity for name in chain.joint_names]
