@@ -156,8 +156,8 @@ class PinocchioDynamics:
         """Compute torques that hold the robot while its tip exerts a wrench, and the power of that wrench at q̇.
 
         The tip exerts the wrench on surroundings at rest in the base frame: if the chain moves the base relative to the
-        root, the reaction acts on the base. The force acts at `point`, [m], in the base frame, and the wrench, shape (6,),
-        [N] and [N m], is in its axes.
+        root, the reaction acts on the base. The force acts at `point`, [m], in the base frame, whose axes are also
+        those of the wrench, shape (6,), [N] and [N m].
         """
         model, data, full_q = self._model, self._data, self._full(q)
         pin.forwardKinematics(model, data, full_q, self._matrix @ v)
