@@ -114,7 +114,6 @@ def every(problem: TargetProblem, form: ClosedForm) -> InverseKinematics:
 
 
 def _doubt(answer: InverseKinematics, form: ClosedForm, i: int, most: int) -> str:
-    """Return why a target may have other solutions."""
     free = answer.free[answer.firsts[i] : answer.firsts[i + 1]]
     if len(free) >= most:
         return "the requested number of solutions is reached; there may be others"
@@ -124,10 +123,7 @@ def _doubt(answer: InverseKinematics, form: ClosedForm, i: int, most: int) -> st
 
 
 def _piece(problem: TargetProblem, form: ClosedForm) -> list[tuple[BranchTable, bool]]:
-    """Return the branches of some targets, and whether they are all, see `every`.
-
-    The result has one table for all targets if none of them is special, else a table for each.
-    """
+    """Return the branches of some targets and whether these are all; one table, or one for each if any is special."""
     options, count = problem.options, len(problem)
     if problem.is_over:
         return [(_nothing(problem, count), False)]
@@ -206,7 +202,6 @@ def _unsteady(problem: TargetProblem, form: ClosedForm, table: BranchTable) -> F
 
 
 def _near_singular(Js: Array, directions: int, least: float) -> Flags:
-    """Flag Jacobians whose smallest singular value is below a bound; shape (N,)."""
     rows = np.arange(len(Js))
     if Js.shape[1] == Js.shape[2]:
         # A bound on the product of the other singular values clears most by the determinant, without an SVD.
@@ -304,7 +299,6 @@ def first_of_each(found: InverseKinematics) -> InverseKinematics:
 
 
 def _answer(problem: TargetProblem, form: ClosedForm, table: BranchTable) -> InverseKinematics:
-    """Build the answer from the branches that Pinocchio confirms as solutions."""
     counts = np.diff(table.firsts)
     owners = np.repeat(np.arange(len(counts)), counts)
     judgement = judged(problem if (counts == 1).all() else problem.taken(owners), table.qs)
@@ -312,7 +306,6 @@ def _answer(problem: TargetProblem, form: ClosedForm, table: BranchTable) -> Inv
 
 
 def _solved(problem: TargetProblem, form: ClosedForm, **changes: Any) -> BranchTable:
-    """Solve the targets by the closed form, as the options say but for `changes`."""
     options = problem.options
     asked = {"respect_limits": options.respect_limits, "elbow_angles": options.elbow_angle, **changes}
     return form.solve(problem.targets, problem.seeds, tolerances=problem.tolerances, **asked)
@@ -347,7 +340,6 @@ def _spread(problem: TargetProblem, form: ClosedForm, i: int, table: BranchTable
 
 
 def _turned(problem: TargetProblem, i: int, table: BranchTable, whole: bool) -> tuple[BranchTable, bool]:
-    """Expand each branch to all full turns that the limits allow."""
     qs, owners, whole = wound(problem, i, table.qs, whole)
     return _picked(table, owners)._replace(qs=qs), whole
 
@@ -371,7 +363,6 @@ def _sorted(problem: TargetProblem, i: int, table: BranchTable) -> BranchTable:
 
 
 def _row(table: BranchTable, i: int) -> BranchTable:
-    """Return the branches of one target of a table."""
     return _picked(table, slice(table.firsts[i], table.firsts[i + 1]))
 
 
@@ -390,6 +381,5 @@ def _together(tables: Iterable[BranchTable]) -> BranchTable:
 
 
 def _nothing(problem: TargetProblem, count: int) -> BranchTable:
-    """Create a table without solutions for a number of targets."""
     none = np.zeros(0, dtype=np.int64)
     return BranchTable(np.empty((0, len(problem.chain))), none, none, np.zeros(count + 1, dtype=np.int64))

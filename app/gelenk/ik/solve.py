@@ -58,11 +58,8 @@ def inverse_kinematics(
     """Solve for the configurations that bring the tip to each target.
 
     Args:
-        robot: The robot.
-        chain: Base and tip.
         targets: Desired T_base_tip; N of them.
         seeds: Initial configurations, to which solutions shall be near; one for all or one each, shape (1 or N, n).
-        options: Task, method and bounds.
 
     Raises:
         InvalidField: An option needs a closed form that the chain does not have.
@@ -145,12 +142,9 @@ def _analytic(problem: TargetProblem, form: ClosedForm) -> InverseKinematics:
 
 
 def solve_quickly(problem: TargetProblem, starts: int, *, by_form: bool = False) -> InverseKinematics | None:
-    """Return one solution per target if that takes only tens of microseconds, else None.
+    """Return one solution for each of a few targets if that takes only tens of microseconds, else None.
 
-    Args:
-        problem: The problem, with a few targets.
-        starts: Starts of each target.
-        by_form: Whether to accept solutions of a closed form alone.
+    With `by_form`, only solutions of a closed form count.
     """
     chain, count = problem.chain, len(problem)
     if not is_looked_at(chain, problem.task):
@@ -174,7 +168,6 @@ def solve_quickly(problem: TargetProblem, starts: int, *, by_form: bool = False)
 
 
 def _one(problem: TargetProblem) -> InverseKinematics:
-    """Find one solution per target from many starts."""
     options, count = problem.options, len(problem)
     found, too_far, outside = _searched(problem)
     if options.objective is not None and found.solved.any():
@@ -285,7 +278,6 @@ def _every(problem: TargetProblem) -> InverseKinematics:
 
 
 def _every_of(problem: TargetProblem, i: int, system: Continuation | None) -> Branches:
-    """Find all solutions of one target, by continuation if it is available."""
     options = problem.options
     if system is None:
         return all_branches(problem, i, windings=options.windings)

@@ -94,7 +94,6 @@ def _closed_forms() -> None:
 
 
 def _answers() -> None:
-    """Solve inverse kinematics with the options that requests use."""
     robot, chain, qs = _small_arm()
     poses, start = forward_kinematics(robot, chain, qs).poses, mid_range(chain)[None]
     for options in (Options(), Options(every=True), Options(trace=True, max_iterations=1)):

@@ -62,8 +62,7 @@ class BranchTable(NamedTuple):
 
     Attributes:
         qs: Solutions, nearest to the seed first; shape (M, n), [rad or m].
-        codes: Bits of the roots chosen; shape (M,).
-        free: Bit mask: bit j is set if variable j was free and kept the seed's value; shape (M,).
+        codes, free: Bits of the roots chosen, and of the free variables, which kept the seed's value; shape (M,) each.
         firsts: First row of each target's solutions, and M at the end; shape (N + 1,).
         doubtful: 1 if rounding may have cost solutions of a target; shape (N,), or empty if not needed.
     """
@@ -100,9 +99,6 @@ def branches(
     """Find the solutions of each target within the limits.
 
     Args:
-        flat: The chain.
-        plan: The plan of the closed form.
-        goal: Task and tolerances.
         limits: Lower and upper limits of the variables, infinite if they do not count; shape (2, n), [rad or m].
         targets: Rotation row by row, then position; shape (N, 12).
         seeds: One configuration for all targets or one each; shape (1 or N, n), [rad or m].
@@ -147,7 +143,6 @@ def _branches(
     elbow_angles: Array,
     most: int,
 ) -> tuple[Array, Indices, Indices, Indices]:
-    """See `branches`."""
     flat = FlatChain(placements, joints, drives)
     plan = SubproblemPlan(kind, backwards, form, placed, axes, points, slides, order, lines, zero, reach, terms)
     goal = Goal(bounds, weights, what, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
@@ -203,7 +198,6 @@ def _elbow_angles(
     terms: Array,
     qs: Array,
 ) -> Array:
-    """See `elbow_angles`."""
     plan = SubproblemPlan(kind, backwards, form, placed, axes, points, slides, order, lines, zero, reach, terms)
     angles = np.empty(len(qs))
     for i in range(len(qs)):
@@ -226,7 +220,6 @@ def _solve_all(
     work: Work,
     table: tuple[Array, Indices, Indices, Indices],
 ) -> None:
-    """Fill the table, one target after another."""
     qs, labels, firsts, doubtful = table
     total, n = 0, seeds.shape[1]
     for i in range(len(targets)):
@@ -340,7 +333,6 @@ def _refine(flat: FlatChain, goal: Goal, work: Work, kept: _Kept) -> int:
 
 @inlined
 def _good(goal: Goal, work: Work) -> int:
-    """Bit mask of the lanes that are within the tolerances."""
     good: int = bits(within(goal, load(work.state, _POSITION), load(work.state, _ORIENTATION)))
     return good
 
@@ -452,7 +444,6 @@ def _insert(kept: _Kept, count: int, flat: FlatChain, seed: Array) -> int:
 
 @inlined
 def _copy(kept: _Kept, source: int, place: int) -> None:
-    """Copy one row of the solutions into another."""
     for j in range(kept.qs.shape[1]):
         kept.qs[place, j] = kept.qs[source, j]
     kept.distances[place], kept.errors[place] = kept.distances[source], kept.errors[source]

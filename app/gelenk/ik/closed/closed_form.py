@@ -62,10 +62,6 @@ class ClosedForm:
 
     Attributes:
         name: The geometric property that allows it, in words.
-        chain: The chain.
-        task: The pose directions that count.
-        plan: How the chain is solved.
-        choices: Meaning of each root.
         tolerance: Allowed deviation of the geometry from the plan: sine of an angle, or distance [m].
     """
 
@@ -89,12 +85,9 @@ class ClosedForm:
         """Compute the branches of each target, nearest to the seed first.
 
         Args:
-            targets: Desired T_base_tip; N of them.
             seeds: One configuration for all targets or one each; shape (1 or N, n), [rad or m].
             tolerances: Of position [m] and orientation [rad].
-            respect_limits: Whether solutions must be within the joint limits.
             elbow_angles: Angles of a free elbow, one for all targets or one each; by default the seeds', [rad].
-            most: Largest number of solutions of one target.
         """
         chain = self.chain
         goal = make_goal(chain, self.task, tolerances, False, 1)
@@ -134,10 +127,9 @@ class ClosedForm:
         return self.plan.kind == ELBOW
 
     def elbow_angles(self, qs: Array) -> Array:
-        """Elbow angle about the line from shoulder to wrist, zero in the plane of that line and axis 1; (N,), [rad].
+        """Elbow angles about the line from shoulder to wrist, of configurations (N, 7) [rad]; shape (N,), [rad].
 
-        Args:
-            qs: Configurations of an arm with a free elbow; shape (N, 7), [rad].
+        They are zero in the plane of that line and axis 1.
         """
         return elbow_angles(self.chain.flat, self.plan, np.ascontiguousarray(qs))
 
@@ -162,14 +154,12 @@ class ClosedForm:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The meaning of a root in branch codes.
+    """The meaning of a root in branch codes; the bit is 0 if roots are numbered.
 
     Attributes:
         name: `shoulder`, `elbow` or `wrist`; `arm` if roots are numbered.
-        bit: Bit of the root in the code; 0 if roots are numbered.
         values: Names of the root if the bit is 0, and if it is 1.
-        turned_by: Another bit that may swap the two names.
-        turns: Whether that bit swaps them.
+        turned_by, turns: Another bit, and whether it swaps the two names.
     """
 
     name: str
@@ -267,12 +257,9 @@ class JointScrews:
     """The lines of the joints at the zero configuration, in solving order.
 
     Attributes:
-        axes: Unit vectors; shape (n, 3).
-        points: A point on each line; shape (n, 3), [m].
-        slides: Which joints are prismatic; shape (n,).
+        axes, points: Unit vectors, and a point on each line [m]; shape (n, 3) each.
         tip: Origin of the tip at zero if solving starts at the base, else of the base; shape (3,), [m].
         zero: T_0⁻¹, rotation row by row, then translation; shape (12,).
-        backwards: Whether solving starts at the tip.
         tolerance: Distance [m] at which lines count as intersecting, and sine at which they count as parallel.
     """
 
@@ -368,7 +355,6 @@ def _is_positioned(screws: JointScrews, placed: int, centre: Array) -> bool:
 
 
 def _carried(screws: JointScrews, q: Array, point: Array) -> Array:
-    """Move a point by the first joints; shape (3,), [m]."""
     for i in reversed(range(len(q))):
         h, o = screws.axes[i], screws.points[i]
         if screws.slides[i]:
@@ -491,7 +477,6 @@ def _parallel_plans(screws: JointScrews) -> Iterator[tuple[str, SubproblemPlan]]
 
 
 def _general_plan(screws: JointScrews) -> SubproblemPlan:
-    """Return the plan for six revolute joints of any geometry."""
     lines = np.zeros((_LINES, 3))
     points = screws.points.copy()
     for i in range(5):
@@ -536,7 +521,6 @@ def _feet(p: Array, a: Array, q: Array, b: Array, tolerance: float) -> tuple[Arr
 
 
 def _square_to(h: Array) -> Array:
-    """Return a unit vector perpendicular to a unit vector."""
     x = np.cross(np.eye(3)[int(np.argmin(np.abs(h)))], h)
     return np.asarray(x / np.linalg.norm(x))
 
@@ -561,7 +545,6 @@ def _trial(form: ClosedForm, count: int) -> tuple[Array, BranchTable]:
 
 
 def _branches_of(form: ClosedForm, qs: Array, seeds: Array) -> BranchTable:
-    """Solve the poses of configurations, with the elbow where it is."""
     poses = Poses(*chain_poses(form.chain.flat, qs))
     elbows = form.elbow_angles(qs) if form.has_free_elbow else None
     return form.solve(poses, seeds, respect_limits=False, elbow_angles=elbows)

@@ -56,15 +56,13 @@ class Scratch(NamedTuple):
         right: Right sides without their constants; shape (EQUATIONS, 8).
         values: Right sides at nine pairs of angles; shape (9, EQUATIONS).
         matrix: Matrix of the determinant; shape (ORDER, ORDER).
-        series: Cosine and sine coefficients of the determinant; shape (2, _DEGREE + 1).
-        samples: Samples of the determinant; shape (_SAMPLES,).
+        series, samples: Cosine and sine coefficients of the determinant, (2, _DEGREE + 1), and samples, (_SAMPLES,).
         turns: Zeros of its slope, [rad]; shape (48,).
         stack: Bernstein coefficients of the slope on arcs still to examine; shape (64, _TERMS).
         edges: Beginnings and widths of these arcs, [rad]; shape (2, 64).
         powers: Power coefficients of the slope on an arc; shape (_TERMS,).
         roots: Roots of the determinant, [rad]; shape (32,).
-        vectors: Null vectors of the matrix; shape (3, ORDER).
-        combined: Combination of two null vectors; shape (ORDER,).
+        vectors, combined: Null vectors of the matrix, and a combination of two; shapes (3, ORDER) and (ORDER,).
         order: Column order after pivoting; shape (ORDER,).
         pairs: Joints 4 and 5 of a root, [rad]; shape (3, 2).
     """
@@ -199,7 +197,6 @@ def _triangulate(left: Array, right: Array) -> None:
 
 @inlined
 def _fill(space: Scratch, q3: float) -> None:
-    """Fill the matrix for a value of joint 3 [rad]."""
     c, s = math.cos(q3), math.sin(q3)
     M, left = space.matrix, space.left
     for r in range(6):
@@ -212,7 +209,6 @@ def _fill(space: Scratch, q3: float) -> None:
 
 @unmanaged
 def _determinant(space: Scratch, q3: float) -> float:
-    """Compute the determinant for a value of joint 3 [rad] by elimination with partial pivoting."""
     _fill(space, q3)
     M = space.matrix
     product = 1.0
@@ -261,7 +257,6 @@ def third_joint(space: Scratch) -> int:
 
 @unmanaged
 def _series_at(series: Array, q: float) -> tuple[float, float, float]:
-    """Evaluate a trigonometric polynomial and its first two derivatives."""
     c, s = math.cos(q), math.sin(q)
     value, slope, bend = series[0, 0], 0.0, 0.0
     cm, sm = 1.0, 0.0
@@ -366,7 +361,6 @@ def _bernstein(series: Array, centre: float, powers: Array, out: Array) -> bool:
 
 @inlined
 def _sign_changes(coefficients: Array) -> int:
-    """Count the sign changes in a sequence of coefficients, ignoring zeros."""
     changes, sign = 0, 0.0
     for k in range(_TERMS):
         value = coefficients[k]

@@ -71,11 +71,9 @@ class SubproblemPlan(NamedTuple):
 
     Attributes:
         kind: `DECOUPLED`, `PARALLEL`, `ELBOW` or `GENERAL`.
-        backwards: 1 if the arm is solved from its tip.
         form: How the positioning joints are solved: `SKEW`, `COPLANAR`, `OBLIQUE`, `SQUARE` or `RAILS`.
         placed: Number of joints that position the wrist point; 3 for `ELBOW`.
-        axes: Joint axes at zero; shape (n, 3).
-        points: A point on each axis; shape (n, 3), [m].
+        axes, points: Joint axes at zero, and a point on each [m]; shape (n, 3) each.
         slides: 1 for a prismatic joint; shape (n,).
         order: The positioning joints in the order of elimination; shape (3,).
         lines: Constants of the positioning arm, see `closed_form`; shape (16, 3).
@@ -103,12 +101,10 @@ class Candidates(NamedTuple):
 
     Attributes:
         values: Joint values, in solving order; shape (MOST, n), [rad or m].
-        codes: Bits of the roots chosen; shape (MOST,).
-        free: Bit mask: bit i is set if joint i was free and kept the seed's value; shape (MOST,).
+        codes, free: Bits of the roots chosen, and of the free joints, which kept the seed's value; shape (MOST,) each.
         roots: Space for the roots of an equation; shape (8,).
         first: Values of the positioning joints, in the order of elimination; shape (8, 3), [rad or m].
         marks: Their codes and bit masks of free joints; shape (2, 8).
-        space: Space for a general arm.
         doubtful: 1 if a root may be double, so that rounding may have cost solutions; shape (1,).
     """
 
@@ -130,12 +126,7 @@ _AXIS, _POINT, _SQUARE, _LEVEL, _ALONG, _ACROSS, _SOLVE, _CENTRE, _LEVER = 0, 3,
 def compose(plan: SubproblemPlan, target: Array, seed: Array, elbow_angle: float, found: Candidates) -> int:
     """Compute the candidates of one target, T_base_tip as rotation row by row, then position; return their number.
 
-    Args:
-        plan: The arm.
-        target: The target; shape (12,).
-        seed: Joint values that free joints keep, in solving order; shape (n,), [rad or m].
-        elbow_angle: Desired angle of the elbow on its circle, [rad]; used by `ELBOW` alone.
-        found: Output.
+    Free joints keep the values of the seed, which is in solving order. `ELBOW` alone uses the angle, [rad].
     """
     M = _displacement(plan, target)
     found.doubtful[0] = 0
@@ -714,7 +705,6 @@ def _planar(
 
 @inlined
 def _flattened(h: Vector, a: Vector) -> Vector:
-    """Part of a vector perpendicular to h."""
     return plus(a, -dot(h, a), h)
 
 
@@ -826,7 +816,6 @@ def _general(plan: SubproblemPlan, M: Motion, found: Candidates) -> int:
 
 @inlined
 def _screwed(axes: Array, points: Array, i: int, angle: float, p: Vector) -> Vector:
-    """Turn a point about the line of joint i."""
     return plus(row(points, i), 1.0, turned(row(axes, i), angle, minus(p, row(points, i))))
 
 

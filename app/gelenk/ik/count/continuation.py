@@ -85,10 +85,8 @@ class Continuation:
     """A solver for all solutions of an arm with six joints.
 
     Attributes:
-        chain: Chain of six joints.
         zero: T_0⁻¹, rotation row by row, then translation; shape (12,).
-        centre: Origin of the scaled coordinates in the base; shape (3,), [m].
-        size: Size of the arm, [m].
+        centre, size: Origin of the scaled coordinates in the base, shape (3,), and size of the arm, [m].
         arm: The arm in scaled coordinates, with solutions of some target.
         is_counted: Whether these are as many as an arm with the same special geometry has.
         special: An exactly special arm with the full count, used if `is_counted` is False; may be None.

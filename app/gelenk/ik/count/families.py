@@ -74,7 +74,6 @@ def families_of(problem: TargetProblem, i: int, qs: Array) -> tuple[Family, ...]
 
 
 def _family(chain: Chain, motion: _Motion, most: int) -> Family:
-    """Describe a walk in words, with at most `most` sample configurations."""
     whole, path = widened(chain, motion.path)
     names = [quoted(name) for name in chain.joint_names]
     symbols = [f"q_{whole.joint_names.index(name) + 1}" for name in chain.joint_names]
@@ -103,7 +102,6 @@ def _sum(factors: Array, names: list[str]) -> str:
 
 
 def _motion(problem: TargetProblem, q: Array) -> _Motion | None:
-    """Return the motion from a solution along the target, or None if there is no motion."""
     q, kernel, _ = _corrected(problem, q)
     for direction in kernel:
         ahead, is_loop = _walk(problem, q, direction, _MOST_STEPS)

@@ -35,10 +35,8 @@ class Room(NamedTuple):
     """Working space for one path.
 
     Attributes:
-        q: Joint values; shape (6,).
-        slope: Derivatives of the joint values by t; shape (6,).
-        before: Joint values one step before; shape (6,).
-        slope_before: Their derivatives by t; shape (6,).
+        q, slope: Joint values, and their derivatives by t; shape (6,) each.
+        before, slope_before: The same one step before.
         trial: Predicted, then corrected joint values; shape (6,).
         turns: Cosine and sine of each joint value; shape (6, 2).
         place: Axes, points and target at some t; shape (16, 3).
@@ -64,7 +62,6 @@ def follow(
     Args:
         screws: Axes, then points, of the arm at either end; shape (2, 12, 3).
         targets: Quaternion w x y z, then position, at either end; shape (2, 7).
-        slides: 1 for a prismatic joint; shape (6,).
         starts: Solutions at t = 0; shape (k, 6).
         longest: Largest first correction [rad or sizes of the arm]; a larger one shortens the step.
         far: Imaginary part [rad] beyond which a path counts as lost to infinity.
@@ -98,7 +95,6 @@ def follow(
 def _followed(
     screws: ComplexArray, targets: ComplexArray, slides: Indices, longest: float, far: float, room: Room
 ) -> float:
-    """Follow one path from `q`, in place; return the length of the last Newton step, infinite if the path is lost."""
     t, h, t_before = 0.0, _FIRST, -1.0
     _rates(screws, targets, slides, t, room)
     for _ in range(_STEPS):
@@ -184,7 +180,6 @@ def _is_far(slides: Indices, far: float, q: ComplexArray) -> bool:
 
 @unmanaged
 def _newton(slides: Indices, q: ComplexArray, room: Room) -> float:
-    """Take one step of Newton's method; return its length."""
     _close(slides, q, True, room)
     length = _solve(room.system)
     if length < 1e3:
@@ -222,7 +217,6 @@ def _put(rows: ComplexArray, i: int, a: _Vector) -> None:
 
 @unmanaged
 def _put_in_place(screws: ComplexArray, targets: ComplexArray, t: float, place: ComplexArray) -> None:
-    """Fill `place` with axes, points and target at t."""
     for i in range(2 * JOINTS):
         p = plus(scaled(1.0 - t, _row(screws[0], i)), t, _row(screws[1], i))
         length: Any = cmath.sqrt(dot(p, p))

@@ -22,8 +22,7 @@ class JointLines(NamedTuple):
 
     Attributes:
         links: θ, d, a and α from each line to the next, with θ = d = 0 for the first; shape (n - 1, 4).
-        first: Frame on the first line; shape (4, 4).
-        last: Frame on the last line of the actual arm; shape (4, 4).
+        first, last: Frames on the first line, and on the last of the actual arm; shape (4, 4) each.
         off: Largest deviation of the last line from these parameters over all joint values: angle [rad], and distance
             at the origin.
     """
@@ -54,10 +53,7 @@ class JointLines(NamedTuple):
 def geometry(axes: Array, points: Array, tolerance: float) -> JointLines:
     """Compute the parameters of an arm, with lengths and sines of α up to a tolerance set to 0.
 
-    Args:
-        axes: Unit vectors; shape (n, 3).
-        points: A point on each axis; shape (n, 3).
-        tolerance: Sine of an angle, or length in the unit of the points.
+    Axes are unit vectors, points lie on them in any unit of length; shape (n, 3) each.
     """
     links, angle, distance, reach = [], 0.0, 0.0, 0.0
     at, first, before = points[0], np.eye(4), np.eye(4)
@@ -104,7 +100,7 @@ def drawn(
 
 
 def reaches(screws: ComplexArray, off: tuple[float, float], qs: ComplexArray) -> Array | None:
-    """Bound the motion of each solution as the target moves; None if solutions may meet on the way.
+    """Bound each solution's motion as the target moves, (N, n) [rad]; None if solutions may meet on the way.
 
     Near a solution the loop is exp(J_1 x_1) ⋯ exp(J_n x_n). In the basis of the twists J_k, each in units of the
     first-order motion of x_k, the summed sizes of their brackets measure how much the loop bends. If that is small, a
@@ -114,9 +110,6 @@ def reaches(screws: ComplexArray, off: tuple[float, float], qs: ComplexArray) ->
         screws: Axes, then points, of revolute joints; shape (2 n, 3).
         off: Motion of the target: angle [rad], and distance at the origin.
         qs: All solutions of the target, each isolated; shape (N, n), [rad].
-
-    Returns:
-        Bounds on the joint motions; shape (N, n), [rad].
     """
     Js = _twists(screws, qs)
     inverses = np.linalg.inv(Js)

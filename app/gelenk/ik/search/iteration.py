@@ -57,14 +57,11 @@ class Goal(NamedTuple):
             starts are drawn; 4 and 5, limits of freely turning variables, else NaN; shape (6, n), [rad or m].
         weights: 1 for each direction that counts, else 0: x y z in the base's axes, rx ry rz about the target's;
             shape (6,).
-        kind: `FULL`, `AXIS` or `SOME`.
-        axis: For `AXIS`, index of the tip's axis to align with the target's.
-        position_tolerance: Largest position error, [m].
-        chord_tolerance: Largest 2 sin(θ/2), θ being the angle of the orientation error, or of its parts that count.
+        kind, axis: `FULL`, `AXIS` or `SOME`; for `AXIS`, index of the tip's axis to align with the target's.
+        position_tolerance, chord_tolerance: Largest position error [m], and largest 2 sin(θ/2), θ being the angle of
+            the orientation error, or of its parts that count.
         slack: Share of the tolerances subtracted from the errors: 0, the best, drives errors to zero; 0.9 makes use
             of loose tolerances.
-        starts: Number of starts of each target.
-        random_seed: Seed of the random starts.
     """
 
     bounds: Array
@@ -83,14 +80,11 @@ class Work(NamedTuple):
 
     Attributes:
         state: Target, errors and counts of each lane.
-        q: Configuration of each lane.
-        previous: Configuration of each lane when it was last judged.
-        columns: Jacobian with one column per joint.
-        J: Jacobian with one column per variable.
+        q, previous: Configuration of each lane, now and when it was last judged.
+        columns, J: Jacobian with one column per joint, and per variable.
         candidates: The nearest configurations that failed starts reached, one after another.
         errors: Squared errors of the candidates, infinite in empty places; shape (KEPT,).
-        starts: Number of each lane's current start; shape (LANES,).
-        owners: Index of each lane's current target; shape (LANES,).
+        starts, owners: Number of each lane's current start, and index of its target; shape (LANES,) each.
         coupled: Whether the columns by variable differ from those by joint.
     """
 
@@ -178,7 +172,6 @@ def _with_angles(work: Work, w: tuple[Lanes, Lanes, Lanes]) -> tuple[Lanes, Lane
 
 @inlined
 def _in_target(state: Array, w0: Lanes, w1: Lanes, w2: Lanes) -> tuple[Lanes, Lanes, Lanes]:
-    """Express a vector of the base in the target's axes."""
     return (
         load(state, 0) * w0 + load(state, 3) * w1 + load(state, 6) * w2,
         load(state, 1) * w0 + load(state, 4) * w1 + load(state, 7) * w2,

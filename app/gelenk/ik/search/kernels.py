@@ -67,8 +67,6 @@ def search(
     """Solve each target by its first start that converges.
 
     Args:
-        flat: The chain.
-        goal: Task, tolerances and bounds.
         targets: Rotation row by row, then position; shape (N, 12).
         seeds: One configuration for all targets or one each; shape (1 or N, n).
         all_or_none: Whether to give up at the first unsolved target, without a search for the nearest configuration.
@@ -111,7 +109,6 @@ def _search(
     seeds: Array,
     all_or_none: bool,
 ) -> tuple[Array, Indices]:
-    """See `search`."""
     flat = FlatChain(placements, joints, drives)
     goal = Goal(bounds, weights, kind, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
     count, n = len(targets), seeds.shape[1]
@@ -138,7 +135,6 @@ def _gather(
     target: Array,
     seed: Array,
 ) -> Array:
-    """See `gather`."""
     flat = FlatChain(placements, joints, drives)
     goal = Goal(bounds, weights, kind, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
     found = np.empty((starts, len(seed)))
@@ -172,7 +168,6 @@ def _search_all(
 
 @unmanaged
 def _gather_all(flat: FlatChain, goal: Goal, target: Array, seed: Array, work: Work, found: Array) -> int:
-    """Fill `found` with the configurations of `gather` and return their number."""
     count = 0
     starts = work.starts
     for lane in range(LANES):
@@ -341,7 +336,6 @@ def _approach(flat: FlatChain, goal: Goal, work: Work, q: Array) -> None:
 
 @unmanaged
 def _approach_from(flat: FlatChain, goal: Goal, work: Work, first: int, n: int, rounds: int) -> None:
-    """Drive eight of the candidates downhill, one per lane."""
     for lane in range(LANES):
         # If fewer starts than lanes have failed, some lanes share a candidate.
         k = first + lane if work.errors[first + lane] < np.inf else first
@@ -416,7 +410,6 @@ def _improve(
 
 @inlined
 def _has_jumped(work: Work, lane: int, seed: Array, q: Array) -> bool:
-    """Check whether an answer is far from a seed that was near its target."""
     first = np.sqrt(work.state[FIRST * LANES + lane])
     jumped: bool = first < _NEAR and _largest_difference(q, seed) > max(_JUMP, _STRETCH * first)
     return jumped
@@ -432,7 +425,6 @@ def _largest_difference(q: Array, other: Array) -> float:
 
 @inlined
 def _first(starts: Indices) -> int:
-    """Return the lane of the start with the lowest number."""
     first = 0
     for lane in range(LANES):
         if starts[lane] < starts[first]:
@@ -447,7 +439,6 @@ def _has(ended: int, bit: int) -> bool:
 
 @inlined
 def _wind(goal: Goal, seed: Array, q: Array) -> None:
-    """Turn freely turning joints by full turns into their limits, as near to the seed as possible."""
     for j in range(len(q)):
         lower, upper = goal.bounds[4, j], goal.bounds[5, j]
         if lower <= upper:
@@ -456,7 +447,6 @@ def _wind(goal: Goal, seed: Array, q: Array) -> None:
 
 @inlined
 def _set_start(goal: Goal, work: Work, lane: int, seed: Array, start: int) -> None:
-    """Set a lane to a start, clipped to the bounds."""
     for j in range(len(seed)):
         value = seed[j]
         if start > 0:

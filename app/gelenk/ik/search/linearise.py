@@ -13,21 +13,12 @@ from gelenk.robot.poses import Poses
 
 
 def linearise(chain: Chain, targets: Poses, qs: Array, task: Task, *, chords: bool = False) -> tuple[Array, Array]:
-    """Errors e and Jacobians J with e(q + Δq) ≈ e(q) - J Δq, reduced to the rows that count.
+    """Errors e, (N, m) [m and rad], and Jacobians J, (N, m, n), in the rows that count: e(q + Δq) ≈ e(q) - J Δq.
 
     e points from tip to target: the position difference in the base's axes, and the rotation vector, in the base's
     axes for a full pose, else in the target's. J is the geometric Jacobian in the same axes. If one axis is to be
-    aligned, the rotation is the shortest one that aligns it.
-
-    Args:
-        chain: Base and tip.
-        targets: Desired T_base_tip; N of them.
-        qs: Configurations; shape (N, n), [rad or m].
-        task: Which directions count; m of them.
-        chords: Whether to scale rotation errors to length 2 sin(θ/2), as the kernels do, instead of θ.
-
-    Returns:
-        e, shape (N, m), [m and rad], and J, shape (N, m, n).
+    aligned, the rotation is the shortest one that aligns it. `chords` scales rotation errors to length 2 sin(θ/2),
+    as the kernels do, instead of θ.
     """
     positions, Rs, Js = chain_jacobians(chain.flat, qs)
     errors = np.empty((len(qs), 6))

@@ -119,7 +119,6 @@ def _spans(chain: Chain) -> tuple[Array, Array, Array]:
 
 
 def _value(chain: Chain, targets: Poses, qs: Array, objective: Objective, task: Task) -> Array:
-    """Evaluate the objective at each configuration; shape (N,)."""
     lower, upper, inverse_ranges = _spans(chain)
     value: Array
     match objective.name:

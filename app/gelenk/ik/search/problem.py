@@ -41,7 +41,6 @@ class DescentRule:
     """A method and its parameters.
 
     Attributes:
-        method: Name of the method.
         step_size: α of the gradient; None for a line search.
         damping: λ of damped least squares; None for an adaptive λ, which starts in proportion to ‖e‖².
         switch_error: ‖e‖ at which `gradient_then_newton` switches to Newton.
@@ -58,22 +57,15 @@ class Options:
     """Options of an inverse kinematics call.
 
     Attributes:
-        task: Which directions of the pose count.
-        position_tolerance: Largest position error, [m].
-        orientation_tolerance: Largest orientation error, [rad].
-        respect_limits: Whether solutions must be within the joint limits.
+        position_tolerance, orientation_tolerance: Largest errors, [m] and [rad].
         every: Whether to find all solutions.
         most: Largest number of solutions of one target.
         windings: Whether solutions that differ by full turns count as different, where limits allow them.
         method: `auto`; `analytic`, a closed form, an elimination or a continuation; or one of the course's methods,
             which start from the seed alone.
-        rule: Parameters of the course's method.
         max_iterations: Budget for a target; None for the method's default.
         time_limit: Time for all targets without compilation, [s].
-        random_seed: Seed of the random starts.
-        objective: Function that a redundant arm minimises by its freedom.
         elbow_angle: Desired angle of a free elbow, [rad]; only for a closed form that has one.
-        trace: Whether to report each iteration.
         fixed_joints: Values of the held variables by name, [rad or m].
     """
 
@@ -100,11 +92,8 @@ class TargetProblem:
     """Targets for a chain, and how they are to be solved.
 
     Attributes:
-        robot: The robot.
-        chain: Base and tip.
         targets: Desired T_base_tip; N of them.
         seeds: One configuration for all targets or one each; shape (1 or N, n), [rad or m].
-        options: Task, method and bounds.
         deadline: When to stop, on `gelenk.robot.compilation.clock`, [s]; None for no limit.
     """
 

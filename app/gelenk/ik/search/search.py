@@ -35,8 +35,7 @@ class Found:
         qs: Solutions, within the limits and as near to the seed as full turns allow; for an unsolved target the
             nearest configuration found; shape (N, n), [rad or m].
         solved: Whether the errors are within the tolerances; shape (N,).
-        restarts: Number of starts that failed before; shape (N,).
-        iterations: Iterations of the start that converged; shape (N,).
+        restarts, iterations: Starts that failed before, and iterations of the one that converged; shape (N,) each.
         followed: k if the search followed the path from the seed in small steps with initial damping 10⁻ᵏ, else -1;
             shape (N,).
         in_time: Whether the target was tried before time ran out; shape (N,).
@@ -68,11 +67,8 @@ def search(
 ) -> Found:
     """Solve each target by its first start that converges; start 0 is the seed, the others are random.
 
-    Args:
-        problem: The targets; their seeds may be outside the limits.
-        max_iterations: Budget for each target.
-        slack: Share of the tolerances subtracted from the errors, see `Goal.slack`.
-        threads: Threads for a large batch; by default one per processor.
+    Seeds may be outside the limits. The iterations are for each target, the slack is that of `Goal`. A large batch is
+    shared between threads, by default one per processor.
     """
     chain, seeds, count = problem.chain, problem.seeds, len(problem)
     goal = problem.goal(max(1, max_iterations // ITERATIONS_PER_START), slack)

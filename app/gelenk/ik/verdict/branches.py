@@ -181,13 +181,8 @@ def thin_out(qs: Array, free: Flags, spacing: float, most: int) -> Indices:
 def wound(problem: TargetProblem, i: int, qs: Array, complete: bool) -> tuple[Array, Indices, bool]:
     """Expand each solution to all combinations of full turns that the limits allow, nearest to the seed first.
 
-    A joint without limits keeps its value; without respect for limits nothing is turned.
-
-    Args:
-        problem: The targets; its options give the largest number of configurations.
-        i: Index of the target.
-        qs: Solutions; shape (k, n), [rad or m].
-        complete: Whether these are all solutions modulo full turns.
+    A joint without limits keeps its value; without respect for limits nothing is turned. The options give the largest
+    number of configurations; `complete` says whether `qs`, shape (k, n), are all solutions modulo full turns.
 
     Returns:
         Configurations, shape (m, n); the index in `qs` of each, shape (m,); and whether these are all solutions.
@@ -212,7 +207,6 @@ def wound(problem: TargetProblem, i: int, qs: Array, complete: bool) -> tuple[Ar
 
 
 def _turns(chain: Chain, j: int, value: float, turning: bool) -> range:
-    """Range of the full turns by which a variable can move within its limits."""
     lower, upper = chain.lower[j], chain.upper[j]
     if not (turning and np.isfinite(lower) and np.isfinite(upper)):
         return range(1)

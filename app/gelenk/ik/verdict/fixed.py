@@ -17,7 +17,6 @@ class HeldChain(Chain):
     """A chain with some joints held: each held joint becomes part of a constant placement.
 
     Attributes:
-        whole: The chain with all its joints.
         held: Configuration of the whole chain with the held values, else zeros; shape (n,), [rad or m].
         free: Indices of the remaining variables in the whole chain, base to tip.
     """

@@ -21,16 +21,12 @@ _WITHIN = 1e-9
 def judged(
     problem: TargetProblem, qs: Array, claimed: Flags | None = None, worth: Flags | None = None
 ) -> tuple[Flags, Array, Array]:
-    """Check which configurations solve their targets within the limits, by Pinocchio, and return the errors.
+    """Check by Pinocchio which configurations solve their targets within the limits; also return the errors [m], [rad].
 
     Args:
-        problem: The problem, with one target per configuration.
-        qs: Configurations; shape (N, n), [rad or m].
+        qs: Configurations, one per target; shape (N, n), [rad or m].
         claimed: Which of them the solver claims as solutions, default all; shape (N,).
         worth: Which of them Pinocchio recomputes, default all; our own kernels compute the others; shape (N,).
-
-    Returns:
-        Flags, distances [m] and angles [rad]; shape (N,) each.
     """
     chain = problem.chain
     whole, full = widened(chain, qs)
@@ -54,13 +50,10 @@ def assembled(
     labels: Mapping[str, Indices],
     **rest: Any,
 ) -> InverseKinematics:
-    """Build the answer for N targets from M configurations, without those that are no solutions.
+    """Build the answer for `count` targets from M judged configurations, without those that are no solutions.
 
     Args:
-        count: N.
         owners: Target of each configuration, ascending; shape (M,).
-        qs: Configurations; shape (M, n), [rad or m].
-        judgement: What `judged` returns for them.
         labels: Their iterations, restarts, codes and bit masks of free joints, as far as there are any; shape (M,).
         rest: The fields of the answer that are not per solution.
     """

@@ -18,11 +18,8 @@ class UnsolvedTarget:
     """The reason why a target is unsolved, and the nearest configuration found.
 
     Attributes:
-        status: The verdict.
-        reason: Explanation in words.
         nearest: Nearest configuration, within the limits if they count; shape (n,), [rad or m].
-        position_error: Distance of its pose from the target, [m].
-        orientation_error: Angle of its pose to the target, [rad].
+        position_error, orientation_error: Distance [m] and angle [rad] of its pose to the target.
         blocking_joints: For `outside_limits`, the joints beyond their limits.
         unserved_directions: Unit twists in the base's axes, linear before angular, that the tip cannot follow there;
             shape (k, 6).
@@ -45,22 +42,17 @@ class InverseKinematics:
 
     Attributes:
         qs: Solutions; shape (M, n), [rad or m].
-        position_errors: Errors of the poses recomputed with Pinocchio; shape (M,), [m].
-        orientation_errors: Likewise; shape (M,), [rad].
-        iterations: Iterations of the start that led to each solution; shape (M,).
-        restarts: Number of starts that failed before it; shape (M,).
+        position_errors, orientation_errors: Errors of the poses recomputed with Pinocchio; shape (M,), [m] and [rad].
+        iterations, restarts: Of the start that led to each solution, and starts failed before it; shape (M,) each.
         codes: Bits of the roots chosen in the closed form; `COUNTED` for a solution from continuation, -1 from a
             search; shape (M,).
         free: Bit mask: bit j is set if variable j was free and kept the seed's value; shape (M,).
         firsts: First row of each target's solutions, and M at the end; shape (N + 1,).
         method: Name of the iterative method.
-        failures: Failure of each unsolved target, by its index.
-        every: Whether all solutions were requested.
-        doubts: Why a solved target may have other solutions, by its index.
+        failures, doubts, families: By a target's index, why it is unsolved, why it may have other solutions, and its
+            families of infinitely many, if all were requested.
         paths: Path of each target, if a single method was run or a trace requested.
-        form: The closed form used, if any.
         is_counted: Whether continuation was used for six joints without a closed form.
-        families: Families of targets with infinitely many solutions, by index, if all were requested.
     """
 
     qs: Array

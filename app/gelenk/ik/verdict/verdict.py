@@ -63,9 +63,7 @@ def explain(
 
     Args:
         problem: The problem; after its deadline, no further reason is sought.
-        i: Index of the target.
-        found: What the search has found.
-        errors: Distances [m] and angles [rad] of that from the targets; shape (2, N).
+        errors: Distances [m] and angles [rad] of `found` from the targets; shape (2, N).
         is_too_far: Whether the target is beyond reach by distance alone.
         outside: The joints beyond their limits in a solution without limits, if one was found.
     """
@@ -193,7 +191,6 @@ def unserved_directions(problem: TargetProblem, i: int, q: Array) -> Array:
 
 
 def _linearised(problem: TargetProblem, i: int, q: Array) -> tuple[Array, Array, Flags]:
-    """Error and Jacobian at a configuration, and flags of the joints blocked at a limit."""
     (e,), (J,) = problem.linearised(i, q[None])
     return e, J, blocked(J.T @ e, q, problem.bounds)
 
@@ -242,7 +239,6 @@ def _excesses(joints: tuple[BlockingJoint, ...]) -> str:
 
 
 def _far(task: Task, errors: Array) -> str:
-    """Format the errors that count in words."""
     parts = []
     if {"x", "y", "z"} & set(task.directions):
         parts.append(f"{errors[0]:.3g} m")

@@ -31,8 +31,7 @@ class Load:
     """A rigid payload on the tip.
 
     Attributes:
-        mass: Mass, [kg].
-        center: Centre of mass in the tip frame; shape (3,), [m].
+        mass, center: Mass, [kg], and its centre in the tip frame; shape (3,), [m].
         inertia: Inertia about the centre of mass, in the tip's axes; shape (3, 3), [kg m²].
     """
 
@@ -48,9 +47,7 @@ class Body:
     Attributes:
         joint: The joint that carries the body; None for a payload.
         links: Names of the links; the frame of the first is the body's frame. A payload has the tip's frame.
-        mass: Mass, [kg].
-        center: Centre of mass in the body's frame; shape (3,), [m].
-        inertia: Inertia about the centre of mass, in the body's axes; shape (3, 3), [kg m²].
+        mass, center, inertia: As of a `Load`, in the body's frame and axes.
         flat: The chain from the root to the body's frame.
         columns: Indices of that chain's variables among those of the robot's chain.
     """
@@ -88,11 +85,7 @@ def _locked_joint(description: Description, chain: Chain, joint: Joint) -> Joint
 
 
 def bodies(description: Description, chain: Chain) -> tuple[Body, ...]:
-    """Return the bodies that a chain's variables move, one per moving joint.
-
-    Args:
-        description: The robot, with its other joints `locked`.
-    """
+    """Return the bodies that a chain's variables move, one per moving joint; other joints are `locked` already."""
     parts: dict[str, list[tuple[Link, Array]]] = {j.child: [] for j in description.joints if j.type in MOVABLE}
     for link in description.links:
         first, T = _carrier(description, link.name)
@@ -154,14 +147,11 @@ class Motions:
     """Bodies at N configurations, in the axes of the root; B bodies, n variables.
 
     Attributes:
-        masses: Masses; shape (B,), [kg].
-        centers: Centres of mass in the root frame; shape (N, B, 3), [m].
+        masses, centers: Masses, shape (B,), [kg], and their centres in the root frame, shape (N, B, 3), [m].
         inertias: Inertias about the centres of mass; shape (N, B, 3, 3), [kg m²].
-        linear: J_v of the centres of mass; shape (N, B, 3, n).
-        angular: J_ω; shape (N, B, 3, n).
+        linear, angular: J_v of the centres of mass, and J_ω; shape (N, B, 3, n) each.
         speeds: q̇, zero if no rates were requested; shape (N, n).
-        linear_rates: J̇_v at q̇; shape (N, B, 3, n). Empty if no rates were requested.
-        angular_rates: J̇_ω at q̇; the same shape.
+        linear_rates, angular_rates: J̇_v and J̇_ω at q̇, likewise. Empty if no rates were requested.
     """
 
     masses: Array
@@ -215,12 +205,7 @@ class Motions:
 
 
 def motions(carried: Sequence[Body], qs: Array, speeds: Array | None = None) -> Motions:
-    """Compute positions, inertias and Jacobians of bodies.
-
-    Args:
-        qs: Configurations of the chain; shape (N, n), [rad or m].
-        speeds: q̇, if rates of the Jacobians are requested; shape (N, n), [rad/s or m/s].
-    """
+    """Compute positions, inertias and Jacobians of bodies at configurations (N, n), and their rates if q̇ is given."""
     shape = len(qs), len(carried), 6, qs.shape[1]
     Js, rates = np.zeros(shape), np.zeros(shape if speeds is not None else (0,) * 4)
     positions, rotations = np.empty((*shape[:2], 3)), np.empty((*shape[:2], 3, 3))

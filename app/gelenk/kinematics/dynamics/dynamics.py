@@ -29,15 +29,11 @@ class Dynamics:
 
     Attributes:
         is_definite: Whether M is positive definite at all recomputed configurations.
-        certificate: Differences from the second computation.
-        mass_matrices: M; shape (N, n, n).
-        coriolis_matrices: C, with Ṁ - 2C skew; shape (N, n, n).
-        coriolis_torques: C q̇; shape (N, n), [N m or N].
-        gravity_torques: g; shape (N, n), [N m or N].
-        kinetic_energies: T; shape (N,), [J].
-        potential_energies: U, zero where the moving bodies' centre of mass is level with the root; shape (N,), [J].
-        torques: τ by inverse dynamics; shape (N, n), [N m or N].
-        accelerations: q̈ by forward dynamics; shape (N, n), [rad/s² or m/s²].
+        mass_matrices, coriolis_matrices: M, and C with Ṁ - 2C skew; shape (N, n, n) each.
+        coriolis_torques, gravity_torques: C q̇ and g; shape (N, n) each, [N m or N].
+        kinetic_energies, potential_energies: T, and U, which is zero where the moving bodies' centre of mass is level
+            with the root; shape (N,) each, [J].
+        torques, accelerations: τ by inverse, q̈ by forward dynamics; shape (N, n) each, [N m or N], [rad/s² or m/s²].
     """
 
     is_definite: bool
@@ -67,12 +63,8 @@ def dynamics(
 
     Args:
         robot: The robot; joints off the chain are locked at zero.
-        state: Configurations, velocities and the torques of the wrench at the tip.
-        terms: The requested terms.
         gravity: Gravity in the axes of the robot's root; shape (3,), [m/s²].
-        load: A payload on the tip.
-        accelerations: q̈, for inverse dynamics; shape (N, n), [rad/s² or m/s²].
-        torques: τ, for forward dynamics; shape (N, n), [N m or N].
+        accelerations, torques: q̈ for inverse, τ for forward dynamics; shape (N, n) each, as in `Dynamics`.
 
     Raises:
         InvalidField: The mass matrix is singular, so forward dynamics has no solution.
@@ -95,8 +87,6 @@ def dynamics(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Computation:
-    """Pinocchio's dynamics for a batch of states."""
-
     found: ChainMechanism
     state: State
     by: PinocchioDynamics
@@ -121,12 +111,10 @@ class _Computation:
         return found
 
     def inverse(self, accelerations: Array) -> Array:
-        """Compute τ from q̈; shape (N, n), [N m or N]."""
         by = self.by
         return self._each(accelerations.shape[1:], by.inverse, self.state.qs, self.state.speeds, accelerations)
 
     def forward(self, torques: Array) -> Array:
-        """Compute q̈ from τ; shape (N, n), [rad/s² or m/s²]."""
         by, state = self.by, self.state
         Ms = self._each((torques.shape[1],) * 2, by.mass_matrix, state.qs)
         self._refuse_singular(Ms)

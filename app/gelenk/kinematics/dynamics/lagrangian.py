@@ -21,8 +21,7 @@ class State:
     """N states of a chain, with the load of the wrench at its tip.
 
     Attributes:
-        qs: Configurations; shape (N, n), [rad or m].
-        speeds: q̇; shape (N, n), [rad/s or m/s].
+        qs, speeds: Configurations and q̇; shape (N, n) each, [rad or m] and [rad/s or m/s].
         held: Jᵀγ, the torques that the wrench at the tip requires; shape (N, n), [N m or N].
     """
 
@@ -45,11 +44,7 @@ def scaled(Ms: Array, scales: Array) -> Array:
 
 
 class Lagrangian:
-    """The equations of motion by sums over bodies, which check other results.
-
-    Args:
-        gravity: Gravity in the root's axes; shape (3,), [m/s²].
-    """
+    """The equations of motion by sums over bodies, which check other results; gravity is in the root's axes, [m/s²]."""
 
     def __init__(self, moving: Motions, state: State, gravity: Array) -> None:
         self._state, self._moving, self._gravity = state, moving, gravity
@@ -75,8 +70,7 @@ class Lagrangian:
     def errors(self, terms: Mapping[str, Array]) -> Differences:
         """Compare terms, by their names in `Dynamics`, and return the fields of the certificate that they give.
 
-        Raises:
-            CertificationFailed: A term differs by more than rounding.
+        Raises CertificationFailed if a term differs by more than rounding.
         """
         worst, speeds = Differences(), self._state.speeds
         if (Ms := terms.get("mass_matrices")) is not None:

@@ -32,13 +32,10 @@ class ChainMechanism:
     """A robot whose joints are locked except those that a chain moves.
 
     Attributes:
-        robot: The robot with locked joints.
         chain: The chain in this robot, with the same variables.
-        bodies: The bodies that the variables move.
         without_mass: Names of moved links without mass that have a shape or belong to a body without mass; a mere frame
             on a body with mass is omitted.
-        base: Pinocchio's joint that carries the base (0 for none), and the base's placement on it.
-        tip: Pinocchio's joint that carries the tip, and the tip's placement on it.
+        base, tip: Pinocchio's joint that carries each of them (0 for none), and its placement on that joint.
     """
 
     robot: RobotModel
@@ -90,7 +87,6 @@ def mechanism(robot: RobotModel, chain: Chain) -> ChainMechanism:
 
 
 def _carrier(robot: RobotModel, frame: str) -> tuple[int, pin.SE3]:
-    """Pinocchio's joint that carries a frame, and the frame's placement on it."""
     found = robot.model.frames[robot.frame_id(frame)]
     return int(found.parentJoint), found.placement.copy()
 
@@ -106,11 +102,7 @@ def _without_mass(robot: RobotModel, parts: Sequence[Body]) -> tuple[str, ...]:
 class PinocchioDynamics:
     """Pinocchio's algorithms on a mechanism, with their own model and work space, so that threads need no lock.
 
-    Not for a chain without joints, on which Pinocchio's algorithms crash.
-
-    Args:
-        gravity: Gravity in the root's axes; shape (3,), [m/s²].
-        load: A payload on the tip.
+    Not for a chain without joints, on which Pinocchio's algorithms crash. Gravity is in the root's axes, [m/s²].
     """
 
     def __init__(self, found: ChainMechanism, gravity: Array, load: Load | None = None) -> None:
@@ -164,13 +156,8 @@ class PinocchioDynamics:
         """Compute torques that hold the robot while its tip exerts a wrench, and the power of that wrench at q̇.
 
         The tip exerts the wrench on surroundings at rest in the base frame: if the chain moves the base relative to the
-        root, the reaction acts on the base.
-
-        Args:
-            q: Configuration; shape (n,), [rad or m].
-            v: Joint velocities; shape (n,), [rad/s or m/s].
-            point: Point where the force acts, in the base frame; shape (3,), [m].
-            wrench: Force and moment in the base's axes; shape (6,), [N] and [N m].
+        root, the reaction acts on the base. The force acts at `point`, [m], in the base frame, whose axes are also
+        those of the wrench, shape (6,), [N] and [N m].
         """
         model, data, full_q = self._model, self._data, self._full(q)
         pin.forwardKinematics(model, data, full_q, self._matrix @ v)

@@ -27,12 +27,7 @@ _WITHIN = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class JointBounds:
-    """Symmetric limits of a chain's variables, NaN for no limit.
-
-    Attributes:
-        velocity: q̇max; shape (n,), [rad/s or m/s].
-        effort: τmax; shape (n,), [N m or N].
-    """
+    """Symmetric limits of a chain's variables: q̇max [rad/s or m/s] and τmax [N m or N], (n,); NaN for no limit."""
 
     velocity: Array
     effort: Array
@@ -70,8 +65,7 @@ def limited_motion(ellipsoids: Ellipsoids, Js: Array, bounds: JointBounds, direc
     """Compute the tip's largest velocities and forces within the joint limits, one entry per configuration.
 
     Args:
-        ellipsoids: Ellipsoids of translation or of rotation.
-        Js: The Jacobians of these ellipsoids; shape (N, 6, n).
+        ellipsoids, Js: Ellipsoids of translation or of rotation, and their Jacobians; shape (N, 6, n).
         directions: Unit vectors in the axes of the Jacobians; shape (D, 3). Numbers for directions outside the task are
             meaningless.
 

@@ -71,7 +71,6 @@ class Ellipsoids:
     """Velocity and force ellipsoids of one part (translation, rotation or both) at N configurations, d axes each.
 
     Attributes:
-        space: The directions that count.
         sigmas: Semi-axes of the velocity ellipsoids, largest first, exactly 0 where they vanish; shape (N, d).
         axes: Principal axes of both ellipsoids as unit columns in `space.rows`; shape (N, k, d).
         gradients: Gradient of Yoshikawa's measure by the variables, NaN where the measure vanishes and has a kink;
@@ -102,13 +101,7 @@ class Ellipsoids:
 
 @dataclass(frozen=True, slots=True)
 class Manipulability:
-    """Ellipsoids at N configurations, by part.
-
-    Attributes:
-        parts: Ellipsoids of the parts that the task includes.
-        Js: Jacobians in the reference; shape (N, 6, n).
-        certificate: Errors of Jacobians and ellipsoids.
-    """
+    """Ellipsoids at N configurations, by part, and the Jacobians in the reference; shape (N, 6, n)."""
 
     parts: dict[Part, Ellipsoids]
     Js: Array
@@ -163,11 +156,7 @@ def manipulability(
 
 
 def task_rows(task: Sequence[Direction]) -> tuple[int, ...]:
-    """Return the rows of J that a task selects, in ascending order.
-
-    Raises:
-        InvalidField: A direction appears twice.
-    """
+    """Return the rows of J that a task selects, ascending; raises InvalidField if a direction appears twice."""
     if len(set(task)) < len(task):
         raise InvalidField("task", "each direction may appear only once")
     return tuple(row for row, direction in enumerate(DIRECTIONS) if direction in task)
@@ -180,14 +169,7 @@ def space_of(
     reference: Reference = "local_world_aligned",
     components: int = 3,
 ) -> Space:
-    """Find the directions among some rows of J in which a chain moves at all, with angular rows scaled by a length.
-
-    Args:
-        rows: The rows that count.
-        length: Factor of angular rows, [m].
-        reference: Reference of the Jacobian.
-        components: Number of components of a vector, 3 or 6.
-    """
+    """Find the directions among some rows of J in which a chain moves at all, angular rows scaled by a length [m]."""
     fixed = structure(chain, Task(tuple(DIRECTIONS[row] for row in rows)), reference)
     basis = fixed.moving
     if length != 1.0 and basis.shape[1] < len(rows):
@@ -197,7 +179,6 @@ def space_of(
 
 
 def _stretches(rows: tuple[int, ...], length: float) -> Array:
-    """Row factors: 1 for linear rows, the length for angular rows."""
     return np.array([length if row >= 3 else 1.0 for row in rows])
 
 
@@ -257,19 +238,15 @@ def is_within_task(space: Space, directions: Array) -> Flags:
 
 
 def transmission_ratios(ellipsoids: Ellipsoids, directions: Array, tolerance: float) -> tuple[Array, Array]:
-    """Compute the extent of ellipsoids of translation or of rotation along unit vectors u.
+    """Compute the extent of ellipsoids of translation or of rotation along unit vectors u; shape (N, D) each.
 
     The velocity [uᵀ(JJᵀ)#u]^(-½) is the largest purely along u for joint velocities of norm one; 0 where the tip cannot
     move along u alone. The force [uᵀJJᵀu]^(-½) is the largest along u that joint torques of norm one balance; NaN where
     it is unbounded.
 
     Args:
-        ellipsoids: Ellipsoids at N configurations.
         directions: Unit vectors in the axes of the ellipsoids; shape (D, 3).
         tolerance: The force is unbounded where u needs no more torque than this times the largest.
-
-    Returns:
-        Velocities and forces; shape (N, D) each.
     """
     along = directions[:, [row % 3 for row in ellipsoids.space.rows]]
     sigmas = ellipsoids.sigmas[:, None, :]

@@ -22,15 +22,12 @@ _ON = 1e-9
 
 
 def largest_velocities(J: Array, limits: Array, directions: Array) -> Array:
-    """Compute the largest speed purely along each direction: where the ray leaves the zonotope.
+    """Compute the largest speed purely along each direction, where the ray leaves the zonotope; shape (D,).
 
     Args:
         J: Jacobian in coordinates of its range; shape (r, n), r ≥ 1.
         limits: q̇max > 0; shape (n,).
         directions: Unit vectors in these coordinates; shape (D, r).
-
-    Returns:
-        Speeds; shape (D,).
     """
     normals = _normals(J)
     offsets = np.abs(normals @ J) @ limits
@@ -46,10 +43,7 @@ def largest_velocity_components(J: Array, limits: Array, directions: Array) -> A
 def largest_forces(J: Array, limits: Array, directions: Array) -> Array:
     """Compute the largest force purely along each direction, NaN where it loads no joint; shape (D,).
 
-    Args:
-        J: Jacobian in coordinates of its range; shape (r, n), r ≥ 1.
-        limits: τmax > 0; shape (n,).
-        directions: Unit vectors in these coordinates; shape (D, r).
+    The arguments are those of `largest_velocities`, with limits τmax > 0.
     """
     torques = np.abs(directions @ J)
     felt = torques > _PARALLEL * np.linalg.norm(J, axis=0)

@@ -28,8 +28,6 @@ class Statics:
     """A robot at rest at N configurations.
 
     Attributes:
-        robot: The robot.
-        chain: Base and tip.
         qs: Configurations; shape (N, n), [rad or m].
         frame: Axes and point of twists and wrenches.
         rows: Indices of their components that count; shape (m,).
@@ -37,7 +35,6 @@ class Statics:
         Js: The rows of the Jacobian in this frame that count; shape (N, m, n).
         terms: All rows, and the terms of the linear ones: values within their rounding are zero; shape (N, 9, n).
         gravity: Gravity in the root's axes, [m/s²]; None if weight is ignored.
-        load: A payload on the tip.
         gravity_torques: g(q), zero if weight is ignored; shape (N, n), [N m or N].
         gravity_scale: Largest term in the sums for g, [N m or N].
     """
@@ -135,16 +132,10 @@ def balance(still: Statics, torques: Array, tolerance: float) -> NearestWrench:
 def components(
     inside: Array, outside: Array, vector: Array, tolerance: float
 ) -> tuple[Array, Array, tuple[bool, bool]]:
-    """Split a vector into its components in two complementary orthogonal subspaces.
+    """Split a vector into its components in two complementary orthogonal subspaces, given by orthonormal columns.
 
-    Args:
-        inside: Orthonormal basis of the first subspace as columns.
-        outside: Orthonormal basis of the second subspace as columns.
-        vector: The vector to split.
-        tolerance: The vector lies in one subspace if its other component is at most this times its length.
-
-    Returns:
-        Both components, and whether the vector lies in the first and in the second: a zero vector lies in both.
+    Also return whether it lies in the first and in the second: it does if its other component is at most `tolerance`
+    times its length. A zero vector lies in both.
     """
     first, second = inside @ (inside.T @ vector), outside @ (outside.T @ vector)
     most = tolerance * float(np.linalg.norm(vector))
@@ -154,8 +145,7 @@ def components(
 def overloaded_joints(robot: RobotModel, chain: Chain, torques: Array) -> list[list[str]]:
     """List the joints whose torque exceeds the effort limit, per configuration; a limit of zero means no limit.
 
-    Args:
-        torques: Joint torques; shape (N, n), [N m or N].
+    The torques have shape (N, n), [N m or N].
     """
     given = (robot.description.joint[name].limits.effort for name in chain.joint_names)
     limits = np.array([limit or np.inf for limit in given])
@@ -167,15 +157,11 @@ def overloaded_joints(robot: RobotModel, chain: Chain, torques: Array) -> list[l
 
 
 def certify_statics(still: Statics, wrenches: Array, torques: Array, seed: int = 0) -> StaticsCertificate:
-    """Compare torques that hold the robot while its tip exerts a wrench with Pinocchio's.
+    """Compare torques that hold the robot while its tip exerts a wrench with Pinocchio's; raises if they differ.
 
     Args:
-        wrenches: Wrenches at the tip; shape (N, m), [N] and [N m].
-        torques: Joint torques, including weight; shape (N, n), [N m or N].
+        wrenches, torques: At the tip, shape (N, m), and of the joints, including weight, shape (N, n).
         seed: Seed of the sample selection, the joint velocities and a random wrench that tests the whole Jacobian.
-
-    Raises:
-        CertificationFailed: The two differ by more than rounding.
     """
     robot, chain, qs = still.robot, still.chain, still.qs
     rows = sampled_rows(len(qs) if len(chain) else 0, seed)

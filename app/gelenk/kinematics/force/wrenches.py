@@ -37,11 +37,7 @@ class WrenchFrame:
     point_frame: str | None = None
 
     def check(self) -> None:
-        """Refuse contradictory fields.
-
-        Raises:
-            InvalidField: A field needs or excludes another one.
-        """
+        """Refuse contradictory fields: raises InvalidField if one needs or excludes another."""
         if self.expressed_in is not None and self.reference != "local_world_aligned":
             raise InvalidField("expressed_in", "it names the axes itself, so no other `reference` may be given")
         if self.point is not None and self.reference == "world":
@@ -66,20 +62,11 @@ class WrenchFrame:
 
 
 def frame_jacobians(robot: RobotModel, chain: Chain, qs: Array, frame: WrenchFrame) -> tuple[Poses, Array, Array]:
-    """Compute the pose of a wrench frame, and the Jacobian in it.
-
-    Args:
-        robot: The robot; joints off the chain are at zero.
-        qs: Configurations; shape (N, n), [rad or m].
-        frame: Point and axes.
+    """Compute the pose of a wrench frame, and the Jacobian in it; joints off the chain are at zero.
 
     Returns:
         Point and axes in the base frame, Jacobians of shape (N, 6, n), linear before angular, and the terms of their
         linear rows, to which rounding is relative, of shape (N, 3, n).
-
-    Raises:
-        UnknownFrame: The robot has no such frame.
-        InvalidField: The fields of the frame are contradictory.
     """
     frame.check()
     positions, rotations, Js = chain_jacobians(chain.flat, qs)

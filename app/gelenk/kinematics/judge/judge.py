@@ -32,8 +32,7 @@ def sampled_rows(count: int, seed: int = 0) -> Sequence[int]:
 def agreed(quantity: str, difference: Array | float, scale: float, slack: float = 0.0) -> float:
     """Return the largest absolute entry of a difference if rounding of numbers of this scale, and a slack, explain it.
 
-    Raises:
-        CertificationFailed: The difference is larger, or NaN.
+    Raises CertificationFailed if it is larger, or NaN.
     """
     error, tolerance = largest(difference), slack + TOLERANCE * max(1.0, scale)
     if not error <= tolerance:
@@ -57,16 +56,9 @@ class Differences(dict[str, float]):
 def certify_poses(
     robot: RobotModel, chain: Chain, qs: Array, frames: Mapping[str, Poses], seed: int = 0
 ) -> PoseCertificate:
-    """Compare poses with Pinocchio's.
+    """Compare poses with Pinocchio's; raises CertificationFailed if they differ by more than `TOLERANCE`.
 
-    Args:
-        chain: The chain in whose base the poses are expressed.
-        qs: Configurations of the chain; shape (N, n), [rad or m].
-        frames: Poses of one or more frames at these configurations, N each.
-        seed: Seed of the sample selection in a large batch.
-
-    Raises:
-        CertificationFailed: The two differ by more than `TOLERANCE`.
+    The configurations, shape (N, n), are those of the chain in whose base the poses are expressed.
     """
     rows = sampled_rows(len(qs), seed)
     worst = Differences(max_position_error=0.0, max_orientation_error=0.0)
@@ -89,18 +81,13 @@ def certify_jacobians(
     values: Array | None = None,
     seed: int = 0,
 ) -> JacobianCertificate:
-    """Compare geometric Jacobians (in the base frame, at the tip) with Pinocchio's, and ∂J/∂q through J̇.
+    """Compare geometric Jacobians (in the base frame, at the tip) with Pinocchio's, and ∂J/∂q through J̇; see `agreed`.
 
     Args:
-        qs: Configurations of the chain; shape (N, n), [rad or m].
-        Js: Geometric Jacobians; shape (N, 6, n).
-        hessians: ∂J/∂q of these; shape (N, 6, n, n).
-        view: The reference frame, or the angles, of `values`.
-        values: The Jacobians that are sent; shape (N, 6, n). Not compared if None, or the geometric ones themselves.
+        Js, hessians: Geometric Jacobians, shape (N, 6, n), and their ∂J/∂q, shape (N, 6, n, n).
+        values: The Jacobians that are sent, in the view; shape (N, 6, n). Not compared if None, or the geometric ones
+            themselves.
         seed: Seed of the sample selection in a large batch, and of the joint velocities for J̇.
-
-    Raises:
-        CertificationFailed: The two differ by more than `TOLERANCE`.
     """
     # Without joints there is no column to compare, and Pinocchio crashes on the Jacobian of a robot without joints.
     rows = sampled_rows(len(qs) if len(chain) else 0, seed)

@@ -46,18 +46,11 @@ def certify_motion(
     reference: Reference = "local_world_aligned",
     seed: int = 0,
 ) -> TipMotionCertificate:
-    """Compare the tip's twist, acceleration, jerk and snap, in the reference that is sent, with Pinocchio's.
+    """Compare the tip's twist, acceleration, jerk, snap and spatial acceleration, as they are sent, with Pinocchio's.
 
     Args:
-        qs: Configurations of the chain; shape (N, n), [rad or m].
         rates: q̇, q̈, q⃛, q⁗, the first one to four of them; shape (K, N, n), [rad/sᵏ or m/sᵏ].
         derivatives: (ṗ; ω), (p̈; ω̇), … in the reference, K of them; shape (N, 6) each.
-        spatial: The spatial acceleration in the reference; shape (N, 6).
-        reference: See `tip_motion`.
-        seed: Seed of the sample selection in a large batch.
-
-    Raises:
-        CertificationFailed: The two differ by more than `TOLERANCE`, relative to `motion_scales`.
     """
     # Without joints nothing moves, and Pinocchio crashes on the Jacobian of a robot without joints.
     rows = sampled_rows(len(qs) if len(chain) else 0, seed)

@@ -25,13 +25,8 @@ def certify_table(
 
     Args:
         chain: A chain of this robot; its variables are the table's, in the same order.
-        table: The table that should describe the chain.
         exact: Whether to refuse more than rounding, at the scale of the table's longest length; a table that was
-            simplified on purpose may differ by more.
-        seed: Seed of `table_configurations`.
-
-    Raises:
-        CertificationFailed: The two differ although the table should be exact, or a difference is NaN.
+            simplified on purpose may differ by more, but not by NaN.
     """
     qs = table_configurations(chain, TABLE_SAMPLES, seed)
     Ts = np.array([table.pose(q) for q in qs.tolist()])
@@ -41,11 +36,7 @@ def certify_table(
 
 
 def certify_conversion(table: DhTable, other: DhTable, seed: int = 0) -> PoseCertificate:
-    """Compare two tables of the same variables, each as a robot in Pinocchio.
-
-    Raises:
-        CertificationFailed: The two differ by more than rounding.
-    """
+    """Compare two tables of the same variables, each as a robot in Pinocchio; raises if they differ beyond rounding."""
     robots = [RobotModel(describe_dh("table", described)) for described in (table, other)]
     chains = [robot.chain(BASE_FRAME, TOOL_FRAME) for robot in robots]
     qs = table_configurations(chains[0], TABLE_SAMPLES, seed)
@@ -57,13 +48,10 @@ def certify_conversion(table: DhTable, other: DhTable, seed: int = 0) -> PoseCer
 
 
 def table_configurations(chain: Chain, count: int, seed: int = 0) -> Array:
-    """Draw random configurations of a chain: half within the limits, half with revolute joints over a full turn.
+    """Draw random configurations (count, n), half within the limits, half with revolute joints over a full turn.
 
     Both are uniform: `numpy.random.default_rng(seed)` gives one number in [0, 1) per entry, row by row, which is scaled
     to the bounds. A limit more than 10 rad or m from the allowed position nearest zero is replaced by that distance.
-
-    Returns:
-        Shape (count, n), [rad or m].
     """
     next_to_zero = np.clip(0.0, chain.lower, chain.upper)
     lower = np.tile(np.maximum(chain.lower, next_to_zero - _REACH), (count, 1))

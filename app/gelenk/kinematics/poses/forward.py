@@ -16,13 +16,7 @@ from gelenk.robot.robot import RobotModel
 
 @dataclass(frozen=True, slots=True)
 class ForwardKinematics:
-    """Poses at N configurations, in the chain's base frame.
-
-    Attributes:
-        poses: N poses T_base_tip.
-        frames: N poses T_base_frame of each requested frame, by its name.
-        certificate: Largest differences of all these from Pinocchio's poses.
-    """
+    """N poses T_base_tip, and as many T_base_frame of each requested frame, by its name."""
 
     poses: Poses
     frames: dict[str, Poses]
@@ -34,7 +28,6 @@ def forward_kinematics(robot: RobotModel, chain: Chain, qs: Array, frames: Seque
 
     Args:
         qs: Configurations in the chain's order; shape (N, n), [rad or m].
-        frames: Names of other frames whose poses are requested.
 
     Raises:
         UnknownFrame: The robot has no such frame.

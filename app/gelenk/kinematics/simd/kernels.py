@@ -23,14 +23,7 @@ COLUMN = 6
 
 @compiled
 def chain_poses(flat: FlatChain, qs: Array) -> tuple[Array, Array]:
-    """Compute T_base_tip at each configuration.
-
-    Args:
-        qs: Configurations; shape (N, n), [rad or m].
-
-    Returns:
-        Positions, shape (N, 3), [m], and rotations, shape (N, 3, 3).
-    """
+    """Compute T_base_tip at configurations (N, n): positions, shape (N, 3), [m], and rotations, shape (N, 3, 3)."""
     positions, rotations = np.empty((len(qs), 3)), np.empty((len(qs), 3, 3))
     work, pose = np.empty(max(qs.shape[1], 1) * LANES), np.empty(12 * LANES)
     for first in range(0, len(qs), LANES):
@@ -49,11 +42,8 @@ def chain_poses(flat: FlatChain, qs: Array) -> tuple[Array, Array]:
 def chain_jacobians(flat: FlatChain, qs: Array) -> tuple[Array, Array, Array]:
     """Compute T_base_tip and the geometric Jacobian, in the base frame and at the tip, one column per variable.
 
-    Args:
-        qs: Configurations; shape (N, n), [rad or m].
-
-    Returns:
-        Positions, shape (N, 3), [m]; rotations, shape (N, 3, 3); Jacobians, shape (N, 6, n), linear before angular.
+    Of configurations (N, n), return positions (N, 3) [m], rotations (N, 3, 3) and Jacobians (N, 6, n), linear before
+    angular.
     """
     count, n = qs.shape
     positions, rotations, Js = np.empty((count, 3)), np.empty((count, 3, 3)), np.empty((count, 6, n))
@@ -77,14 +67,8 @@ def chain_measures(flat: FlatChain, qs: Array, rows: Indices) -> tuple[Array, Ar
     """Compute T_base_tip and Yoshikawa's measure of some rows of the geometric Jacobian [Yoshikawa1985].
 
     The measure is the product of the singular values. Here it is computed as the product of the lengths that
-    Gram-Schmidt orthogonalisation leaves of the rows (or of the columns, if fewer).
-
-    Args:
-        qs: Configurations; shape (N, n), [rad or m].
-        rows: Indices of the rows that count, such as 0, 1, 2 for translation; shape (k,).
-
-    Returns:
-        Positions, shape (N, 3), [m]; rotations, shape (N, 3, 3); measures, shape (N,).
+    Gram-Schmidt orthogonalisation leaves of the rows (or of the columns, if fewer). Of configurations (N, n), return
+    positions (N, 3) [m], rotations (N, 3, 3) and measures (N,).
     """
     count, n = qs.shape
     positions, rotations, measures = np.empty((count, 3)), np.empty((count, 3, 3)), np.empty(count)
@@ -140,16 +124,10 @@ def _entry(J: Array, rows: Indices, i: int, m: int, few: bool) -> Lanes:
 
 @compiled
 def chain_hessians(flat: FlatChain, qs: Array) -> Array:
-    """Compute ∂J/∂q of the geometric Jacobian in the base frame at the tip, by the variables.
+    """Compute H[:, k, i, j] = ∂J[k, i]/∂q_j of the geometric Jacobian in the base frame at the tip; shape (N, 6, n, n).
 
     With columns (v_i; w_i) in order from base to tip: ∂w_i/∂q_j = w_j × w_i for j before i, else 0;
     ∂v_i/∂q_j = w_j × v_i for j up to i, w_i × v_j for j after it [Hourtash2005].
-
-    Args:
-        qs: Configurations; shape (N, n), [rad or m].
-
-    Returns:
-        H[:, k, i, j] = ∂J[k, i]/∂q_j; shape (N, 6, n, n).
     """
     count, n = qs.shape
     joints = len(flat.joints)
@@ -187,11 +165,7 @@ def joint_columns(flat: FlatChain, work: Array, columns: Array) -> Frame:
     """Return the tip's frame, and fill in one Jacobian column per joint, mimic joints separately.
 
     The column is (z_i × (p - o_i); z_i) for a revolute joint and (z_i; 0) for a prismatic one; z_i is the joint's
-    axis, o_i a point on it, p the tip.
-
-    Args:
-        work: The variables, one row of lanes each.
-        columns: Output, `COLUMN` rows of lanes per joint.
+    axis, o_i a point on it, p the tip. `work` holds a row of lanes per variable, `columns` `COLUMN` rows per joint.
     """
     frame = first_frame(flat)
     for i in range(len(flat.joints)):
@@ -320,7 +294,6 @@ def store_frame(frame: Frame, rows: Array) -> None:
 
 @inlined
 def _scatter_pose(pose: Array, lane: int, position: Array, rotation: Array) -> None:
-    """Copy one lane's frame into a row of the results."""
     for j in range(3):
         position[j] = pose[(9 + j) * LANES + lane]
         for k in range(3):

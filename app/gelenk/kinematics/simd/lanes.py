@@ -61,7 +61,6 @@ def _compiled_call(emitter: Callable[..., Any]) -> Any:
 
 
 def _splat(builder: ir.IRBuilder, scalar: ir.Value) -> ir.Value:
-    """Copy one number to every lane."""
     vector = builder.insert_element(ir.Constant(_DOUBLES, ir.Undefined), scalar, ir.Constant(ir.IntType(32), 0))
     zeros = ir.Constant(ir.VectorType(ir.IntType(32), LANES), [0] * LANES)
     return builder.shuffle_vector(vector, ir.Constant(_DOUBLES, ir.Undefined), zeros)
@@ -75,8 +74,6 @@ def _as_lanes(context: Any, builder: ir.IRBuilder, type_: Any, value: ir.Value) 
 
 
 def _operator(function: Callable[..., Any], result: Any, emit: Callable[..., Any], *operands: tuple[Any, ...]) -> None:
-    """Define an operator on operands of any of the given kinds."""
-
     class Template(AbstractTemplate):
         key = function
 
@@ -119,7 +116,6 @@ _operator(operator.or_, mask_type, ir.IRBuilder.or_, (MaskType, MaskType))
 
 
 def _call(builder: ir.IRBuilder, name: str, *values: ir.Value) -> ir.Value:
-    """Call an LLVM intrinsic on vectors."""
     function_type = ir.FunctionType(_DOUBLES, [_DOUBLES] * len(values))
     module = builder.module
     full = f"llvm.{name}.v{LANES}f64"

@@ -36,7 +36,6 @@ class NearestSingularity:
     """The nearest singular configuration found.
 
     Attributes:
-        q: The configuration; shape (n,), [rad or m].
         distance: Norm of the joint motion to it, [rad and m].
         joints: Indices of the joints that move.
         sigma: The smallest singular value there, zero up to rounding.
@@ -57,10 +56,8 @@ def nearest_singularity(
 
     Args:
         q: Configuration, within the limits if these are respected; shape (n,), [rad or m].
-        space: The rows of the Jacobian that count.
         radius: Largest distance from the configuration, [rad and m].
         tolerance: A singular value counts if it exceeds this times the largest.
-        respect_limits: Whether the singular configuration must be within the joint limits.
     """
     if not can_lose(chain, space):
         return None
@@ -84,13 +81,8 @@ def can_lose(chain: Chain, space: TaskSpace) -> bool:
 def vanishing_block(chain: Chain, space: TaskSpace, rank: int, xs: Array) -> tuple[Array, Array]:
     """Compute the block F, which is zero where the Jacobian has less than a rank, and its derivative by the joints.
 
-    Args:
-        space: The rows of the Jacobian that count.
-        rank: The rank that the chain has elsewhere, at least 1.
-        xs: Configurations; shape (N, n), [rad or m].
-
-    Returns:
-        F flattened, shape (N, k), and ∂F/∂q, shape (N, k, n).
+    The rank is the one that the chain has elsewhere, at least 1. For configurations (N, n), F is flattened, shape
+    (N, k), and ∂F/∂q has shape (N, k, n).
     """
     left, sigmas, right = np.linalg.svd(space.jacobians(chain, xs))
     U, V = left[:, :, rank - 1 :], right[:, rank - 1 :]
@@ -200,11 +192,7 @@ class _Projection:
 
 
 def _minima(projection: _Projection, radius: float, seed: int) -> Array:
-    """Minima of the manipulability measure on rays of a given length from the configuration, nearest first.
-
-    Returns:
-        At most `_STARTS` configurations, and the configuration itself; shape (N, n).
-    """
+    """Minima of the manipulability measure on rays of a given length, nearest first; at most `_STARTS`, then q."""
     q, n = projection.q, len(projection.q)
     rays = _rays(_deciding_joints(projection.chain, projection.space), n, seed)
     stations = radius * np.arange(1, _STATIONS + 1) / _STATIONS

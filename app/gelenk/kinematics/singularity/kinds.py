@@ -74,7 +74,6 @@ def singularity_kinds(chain: Chain, q: Array, space: TaskSpace, tolerance: float
 
     Args:
         q: A singular configuration; shape (n,), [rad or m].
-        space: The rows of the Jacobian that count.
         tolerance: Relative size up to which a singular value counted as zero.
     """
     factors = _factors(chain, space.task, space.reference)
@@ -113,7 +112,6 @@ def _factors(chain: Chain, task: Task, reference: Reference) -> Factors | None:
 
 
 def _is_planar(trials: list[JointAxes]) -> bool:
-    """Whether all joint axes are parallel."""
     axes = trials[0].axes
     return bool((np.linalg.norm(np.cross(axes, axes[0]), axis=1) < _SAME).all())
 
@@ -193,7 +191,6 @@ def _positioning(trials: list[JointAxes], placed: int, *, with_wrist: bool) -> F
 def _arm_factors(
     trials: list[JointAxes], placed: int
 ) -> Callable[[JointAxes, Array, float], dict[SingularityKind | None, float]] | None:
-    """Factors of the joints that move the wrist centre."""
     if placed == 3:
         z = [lines.axes[1] for lines in trials]
         follows = all(

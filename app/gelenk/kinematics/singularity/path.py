@@ -51,7 +51,6 @@ def places_along(
 
     Args:
         qs: The path; shape (N, n), [rad or m].
-        space: The rows of the Jacobian that count.
         tolerance: A singular value counts if it exceeds this times the largest.
         threshold: Omit minima above this share of the largest singular value.
     """

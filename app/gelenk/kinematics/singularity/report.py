@@ -81,7 +81,6 @@ def singularity_report(
     Args:
         q: Configuration; shape (n,), [rad or m].
         tolerance: A singular value counts if it exceeds this times the largest.
-        space: The rows of the Jacobian that count.
     """
     Js, least = space.with_rounding(chain, q[None])
     fixed = structure(chain, space.task, space.reference)
@@ -116,20 +115,9 @@ def certify_reports(
 ) -> Differences:
     """Check with Pinocchio's Jacobian that internal motions leave the tip at rest and lost directions need no torque.
 
-    Both come from our own Jacobians, and from the chain's structure at other configurations.
-
-    Args:
-        space: The rows of the Jacobian that count.
-        qs: Configurations; shape (N, n), [rad or m].
-        reports: One report per configuration.
-        seed: Seed of the sample selection in a large batch.
-
-    Returns:
-        The fields that `SingularityCertificate` adds.
-
-    Raises:
-        CertificationFailed: An internal motion moves the tip, or a lost direction loads a joint, by more than the
-            singular values allow.
+    Both come from our own Jacobians, and from the chain's structure at other configurations. There is one report per
+    configuration (N, n). The result has the fields that `SingularityCertificate` adds; raises CertificationFailed if
+    motion or torque is more than the singular values allow.
     """
     worst = Differences(max_internal_motion=0.0, max_lost_direction=0.0)
     for row in sampled_rows(len(qs) if len(chain) else 0, seed):
@@ -146,13 +134,9 @@ def certify_reports(
 
 
 def _ordered(basis: Array, constant: Array, changes: Array, count: int) -> Array:
-    """Basis of the same space: first the `count` vectors that the changes affect most, last the constant ones.
+    """Orthonormal basis of the same space: first the `count` vectors most affected by changes, last the constant ones.
 
-    Args:
-        basis: Orthonormal basis; shape (m, k).
-        constant: Orthonormal vectors of this space; shape (m, l).
-        changes: Effect of joint motions on each basis vector; shape (k, …, …).
-        count: Number of vectors that change.
+    Row k of the changes is the effect of joint motions on vector k of the given basis.
     """
     if basis.shape[1] == 0:
         return basis

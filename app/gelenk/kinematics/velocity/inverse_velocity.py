@@ -34,7 +34,6 @@ class InverseMotion:
     """The next derivative of q at N configurations, and the tip's resulting motion.
 
     Attributes:
-        inversion: Solutions, and the outcome of each equation.
         residuals: Requested motion minus the tip's certified motion, in the directions that count; shape (N, k),
             [m/sᵏ, rad/sᵏ].
         motion: The tip's motion in the chosen reference.
@@ -61,9 +60,7 @@ def inverse_motion(
     Args:
         qs: Configurations; shape (N, n), [rad or m].
         rates: The known rates, none, q̇, or q̇ and q̈; shape (K, N, n), K from 0 to 2, [rad/sᵏ or m/sᵏ].
-        targets: Desired twist, acceleration or jerk in the directions that count; shape (N, k), [m/sᵏ, rad/sᵏ].
-        rule: The kind of inverse.
-        space: The rows of the Jacobian that count, the reference of rows and targets, and the characteristic length.
+        targets: Desired twist, acceleration or jerk in the rows and reference of `space`; shape (N, k), [m/sᵏ, rad/sᵏ].
         null_motion: ξ, whose component in ker J is added; shape (N, n).
 
     Raises:
@@ -115,10 +112,9 @@ def descent(chain: Chain, qs: Array, objective: Objective, gain: float, space: T
 
 
 def velocity_limits(robot: RobotModel, chain: Chain) -> Array:
-    """Return the largest speed of each variable that its own joint and the chain's joints mimicking it allow.
+    """Return the largest speed of each variable that its own joint and those of the chain mimicking it allow; (n,).
 
-    Returns:
-        Shape (n,), [rad/s or m/s]; inf where the description gives no limit.
+    It is inf where the description gives no limit.
     """
     description = robot.description
     own = [description.joint[name].limits.velocity for name in chain.joint_names]

@@ -33,7 +33,6 @@ class Jacobians:
         poses: T_base_tip.
         values: J; shape (N, 6, n), [m or rad per rad or m].
         hessians: H[:, k, i, j] = ∂J[k, i]/∂q_j; shape (N, 6, n, n). None if not requested.
-        certificate: Largest differences from Pinocchio's Jacobian and its time variation.
     """
 
     poses: Poses
@@ -105,13 +104,9 @@ def condition_numbers(sigmas: Array, counts: Indices) -> list[float | None]:
 
 
 def in_reference(poses: Poses, Js: Array, Hs: Array | None, reference: Reference) -> tuple[Array, Array | None]:
-    """Express geometric Jacobians in the base's axes at the tip, and their derivatives, in another reference.
+    """Express geometric Jacobians in the base's axes at the tip, and their derivatives, in a reference of `jacobians`.
 
-    Args:
-        poses: T_base_tip; N of them.
-        Js: Jacobians; shape (N, 6, n).
-        Hs: ∂J/∂q; shape (N, 6, n, n). None if not requested.
-        reference: See `jacobians`.
+    The shapes are (N, 6, n) and (N, 6, n, n); derivatives are None if not requested.
     """
     if reference == "local":
         return _in_tip_axes(poses, Js, Hs)
@@ -185,7 +180,6 @@ def _rpy_rates(rotations: Array) -> tuple[Array, Array]:
 
 
 def _matrices(rows: list[list[Array]]) -> Array:
-    """Stack entries of shape (N,) into matrices of shape (N, 3, 3)."""
     return np.moveaxis(np.array(rows), -1, 0)
 
 

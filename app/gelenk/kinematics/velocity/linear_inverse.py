@@ -56,13 +56,10 @@ class Decomposition:
     """Singular value decompositions A = U diag(σ) Vᵀ at N configurations.
 
     Attributes:
-        left: Columns u_i; shape (N, k, k).
+        left, right: Columns u_i, shape (N, k, k), and rows v_iᵀ, shape (N, n, n).
         sigmas: σ, largest first; shape (N, min(k, n)). Units are mixed unless a characteristic length is given.
-        right: Rows v_iᵀ; shape (N, n, n).
-        ranks: Numerical ranks; shape (N,).
-        least: Singular values up to this are rounding and never used; shape (N,).
-        row_scales: The diagonal of S; shape (k,).
-        column_scales: The diagonal of W^(-1/2); shape (n,).
+        ranks, least: Numerical ranks, and bounds up to which singular values are rounding and never used; shape (N,).
+        row_scales, column_scales: The diagonals of S, shape (k,), and W^(-1/2), shape (n,).
     """
 
     left: Array
@@ -106,12 +103,10 @@ class Inversion:
     """The solutions of N equations J x = b.
 
     Attributes:
-        xs: Solutions, zero where none exists; shape (N, n).
-        residuals: b - J x; shape (N, k).
+        xs, residuals: Solutions, zero where none exists, shape (N, n), and b - J x, shape (N, k).
         statuses: `solved`; `approximate`: no x gives b, or damping prevents it; `singular`: no solution exists.
         dampings: λ of each equation; shape (N,).
         shares: Share of the null-space motion that the velocity limits allow, in [0, 1]; shape (N,).
-        decomposition: Singular values and ranks.
     """
 
     xs: Array
@@ -127,8 +122,6 @@ def decompose(Js: Array, rule: InverseRule, row_scales: Array, least: Array | No
 
     Args:
         Js: The rows of the Jacobian that count; shape (N, k, n).
-        rule: Weights and rank tolerance.
-        row_scales: The diagonal of S; shape (k,).
         least: Magnitude of rounding errors in the entries of Js; shape (N,). Zero if None.
     """
     column_scales = np.ones(Js.shape[2]) if rule.weights is None else 1.0 / np.sqrt(rule.weights)
@@ -151,13 +144,9 @@ def invert(
     """Solve J x = b at N configurations.
 
     Args:
-        Js: The rows of the Jacobian that count; shape (N, k, n).
-        bs: Right-hand sides; shape (N, k).
-        rule: The method and its parameters.
-        row_scales: The diagonal of S; shape (k,).
+        Js, bs: The rows of the Jacobian that count, shape (N, k, n), and right-hand sides, shape (N, k).
         null_motion: ξ, whose component in ker J is added; shape (N, n).
         limits: Largest |x| of each joint, observed by the adaptive damping only; shape (n,), inf for no limit.
-        least: Magnitude of rounding errors in the entries of Js; shape (N,).
     """
     parts = decompose(Js, rule, row_scales, least)
     dampings = _dampings(parts, rule)

@@ -21,9 +21,7 @@ class Subspaces:
 
     Attributes:
         sigmas: σ, largest first; shape (min(m, n),).
-        rank: Number of singular values that count.
-        left: All u_i as columns, those that span range(J) first; shape (m, m).
-        right: All v_i as columns, those that span range(Jᵀ) first; shape (n, n).
+        left, right: All u_i, (m, m), and v_i, (n, n), as columns; those that span range(J) and range(Jᵀ) first.
     """
 
     sigmas: Array

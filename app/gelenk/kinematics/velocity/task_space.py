@@ -124,13 +124,10 @@ FULL_SPACE = TaskSpace()
 
 
 def jacobians_with_terms(chain: Chain, qs: Array, reference: Reference) -> tuple[Array, Array]:
-    """Compute geometric Jacobians in a reference, and the terms to which their rounding is relative.
+    """Compute geometric Jacobians in a reference, (N, 6, n), and the terms to which rounding is relative, (N, 9, n).
 
     The terms are J itself and three rows that scale with the tip's distance from the base, because z × (p - o) rounds
     at that scale even where it vanishes because the tip is on the axis.
-
-    Returns:
-        J, shape (N, 6, n), and the terms, shape (N, 9, n).
     """
     positions, rotations, Js = chain_jacobians(chain.flat, qs)
     levers = Js[:, 3:] * (2.0 * np.linalg.norm(positions, axis=1)[:, None, None])
@@ -204,9 +201,8 @@ def slides(chain: Chain) -> Flags:
 def aligned_basis(basis: Array, snap: float = 0.0) -> Array:
     """Return a basis of the same space, as close to the coordinate axes as possible, with positive largest entries.
 
-    Args:
-        basis: Orthonormal columns; shape (m, k).
-        snap: Deviation from a space spanned by coordinate axes that counts as rounding.
+    The columns, shape (m, k), are orthonormal. A deviation of up to `snap` from a space spanned by coordinate axes
+    counts as rounding.
     """
     if basis.size == 0:
         return basis

@@ -34,7 +34,6 @@ class TipMotion:
         derivatives: Twist, acceleration, jerk, snap, as many as rates were given; shape (N, 6) each, [m/sᵏ, rad/sᵏ].
         spatial_accelerations: Spatial accelerations, None for a twist alone; shape (N, 6), [m/s², rad/s²].
         jacobians: J, J̇, J̈, J⃛ of `local_world_aligned`, one per derivative; shape (K, N, 6, n).
-        certificate: Largest differences from Pinocchio's derivatives.
     """
 
     poses: Poses
@@ -72,9 +71,7 @@ def tip_motion(
 def product_rule(Js: Array, rates: Array) -> tuple[Array, ...]:
     """Combine derivatives of J and q into those of the tip, r⁽ᵏ⁾ = Σ_j (k-1 over j) J⁽ʲ⁾ q⁽ᵏ⁻ʲ⁾; shape (N, 6) each.
 
-    Args:
-        Js: J, J̇, …; shape (K, N, 6, n).
-        rates: q̇, q̈, …; shape (K, N, n).
+    `Js` are J, J̇, …, shape (K, N, 6, n), and `rates` q̇, q̈, …, shape (K, N, n).
     """
     results = []
     for k in range(1, len(rates) + 1):
@@ -106,14 +103,9 @@ def in_reference(poses: Poses, derivatives: tuple[Array, ...], reference: Refere
 
 
 def jacobian_derivatives(chain: Chain, qs: Array, rates: Array) -> Array:
-    """Compute the geometric Jacobian in the base's axes at the tip and its exact time derivatives.
+    """Compute J in the base's axes at the tip and its exact time derivatives J̇, J̈, …; shape (K, N, 6, n).
 
-    Args:
-        qs: Configurations; shape (N, n), [rad or m].
-        rates: q̇, q̈, …, one per requested derivative; shape (K - 1, N, n), K - 1 may be 0.
-
-    Returns:
-        J, J̇, J̈, …; shape (K, N, 6, n).
+    The rates are q̇, q̈, …, one per requested derivative; shape (K - 1, N, n), K - 1 may be 0.
     """
     count, n = qs.shape
     orders = len(rates) + 1

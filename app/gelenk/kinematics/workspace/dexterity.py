@@ -32,13 +32,7 @@ _ITERATIONS = 1280
 
 @dataclass(frozen=True, slots=True)
 class Orientations:
-    """A set of orientations to reach.
-
-    Attributes:
-        spread: What the set covers; `fixed` if the tip never rotates.
-        rotations: Rotation matrices; shape (K, 3, 3).
-        task: The components of a pose that count.
-    """
+    """A set of orientations to reach, K of them, shape (K, 3, 3); its spread is `fixed` if the tip never rotates."""
 
     spread: Spread
     rotations: Array
@@ -69,12 +63,8 @@ def excluded(motion: TipReach, dimensions: int, spread: Spread) -> str | None:
     """Explain why a chain cannot reach all orientations in any region of positions; None if it may.
 
     A region with all its orientations has as many dimensions as both together; the set of poses that a chain reaches
-    has at most as many dimensions as its tip has independent velocities.
-
-    Args:
-        motion: Motion of the chain's tip.
-        dimensions: Dimensions of the grid: fewer in a slice than in the workspace.
-        spread: What the set of orientations covers.
+    has at most as many dimensions as its tip has independent velocities. The region's are those of the grid: fewer in
+    a slice than in the workspace.
     """
     turns = ("fixed", "turns", "approach_directions", "rotations").index(spread)
     moves, both = motion.ranks(spread == "approach_directions")
@@ -110,18 +100,13 @@ def rotation_spiral(count: int) -> Array:
 
 
 def shares(robot: RobotModel, chain: Chain, positions: Array, seeds: Array, asked: Orientations) -> Array:
-    """Compute the share of orientations that a chain reaches at each position, within its limits.
+    """Compute the share, 0 to 1, of orientations that a chain reaches at each position within its limits; (M,).
 
     Every configuration that counts is recomputed through Pinocchio. A search may miss a solution: for a chain without
     a closed form the share is a lower bound.
 
     Args:
-        positions: Positions of the tip in the base frame; shape (M, 3), [m].
-        seeds: Start configuration for each position; shape (M, n), [rad or m].
-        asked: The orientations to reach.
-
-    Returns:
-        Shares from 0 to 1; shape (M,).
+        positions, seeds: Of the tip in the base frame, shape (M, 3), [m], and start configurations, shape (M, n).
     """
     count = len(asked.rotations)
     targets = Poses(np.repeat(positions, count, axis=0), np.tile(asked.rotations, (len(positions), 1, 1)))

@@ -29,13 +29,7 @@ _TABLE = 4096
 
 @dataclass(frozen=True, slots=True)
 class Ranges:
-    """The sampling bounds of each variable.
-
-    Attributes:
-        lower: Lower bounds; shape (n,), [rad or m].
-        upper: Upper bounds; shape (n,), [rad or m].
-        notes: The assumptions made, one sentence each.
-    """
+    """The sampling bounds of each variable, shape (n,), [rad or m], and the assumptions made, one sentence each."""
 
     lower: Array
     upper: Array
@@ -45,10 +39,8 @@ class Ranges:
 def joint_ranges(chain: Chain, given: Mapping[str, tuple[float, float]]) -> Ranges:
     """Return the sampling bounds of a chain's variables: the given ranges, else the joint limits.
 
-    A revolute joint without limits covers one full turn, a prismatic one moves `SLIDE` to either side.
-
-    Raises:
-        InvalidField: A range names no variable of the chain, has lower > upper or exceeds the limits.
+    A revolute joint without limits covers one full turn, a prismatic one moves `SLIDE` to either side. Raises
+    InvalidField if a range names no variable of the chain, has lower > upper or exceeds the limits.
     """
     sliding = {int(variable) for prismatic, variable in chain.flat.joints if prismatic}
     lower, upper, notes = chain.lower.copy(), chain.upper.copy(), []
@@ -89,12 +81,6 @@ class Sampling:
     `random`: row i is row i of `lower + numpy.random.default_rng(seed).random((count, n)) * (upper - lower)`.
     `low_discrepancy`: the Halton sequence with randomly permuted digits in each place [Owen2017]; it leaves smaller
     gaps and no clusters.
-
-    Attributes:
-        ranges: The bounds.
-        count: Number of configurations.
-        sequence: `random` or `low_discrepancy`.
-        seed: Seed of the random numbers.
     """
 
     ranges: Ranges

@@ -31,12 +31,8 @@ _LATE = 0.1
 class Measures:
     """Yoshikawa's measure over the samples that count.
 
-    Attributes:
-        min: The smallest measure.
-        mean: The mean measure.
-        max: The largest measure.
-        position: Position of the tip at the largest measure; shape (3,), [m]. None if all measures are zero.
-        joint_positions: Configuration at the largest measure; shape (n,), [rad or m]. None if all measures are zero.
+    The position, shape (3,), [m], and the joint positions, shape (n,), [rad or m], are those at the largest measure;
+    None if all measures are zero.
     """
 
     min: float
@@ -54,13 +50,10 @@ class Workspace:
         count: Number of samples that count.
         bounds: Smallest and largest coordinates; shape (2, 3), [m].
         reach: Smallest and largest distance of the tip from the base's origin, [m].
-        measures: Measures of the samples that count.
-        voxels: The cells that contain these samples.
         inner: Number of cells with neighbours on every side, including edges and corners.
         volume: Lower and upper bound of the volume of the reachable region, [m³, m² or m].
         late: Share of the cells that only the last tenth of the samples found.
         points: Position and measure of each sample; shape (count, 4). None if not requested.
-        certificate: Errors of the samples.
     """
 
     count: int
@@ -92,11 +85,7 @@ class Survey:
         self._waiting: list[VoxelTable] = []
 
     def add(self, part: SampledPart) -> None:
-        """Add the next part.
-
-        Raises:
-            TooLarge: The samples fall into too many cells.
-        """
+        """Add the next part; raises TooLarge if the samples fall into too many cells."""
         if self._points is not None and part.points is not None:
             self._points[self._count : self._count + part.count] = part.points
         self._count += part.count
@@ -111,11 +100,7 @@ class Survey:
         return self._voxels
 
     def result(self, robot: RobotModel, chain: Chain) -> Workspace:
-        """Return the workspace from all parts, certified.
-
-        Raises:
-            CertificationFailed: Poses or Jacobians differ from Pinocchio's, or measures from their recomputation.
-        """
+        """Return the workspace from all parts, certified."""
         voxels, count, plan = self.merge(), self._count, self._plan
         late = voxels.first >= round((1.0 - _LATE) * plan.sampling.count)
         bounds = np.array([(part.lower, part.upper) for part in self._parts])
@@ -172,12 +157,8 @@ def volume_bounds(grid: Grid, table: VoxelTable, farthest: float) -> tuple[float
 
     The region contains the inner cells, and lies within the cells it meets. If the samples are too few to find nearly
     all of these, cells of twice the size are used. The number of cells still missing is estimated from those with one
-    or two samples [Chao1984]. Without samples the only bound is the ball that the tip cannot leave.
-
-    Args:
-        grid: The grid of cells.
-        table: The cells that contain samples.
-        farthest: Upper bound of the tip's distance from the base's origin, [m].
+    or two samples [Chao1984]. Without samples the only bound is the ball that the tip cannot leave, of radius
+    `farthest` [m].
     """
     d = grid.dimensions
     if d == 0:
@@ -195,10 +176,9 @@ def volume_bounds(grid: Grid, table: VoxelTable, farthest: float) -> tuple[float
 
 
 def _products(plan: SamplingPlan, Js: Array) -> tuple[Array, float]:
-    """Products of the singular values of the rows that count, and their scale, from Jacobians in the base frame.
+    """Products (N,) of the singular values of the rows that count, from Jacobians in the base frame.
 
-    Returns:
-        Shape (N,), and the largest singular value to the power of their number, to which rounding is relative.
+    Also return their scale, to which rounding is relative: the largest singular value to the power of their number.
     """
     if len(plan.rows) == 0 or Js.shape[2] == 0:
         return np.zeros(len(Js)), 0.0

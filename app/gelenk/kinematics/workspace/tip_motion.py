@@ -21,11 +21,7 @@ _STRUCTURAL = 1e-9
 
 
 class TipReach:
-    """The directions in which a chain's tip moves at all, and its reach, from sampled configurations.
-
-    Args:
-        sampling: Configurations of the chain.
-    """
+    """The directions in which a chain's tip moves at all, and its reach, from sampled configurations."""
 
     def __init__(self, chain: Chain, sampling: Sampling) -> None:
         qs = sampling.configurations(0, min(_PROBES, sampling.count))
@@ -95,9 +91,7 @@ class TipReach:
     def is_singular(self, rows: list[int], turn: Array | None) -> bool:
         """Return whether some rows of the Jacobian are dependent at every configuration, so that their measure is zero.
 
-        Args:
-            rows: Indices of the rows.
-            turn: Axes of the rows as columns, shape (3, 3); the base's if None.
+        The columns of `turn`, shape (3, 3), are the axes of the rows; None for the base's.
         """
         Js = in_axes(self._Js, turn)
         if not rows or Js.shape[2] == 0:
@@ -112,8 +106,7 @@ class TipReach:
     def ranks(self, direction_only: bool) -> tuple[int, int]:
         """Count the independent velocities of the tip: in position, and in position and orientation together.
 
-        Args:
-            direction_only: Whether only the direction of the tip's z axis counts as orientation.
+        With `direction_only`, only the direction of the tip's z axis counts as orientation.
         """
         Js = self._Js[:, :, self._moves]
         moving = Js[:, :3] / max(self.farthest, np.finfo(float).tiny)
@@ -127,7 +120,6 @@ def in_axes(Js: Array, turn: Array | None) -> Array:
 
 
 def _largest_rank(matrices: Array) -> int:
-    """Largest rank of any of the matrices; shape (N, m, n)."""
     scale = float(np.abs(matrices).max(initial=np.finfo(float).tiny))
     return int(np.linalg.matrix_rank(matrices, tol=_STRUCTURAL * scale).max()) if matrices.size else 0
 

@@ -45,11 +45,7 @@ class Grid:
         return self.size**self.dimensions if self.dimensions else 0.0
 
     def most_cells(self, radius: float) -> float:
-        """Bound the number of cells that meet a ball: they all lie within a ball that is one cell diagonal larger.
-
-        Args:
-            radius: Radius of the ball, [m].
-        """
+        """Bound the number of cells that meet a ball [m]: they all lie within a ball that is a cell diagonal larger."""
         return _BALL[self.dimensions] * (radius / self.size + math.sqrt(self.dimensions)) ** self.dimensions
 
     def least_size(self, radius: float, most: int) -> float:
@@ -90,7 +86,6 @@ class Grid:
         return keys
 
     def _steps(self) -> list[int]:
-        """Differences between the keys of neighbouring cells, one per axis."""
         return [1 << (_BITS * axis) for axis in range(self.dimensions)]
 
 
@@ -99,10 +94,8 @@ class VoxelTable:
     """The cells that contain samples, in ascending order of their keys.
 
     Attributes:
-        keys: Keys of the cells, see `Grid.keys`; shape (M,).
-        counts: Number of samples in each cell; shape (M,).
-        best: Largest measure in each cell; shape (M,).
-        first: Number of the first sample in each cell; shape (M,).
+        keys, counts: Keys of the cells, see `Grid.keys`, and number of samples in each; shape (M,) each.
+        best, first: Largest measure and number of the first sample in each cell; shape (M,) each.
     """
 
     keys: Indices
@@ -119,13 +112,7 @@ NO_VOXELS = VoxelTable(_NONE, _NONE, np.empty(0), _NONE)
 
 
 def voxel_table(keys: Indices, measures: Array, numbers: Indices) -> VoxelTable:
-    """Collect the cells of some samples.
-
-    Args:
-        keys: Key of each sample's cell; shape (N,).
-        measures: Measure of each sample; shape (N,).
-        numbers: Number of each sample; shape (N,).
-    """
+    """Collect the cells of N samples from their cells' keys, measures and numbers; shape (N,) each."""
     return _reduced(keys, np.ones(len(keys), dtype=np.int64), measures, numbers)
 
 
@@ -137,11 +124,7 @@ def coarser(grid: Grid, table: VoxelTable) -> tuple[Grid, VoxelTable]:
 
 
 def merged(tables: Sequence[VoxelTable]) -> VoxelTable:
-    """Merge several tables into one.
-
-    Raises:
-        TooLarge: The result has more than `MAX_VOXELS` cells.
-    """
+    """Merge several tables into one; raises TooLarge if it has more than `MAX_VOXELS` cells."""
     columns = zip(*((table.keys, table.counts, table.best, table.first) for table in tables), strict=True)
     table = _reduced(*map(np.concatenate, columns))
     if len(table) > MAX_VOXELS:

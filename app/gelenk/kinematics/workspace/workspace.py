@@ -33,8 +33,7 @@ class Plane:
     """A slice of space: all points within half the thickness of a plane.
 
     Attributes:
-        origin: A point of the plane, in the base frame; shape (3,), [m].
-        normal: Unit normal of the plane in the base frame; shape (3,).
+        origin, normal: A point of the plane, [m], and its unit normal, in the base frame; shape (3,) each.
         thickness: Thickness of the slice, [m].
     """
 
@@ -52,10 +51,7 @@ class Wish:
     """A request for a workspace.
 
     Attributes:
-        kind: Kind of result.
-        samples: Number of configurations.
-        sequence: See `Sampling`.
-        seed: Seed of the samples, see `Sampling`.
+        sequence, seed: See `Sampling`.
         voxel_size: Edge length of a cell, [m]; None for a fixed share of the workspace's longest side.
         directions: Directions in the manipulability measure; None for the translations in which the tip moves.
         plane: Slice to which positions are restricted, if any.
@@ -80,9 +76,6 @@ class SamplingPlan:
         flat: The chain, rotated if necessary so that the measure uses whole rows of its Jacobian.
         turn: Rotation that takes the chain's positions back to the base; shape (3, 3). None if not rotated.
         rows: Rows of the Jacobian in the measure.
-        sampling: The configurations.
-        plane: Slice to which positions are restricted, if any.
-        grid: The grid of cells.
         is_singular: Whether the measure is zero at every configuration, so that computed values are rounding.
         keeps_points: Whether to keep the positions themselves.
         extent: Upper bound of the tip's distance from the base's origin, [m].
@@ -115,11 +108,7 @@ class SamplingPlan:
 
 
 def plan(chain: Chain, wish: Wish) -> tuple[SamplingPlan, TipReach]:
-    """Plan the computation of a workspace; also return how the chain's tip moves.
-
-    Raises:
-        InvalidField: A range or the voxel size is not allowed.
-    """
+    """Return the plan, and how the chain's tip moves; raises InvalidField for a range or voxel size not allowed."""
     ranges = joint_ranges(chain, wish.ranges or {})
     sampling = Sampling(ranges, wish.samples, wish.sequence, wish.seed)
     motion = TipReach(chain, sampling)
@@ -173,12 +162,9 @@ class SampledPart:
     """The results of some of the samples.
 
     Attributes:
-        first: Number of the first sample.
         points: Position [m] and measure of each sample that counts; shape (k, 4). None if not requested.
-        voxels: The cells that contain these samples.
         count: Number of samples that count.
-        lower: Smallest coordinates; shape (3,), [m]. inf if no sample counts.
-        upper: Largest coordinates; shape (3,), [m]. -inf if no sample counts.
+        lower, upper: Smallest and largest coordinates; shape (3,), [m]. inf and -inf if no sample counts.
         distances: Smallest and largest distance from the base's origin, [m].
         measures: Smallest, largest and sum of the measures.
         best: Number of the sample with the largest measure; -1 if no sample counts.
