@@ -34,12 +34,12 @@ def picture(
     base: str | None = None,
     tip: str | None = None,
     task: Sequence[Direction] = DIRECTIONS,
-    asked: Overlay = NOTHING_MORE,
+    overlay: Overlay = NOTHING_MORE,
 ) -> bytes:
     machine = robot(name)
     chain = machine.chain(base, tip)
     result = manipulability(machine, chain, q[None], task=task)
-    return manipulability_picture(name, chain, q, result.parts.get("translation"), kind, asked)
+    return manipulability_picture(name, chain, q, result.parts.get("translation"), kind, overlay)
 
 
 @pytest.fixture
@@ -190,7 +190,7 @@ def test_the_configuration_is_told(figures: list[Figure], name: str, q: list[flo
 def test_directions_are_arrows_with_their_ratios(figures: list[Figure]) -> None:
     """A dot stands where the ray leaves each ellipse: 1/√(uᵀ(JJᵀ)⁻¹u) and 1/√(uᵀJJᵀu), to scale."""
     u = np.array([np.cos(0.4), np.sin(0.4), 0.0])
-    picture("planar_2r", np.array([0.3, 0.8]), asked=Overlay(u[None], 1e-10, None))
+    picture("planar_2r", np.array([0.3, 0.8]), overlay=Overlay(u[None], 1e-10, None))
     J = np.array([[-0.919365358704, -0.623845152043], [1.272853774124, 0.317517284998]])
     velocity, force = 1 / np.sqrt(u[:2] @ np.linalg.inv(J @ J.T) @ u[:2]), 1 / np.linalg.norm(J.T @ u[:2])
     assert f"v {velocity:.4g}, F {force:.4g}" in words_of(figures[0])
@@ -206,7 +206,7 @@ def test_polytopes_of_a_planar_arm_are_outlined(figures: list[Figure]) -> None:
     result = manipulability(machine, machine.chain(None, None), q[None])
     bounds = JointBounds(np.array([1.0, 2.0]), np.array([10.0, 5.0]))
     (limited,) = limited_motion(result.parts["translation"], result.Js, bounds, np.eye(3))
-    picture("planar_2r", q, asked=Overlay(np.zeros((0, 3)), 1e-10, limited))
+    picture("planar_2r", q, overlay=Overlay(np.zeros((0, 3)), 1e-10, limited))
     J, tip = result.Js[0, :2], np.array([1.272853774124, 0.919365358704])
     polygons = [patch for patch in figures[0].axes[0].patches if isinstance(patch, Polygon)]
     velocities, forces = (np.asarray(patch.get_xy())[:4] - tip for patch in polygons)
@@ -218,7 +218,7 @@ def test_polytopes_of_a_planar_arm_are_outlined(figures: list[Figure]) -> None:
     assert "Velocity polytope" in words_of(figures[0])
     unlimited = JointBounds(np.full(2, np.nan), np.full(2, np.nan))
     (limited,) = limited_motion(result.parts["translation"], result.Js, unlimited, np.eye(3))
-    picture("planar_2r", q, asked=Overlay(np.zeros((0, 3)), 1e-10, limited))
+    picture("planar_2r", q, overlay=Overlay(np.zeros((0, 3)), 1e-10, limited))
     assert "not every joint has a velocity limit" in words_of(figures[1])
 
 

@@ -35,36 +35,38 @@ _SAMPLING_SHARE, _DONE = 0.05, 0.99
 Column: TypeAlias = Literal["x", "y", "z", "measure", "samples", "best_measure", "dexterity"]
 
 
-def work_of(asked: WorkspaceWork) -> Work:
+def work_of(request: WorkspaceWork) -> Work:
     """Return the function that runs a request as a job."""
 
     def work(run: Run) -> Files:
-        end = _DONE if asked.asked is None else _SAMPLING_SHARE
-        run.map(_SAMPLES, _sampled, lambda k: (asked.plan, k), asked.plan.parts, (0.0, end), PART)
-        found = run.apart(_put_together, (asked, run.parts, run.job.robot_digest))
-        return {} if found is None else _files(asked, found, _dexterity(run, asked, found), run.job.robot_digest)
+        end = _DONE if request.orientations is None else _SAMPLING_SHARE
+        run.map(_SAMPLES, _sampled, lambda k: (request.plan, k), request.plan.parts, (0.0, end), PART)
+        found = run.apart(_put_together, (request, run.parts, run.job.robot_digest))
+        return {} if found is None else _files(request, found, _dexterity(run, request, found), run.job.robot_digest)
 
     return work
 
 
 def _put_together(job: tuple[WorkspaceWork, Parts, str | None]) -> Workspace | None:
     """Combine the parts and write the result files, in a process of its own; of a dexterity map return them instead."""
-    asked, parts, digest = job
-    survey = Survey(asked.plan)
-    for part in parts.of(_SAMPLES, asked.plan.parts):
+    request, parts, digest = job
+    survey = Survey(request.plan)
+    for part in parts.of(_SAMPLES, request.plan.parts):
         survey.add(_part(part))
-    found = survey.result(RobotModel(asked.description, (asked.chain.base_frame, asked.chain.tip_frame)), asked.chain)
-    if asked.asked is not None:
+    found = survey.result(
+        RobotModel(request.description, (request.chain.base_frame, request.chain.tip_frame)), request.chain
+    )
+    if request.orientations is not None:
         return found
-    for name, content in _files(asked, found, None, digest).items():
+    for name, content in _files(request, found, None, digest).items():
         write_result(parts.folder, name, content)
     return None
 
 
-def _files(asked: WorkspaceWork, found: Workspace, dexterity: Array | None, robot_digest: str | None) -> Files:
-    table = found.points if found.points is not None else found.voxel_rows(asked.plan)
+def _files(request: WorkspaceWork, found: Workspace, dexterity: Array | None, robot_digest: str | None) -> Files:
+    table = found.points if found.points is not None else found.voxel_rows(request.plan)
     array = table if dexterity is None else np.column_stack((table, dexterity))
-    told = _summary(asked, found, dexterity) | {"robot_digest": robot_digest}
+    told = _summary(request, found, dexterity) | {"robot_digest": robot_digest}
     summary = orjson.dumps(told, option=orjson.OPT_SERIALIZE_NUMPY)
     return {
         ARRAY: lambda target: np.lib.format.write_array(target, array, allow_pickle=False),
@@ -72,12 +74,12 @@ def _files(asked: WorkspaceWork, found: Workspace, dexterity: Array | None, robo
     }
 
 
-def _dexterity(run: Run, asked: WorkspaceWork, found: Workspace) -> Array:
+def _dexterity(run: Run, request: WorkspaceWork, found: Workspace) -> Array:
     """Compute the share of the orientations that are reached at the centre of each voxel; shape (M,)."""
-    assert asked.asked is not None  # noqa: S101 - called for dexterity maps only
-    centres = asked.plan.grid.centres(found.voxels.keys)
-    pickled = pickle.dumps(asked)
-    size = max(1, _POSES_AT_ONCE // len(asked.asked.rotations))
+    assert request.orientations is not None  # noqa: S101 - called for dexterity maps only
+    centres = request.plan.grid.centres(found.voxels.keys)
+    pickled = pickle.dumps(request)
+    size = max(1, _POSES_AT_ONCE // len(request.orientations.rotations))
 
     def part(k: int) -> tuple[bytes, Array, Indices]:
         cells = slice(k * size, (k + 1) * size)
@@ -123,24 +125,24 @@ def _shares(job: tuple[bytes, Array, Indices]) -> bytes:
 @lru_cache(maxsize=2)
 def _unpacked(pickled: bytes) -> tuple[RobotModel, Chain, Sampling, Orientations]:
     """Return the input of inverse kinematics; revolute joints without limits or a requested range stay unbounded."""
-    asked: WorkspaceWork = pickle.loads(pickled)  # noqa: S301 - written by this service
-    assert asked.asked is not None  # noqa: S101
-    ends = asked.chain.base_frame, asked.chain.tip_frame
-    robot = RobotModel(asked.description, ends)
-    chain, sampling = robot.chain(*ends), asked.plan.sampling
+    request: WorkspaceWork = pickle.loads(pickled)  # noqa: S301 - written by this service
+    assert request.orientations is not None  # noqa: S101
+    ends = request.chain.base_frame, request.chain.tip_frame
+    robot = RobotModel(request.description, ends)
+    chain, sampling = robot.chain(*ends), request.plan.sampling
     sliding = {int(variable) for prismatic, variable in chain.flat.joints if prismatic}
     bound = np.array(
-        [i in sliding or name in (asked.wish.ranges or {}) for i, name in enumerate(chain.joint_names)], dtype=bool
+        [i in sliding or name in (request.wish.ranges or {}) for i, name in enumerate(chain.joint_names)], dtype=bool
     )
     lower = np.where(bound, sampling.ranges.lower, chain.lower)
     upper = np.where(bound, sampling.ranges.upper, chain.upper)
-    return robot, replace(chain, lower=lower, upper=upper), sampling, asked.asked
+    return robot, replace(chain, lower=lower, upper=upper), sampling, request.orientations
 
 
-def _summary(asked: WorkspaceWork, found: Workspace, dexterity: Array | None) -> dict[str, Any]:
-    chain, work, wish = asked.chain, asked.plan, asked.wish
+def _summary(request: WorkspaceWork, found: Workspace, dexterity: Array | None) -> dict[str, Any]:
+    chain, work, wish = request.chain, request.plan, request.wish
     return {
-        "robot": asked.name,
+        "robot": request.name,
         "joint_names": chain.joint_names,
         "base_frame": chain.base_frame,
         "tip_frame": chain.tip_frame,
@@ -154,11 +156,11 @@ def _summary(asked: WorkspaceWork, found: Workspace, dexterity: Array | None) ->
         "bounding_box": None if found.bounds is None else dict(zip(("lower", "upper"), found.bounds, strict=True)),
         "reach": None if found.reach is None else dict(zip(("min", "max"), found.reach, strict=True)),
         "voxels": _voxels(work.grid, found),
-        "measure": _measure(asked, found),
-        "dexterity": None if dexterity is None else _dexterity_summary(asked, found, dexterity),
+        "measure": _measure(request, found),
+        "dexterity": None if dexterity is None else _dexterity_summary(request, found, dexterity),
         "array": {
-            "shape": [found.count if wish.kind == "cloud" else len(found.voxels), len(asked.columns)],
-            "columns": asked.columns,
+            "shape": [found.count if wish.kind == "cloud" else len(found.voxels), len(request.columns)],
+            "columns": request.columns,
         },
         "notes": work.notes,
         "certificate": found.certificate,
@@ -181,8 +183,8 @@ def _voxels(grid: Grid, found: Workspace) -> dict[str, Any]:
     }
 
 
-def _measure(asked: WorkspaceWork, found: Workspace) -> dict[str, Any]:
-    work, measures = asked.plan, found.measures
+def _measure(request: WorkspaceWork, found: Workspace) -> dict[str, Any]:
+    work, measures = request.plan, found.measures
     axes = (np.eye(3) if work.turn is None else work.turn).T
     directions = np.zeros((len(work.rows), 6))
     for k, row in enumerate(work.rows.tolist()):
@@ -191,20 +193,20 @@ def _measure(asked: WorkspaceWork, found: Workspace) -> dict[str, Any]:
     return {"directions": directions.tolist(), **values}
 
 
-def _dexterity_summary(asked: WorkspaceWork, found: Workspace, values: Array) -> dict[str, Any]:
-    assert asked.asked is not None  # noqa: S101
-    grid, full = asked.plan.grid, found.voxels.keys[values == 1.0]
-    counts = (0, 0, 0) if asked.excluded else (len(grid.inner(full)), len(full), len(grid.grown(full)))
+def _dexterity_summary(request: WorkspaceWork, found: Workspace, values: Array) -> dict[str, Any]:
+    assert request.orientations is not None  # noqa: S101
+    grid, full = request.plan.grid, found.voxels.keys[values == 1.0]
+    counts = (0, 0, 0) if request.excluded else (len(grid.inner(full)), len(full), len(grid.grown(full)))
     lower, volume, upper = (count * grid.cell for count in counts)
     return {
         "method": "inverse_kinematics",
-        "spread": asked.asked.spread,
-        "orientations": len(asked.asked.rotations),
+        "spread": request.orientations.spread,
+        "orientations": len(request.orientations.rotations),
         "mean_share": float(values.mean()) if len(values) else None,
         "max_share": float(values.max()) if len(values) else None,
         "reached_count": int(np.sum(values > 0.0)),
         "full_count": len(full),
         "full_volume": volume,
         "full_volume_bounds": (lower, min(upper, found.volume[1])),
-        "excluded": asked.excluded,
+        "excluded": request.excluded,
     }

@@ -28,7 +28,7 @@ _TOO_LOW = 1.25
 class WorkspaceWork:
     """A checked request for a workspace, and the plan for computing it.
 
-    `asked` are the orientations of a dexterity map, else None. If the chain cannot reach all of these in any region,
+    `orientations` are those of a dexterity map, else None. If the chain cannot reach all of these in any region,
     `excluded` says why; see `dexterity.excluded`.
     """
 
@@ -37,7 +37,7 @@ class WorkspaceWork:
     chain: Chain
     wish: Wish
     plan: SamplingPlan
-    asked: Orientations | None
+    orientations: Orientations | None
     excluded: str | None
 
     @property
@@ -45,7 +45,7 @@ class WorkspaceWork:
         """Names of the columns of the result array."""
         if self.wish.kind == "cloud":
             return POINT_COLUMNS
-        return VOXEL_COLUMNS if self.asked is None else (*VOXEL_COLUMNS, "dexterity")
+        return VOXEL_COLUMNS if self.orientations is None else (*VOXEL_COLUMNS, "dexterity")
 
 
 def question(name: str, robot: RobotModel, call: WorkspaceRequest) -> WorkspaceWork:
@@ -62,13 +62,13 @@ def question(name: str, robot: RobotModel, call: WorkspaceRequest) -> WorkspaceW
         {joint: (bounds[0], bounds[1]) for joint, bounds in call.joint_ranges.items()},
     )
     work, motion = plan(chain, wish)
-    asked = reason = None
+    wanted = reason = None
     if call.kind == "dexterity":
-        asked = orientations(chain, motion, call.orientations_over, call.orientations)
-        reason = excluded(motion, work.grid.dimensions, asked.spread)
-        notes = (*work.notes, *_spread_notes(motion, wish.plane, asked), *([reason] if reason else []))
+        wanted = orientations(chain, motion, call.orientations_over, call.orientations)
+        reason = excluded(motion, work.grid.dimensions, wanted.spread)
+        notes = (*work.notes, *_spread_notes(motion, wish.plane, wanted), *([reason] if reason else []))
         work = replace(work, notes=notes)
-    return WorkspaceWork(name, replace(robot.description, warnings=()), chain, wish, work, asked, reason)
+    return WorkspaceWork(name, replace(robot.description, warnings=()), chain, wish, work, wanted, reason)
 
 
 def _plane(plane: SlicePlane) -> Plane:
@@ -78,7 +78,7 @@ def _plane(plane: SlicePlane) -> Plane:
     return Plane(np.array(plane.origin), np.array(plane.normal) / length, plane.thickness)
 
 
-def _spread_notes(motion: TipReach, plane: Plane | None, asked: Orientations) -> list[str]:
+def _spread_notes(motion: TipReach, plane: Plane | None, wanted: Orientations) -> list[str]:
     """Return notes on why a dexterity map may not be what users expect."""
     notes = []
     if motion.kept_to is not None:
@@ -91,29 +91,29 @@ def _spread_notes(motion: TipReach, plane: Plane | None, asked: Orientations) ->
             "orientations are asked for at the middles of the voxels: none is reached where the plane's origin is not "
             "on what the tip keeps to"
         )
-    if asked.spread == "fixed":
+    if wanted.spread == "fixed":
         notes.append("the tip never turns: only this orientation is tested")
-    elif asked.spread == "turns":
+    elif wanted.spread == "turns":
         notes.append("the tip rotates about one direction only: only rotations about it are tested")
     return notes
 
 
-def check_size(asked: WorkspaceWork) -> None:
+def check_size(job: WorkspaceWork) -> None:
     """Raise InvalidField if the samples fall into too many voxels; it names what is allowed instead."""
-    plan, rotations = asked.plan, 1 if asked.asked is None else len(asked.asked.rotations)
-    most = MAX_VOXELS if asked.asked is None else min(MAX_VOXELS, MAX_POSES // rotations)
+    plan, rotations = job.plan, 1 if job.orientations is None else len(job.orientations.rotations)
+    most = MAX_VOXELS if job.orientations is None else min(MAX_VOXELS, MAX_POSES // rotations)
     if min(plan.sampling.count, plan.grid.most_cells(plan.extent)) <= most:
         return
     voxels = _voxels_met(plan)
     if voxels <= most:
         return
     told = f"the samples fall into some {voxels:,} voxels"
-    if asked.asked is not None:
+    if job.orientations is not None:
         told += f", at each of which {rotations} orientations are asked for"
     ways = [f"at most {most:,} `samples`"]
     if (size := plan.grid.least_size(plan.extent, most)) < plan.extent:
         ways.insert(0, f"voxels of {_rounded_up(size):g} m or more")
-    if asked.asked is not None:
+    if job.orientations is not None:
         ways.append("fewer `orientations`")
     raise InvalidField("voxel_size", f"{told}; at most {most:,} are allowed: ask for {' or '.join(ways)}")
 

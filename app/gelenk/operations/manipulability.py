@@ -272,5 +272,5 @@ def _picture(
             reason = "an image shows them of a translation in a plane, as of a planar arm or the task x, y"
             raise InvalidField("polytopes", reason)
         limited = limited_motion(translation, result.Js, bounds, np.eye(3))[0]
-    asked = Overlay(np.zeros((0, 3)) if directions is None else directions, call.rank_tolerance, limited)
-    return manipulability_picture(loaded.record.name, chain, q, translation, kind, asked)
+    overlay = Overlay(np.zeros((0, 3)) if directions is None else directions, call.rank_tolerance, limited)
+    return manipulability_picture(loaded.record.name, chain, q, translation, kind, overlay)

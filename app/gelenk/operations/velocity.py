@@ -20,9 +20,9 @@ from gelenk.operations.singularities import singularity_info
 from gelenk.operations.velocity_call import (
     RATES,
     TIP,
-    asked_field,
     null_motion_of_call,
     positions_and_rates,
+    requested_field,
     rule_of_call,
     targets_of_call,
 )
@@ -57,7 +57,7 @@ def run(loaded: LoadedRobot, call: VelocityRequest, limits: Limits) -> Outcome:
     robot = loaded.robot
     chain = robot.chain(call.base_frame, call.tip_frame)
     qs, rates = positions_and_rates(chain, call)
-    field = asked_field(call, len(rates))
+    field = requested_field(call, len(rates))
     if call.respect_limits:
         check_limits(chain, qs)
     space = TaskSpace(task_of(call.task), call.characteristic_length, call.reference)
@@ -85,17 +85,17 @@ def _check_size(call: VelocityRequest, count: int, joints: int, limits: Limits) 
     check_numbers(count * (50 + joints + matrices + (100 + 10 * joints) * call.singularity_reports), limits)
 
 
-def _forward_outcome(asked: _Question, motion: TipMotion) -> Outcome:
-    chain, call, space, derivatives = asked.chain, asked.call, asked.space, motion.derivatives
+def _forward_outcome(question: _Question, motion: TipMotion) -> Outcome:
+    chain, call, space, derivatives = question.chain, question.call, question.space, motion.derivatives
 
     def content() -> dict[str, Any]:
         moved = {name: np.ascontiguousarray(each) for name, each in zip(_DERIVATIVES, derivatives, strict=False)}
         if motion.spatial_accelerations is not None:
             moved["spatial_accelerations"] = np.ascontiguousarray(motion.spatial_accelerations)
-        Js, terms = jacobians_with_terms(chain, asked.qs, call.reference)
+        Js, terms = jacobians_with_terms(chain, question.qs, call.reference)
         rule = InverseRule(rank_tolerance=call.rank_tolerance)
         parts = decompose(Js[:, space.rows], rule, space.scales, rounding(terms))
-        return _answer(asked, moved, _results(asked, asked.rates[0], parts), motion)
+        return _answer(question, moved, _results(question, question.rates[0], parts), motion)
 
     def array() -> tuple[Array, dict[str, str]]:
         return (derivatives[0] if len(derivatives) == 1 else np.stack(derivatives, axis=1)), {}
@@ -103,7 +103,7 @@ def _forward_outcome(asked: _Question, motion: TipMotion) -> Outcome:
     return Outcome(content, None if call.jacobian_derivatives else array)
 
 
-def _inverse_outcome(asked: _Question, field: str, found: InverseMotion) -> Outcome:
+def _inverse_outcome(question: _Question, field: str, found: InverseMotion) -> Outcome:
     inversion = found.inversion
     unsolved = [i for i, status in enumerate(inversion.statuses) if status == "singular"]
 
@@ -111,39 +111,39 @@ def _inverse_outcome(asked: _Question, field: str, found: InverseMotion) -> Outc
         solutions: list[list[float] | None] = inversion.xs.tolist()
         for row in unsolved:
             solutions[row] = None
-        speeds = asked.rates[0] if len(asked.rates) else inversion.xs
-        results = _results(asked, speeds, inversion.decomposition)
+        speeds = question.rates[0] if len(question.rates) else inversion.xs
+        results = _results(question, speeds, inversion.decomposition)
         for row, result in enumerate(results):
-            result.update(_verdict(asked, found, row))
-        return _answer(asked, {RATES[TIP[field]]: solutions}, results, found.motion)
+            result.update(_verdict(question, found, row))
+        return _answer(question, {RATES[TIP[field]]: solutions}, results, found.motion)
 
     def array() -> tuple[Array, dict[str, str]]:
         named = ",".join(map(str, unsolved[:_ROWS_NAMED]))
         return inversion.xs, {"Gelenk-Unsolved": str(len(unsolved)), "Gelenk-Unsolved-Rows": named}
 
-    return Outcome(content, None if asked.call.jacobian_derivatives else array)
+    return Outcome(content, None if question.call.jacobian_derivatives else array)
 
 
 def _answer(
-    asked: _Question, found: dict[str, Any], results: list[dict[str, Any]], motion: TipMotion
+    question: _Question, found: dict[str, Any], results: list[dict[str, Any]], motion: TipMotion
 ) -> dict[str, Any]:
     answer = {
-        **head(asked.chain),
-        "reference": asked.call.reference,
-        "task": asked.space.task.directions,
-        "rank_tolerance": asked.call.rank_tolerance,
+        **head(question.chain),
+        "reference": question.call.reference,
+        "task": question.space.task.directions,
+        "rank_tolerance": question.call.rank_tolerance,
         **found,
         "results": results,
     }
-    if asked.call.jacobian_derivatives:
+    if question.call.jacobian_derivatives:
         answer["jacobian_derivatives"] = np.ascontiguousarray(motion.jacobians.swapaxes(0, 1))
     return answer | {"certificate": motion.certificate}
 
 
-def _results(asked: _Question, speeds: Array, parts: Decomposition) -> list[dict[str, Any]]:
+def _results(question: _Question, speeds: Array, parts: Decomposition) -> list[dict[str, Any]]:
     """Return the report of each configuration, common to all requests; speeds of shape (N, n)."""
-    chain, call, space = asked.chain, asked.call, asked.space
-    limits = velocity_limits(asked.robot, chain)
+    chain, call, space = question.chain, question.call, question.space
+    limits = velocity_limits(question.robot, chain)
     highest = structure(chain, space.task, space.reference).rank
     conditions = condition_numbers(parts.sigmas, parts.ranks)
     results: list[dict[str, Any]] = []
@@ -158,16 +158,16 @@ def _results(asked: _Question, speeds: Array, parts: Decomposition) -> list[dict
         }
         results.append({"velocity_limits_exceeded": exceeded(chain, speeds[row], limits), "singularity": singularity})
         if call.singularity_reports:
-            report = singularity_report(chain, asked.qs[row], tolerance=call.rank_tolerance, space=space)
+            report = singularity_report(chain, question.qs[row], tolerance=call.rank_tolerance, space=space)
             results[row]["singularity_report"] = singularity_info(chain, report)
     return results
 
 
-def _verdict(asked: _Question, found: InverseMotion, row: int) -> dict[str, Any]:
-    inversion, residual, rows = found.inversion, found.residuals[row], np.array(asked.space.rows)
+def _verdict(question: _Question, found: InverseMotion, row: int) -> dict[str, Any]:
+    inversion, residual, rows = found.inversion, found.residuals[row], np.array(question.space.rows)
     status, damping = inversion.statuses[row], float(inversion.dampings[row])
     if status == "singular":
-        return {"status": status, "reason": _no_inverse(asked.call, inversion, row)}
+        return {"status": status, "reason": _no_inverse(question.call, inversion, row)}
     entry: dict[str, Any] = {
         "status": status,
         "residual": residual.tolist(),
@@ -175,7 +175,7 @@ def _verdict(asked: _Question, found: InverseMotion, row: int) -> dict[str, Any]
         "residual_angular": float(np.linalg.norm(residual[rows >= 3])),
         "damping": damping,
     }
-    if asked.call.null_space is not None:
+    if question.call.null_space is not None:
         entry["null_space_share"] = float(inversion.shares[row])
     if status == "approximate" and damping > 0.0:
         entry["reason"] = f"damping by {damping:.3g} keeps the joints slow at the price of this residual"

@@ -59,7 +59,7 @@ def _split(chain: Chain, array: Array) -> tuple[Array, Array]:
     return parts[0], np.array(parts[1:])
 
 
-def asked_field(call: VelocityRequest, rates: int) -> str | None:
+def requested_field(call: VelocityRequest, rates: int) -> str | None:
     """Return the field to invert, None if the tip's motion is requested; raises InvalidField if neither is clear."""
     given = [field for field in TIP if getattr(call, field) is not None]
     if not given:
@@ -69,18 +69,18 @@ def asked_field(call: VelocityRequest, rates: int) -> str | None:
             if field in call.model_fields_set and not isinstance(call.joint_positions, np.ndarray):
                 raise InvalidField(field, f"needs one of {', '.join(TIP)}, and none is given")
         return None
-    asked = given[0]
+    quantity = given[0]
     if len(given) > 1:
-        raise InvalidField(given[1], f"`{asked}` are given too: one of the two, or two calls")
-    needed = TIP[asked]
+        raise InvalidField(given[1], f"`{quantity}` are given too: one of the two, or two calls")
+    needed = TIP[quantity]
     if rates < needed:
-        raise InvalidField(RATES[rates], f"they are needed with `{asked}`")
+        raise InvalidField(RATES[rates], f"they are needed with `{quantity}`")
     if rates > needed:
-        raise InvalidField(RATES[needed], f"`{asked}` are given too, from which they follow: one of the two")
-    return asked
+        raise InvalidField(RATES[needed], f"`{quantity}` are given too, from which they follow: one of the two")
+    return quantity
 
 
-def rule_of_call(chain: Chain, call: VelocityRequest, asked: str, directions: int) -> InverseRule:
+def rule_of_call(chain: Chain, call: VelocityRequest, quantity: str, directions: int) -> InverseRule:
     """Return the rule of inversion; raises InvalidField if an option or a weight does not suit the inverse."""
     if call.inverse == "exact":
         for field in ("weights", "null_space"):
@@ -99,7 +99,7 @@ def rule_of_call(chain: Chain, call: VelocityRequest, asked: str, directions: in
     damping = None if call.damping in {None, "adaptive"} else cast(float, call.damping)
     if damping is not None and call.damping_threshold is not None:
         raise InvalidField("damping_threshold", "only for adaptive damping")
-    if asked != "twists" and call.null_space is not None and call.null_space.joint_accelerations is None:
+    if quantity != "twists" and call.null_space is not None and call.null_space.joint_accelerations is None:
         raise InvalidField("null_space", "`joint_velocities` and `objective` are allowed with `twists` only")
     return InverseRule(
         call.inverse,
@@ -123,21 +123,23 @@ def _weights(chain: Chain, call: VelocityRequest) -> Array | None:
     return weights
 
 
-def targets_of_call(call: VelocityRequest, asked: str, space: TaskSpace, count: int) -> Array:
+def targets_of_call(call: VelocityRequest, quantity: str, space: TaskSpace, count: int) -> Array:
     """Return the rates to invert, in the directions of the task; shape (N, k)."""
-    given: Sequence[Sequence[float]] = getattr(call, asked)
-    check_count(len(given), count, asked)
+    given: Sequence[Sequence[float]] = getattr(call, quantity)
+    check_count(len(given), count, quantity)
     targets = np.empty((count, len(space)))
     for i, entry in enumerate(given):
         if len(entry) not in {6, len(space)}:
             allowed = "6" if len(space) == 6 else f"6, or {len(space)} for the directions that count"
-            raise InvalidField(f"{asked}/{i}", f"{counted(len(entry), 'number')}; allowed: {allowed}")
+            raise InvalidField(f"{quantity}/{i}", f"{counted(len(entry), 'number')}; allowed: {allowed}")
         # Six numbers for six directions are in the order of the directions too.
         targets[i] = entry if len(entry) == len(space) else [entry[row] for row in space.rows]
     return targets
 
 
-def null_motion_of_call(chain: Chain, call: VelocityRequest, qs: Array, asked: str, space: TaskSpace) -> Array | None:
+def null_motion_of_call(
+    chain: Chain, call: VelocityRequest, qs: Array, quantity: str, space: TaskSpace
+) -> Array | None:
     """Return the null-space motion ξ, shape (N, n), None if not requested; raises InvalidField if it does not fit."""
     wanted = call.null_space
     if wanted is None:
@@ -146,10 +148,10 @@ def null_motion_of_call(chain: Chain, call: VelocityRequest, qs: Array, asked: s
         given = wanted.posture
         posture = None if given is None else one_configuration(chain, given, "null_space/posture")
         return descent(chain, qs, Objective(wanted.objective, posture), wanted.gain, space)
-    field = "joint_velocities" if asked == "twists" else "joint_accelerations"
+    field = "joint_velocities" if quantity == "twists" else "joint_accelerations"
     values = getattr(wanted, field)
-    if values is None or asked == "tip_jerks":
-        raise InvalidField("null_space", f"its result cannot be combined with `{asked}`")
+    if values is None or quantity == "tip_jerks":
+        raise InvalidField("null_space", f"its result cannot be combined with `{quantity}`")
     rows = configurations(chain, values, f"null_space/{field}")
     if len(rows) != 1:
         check_count(len(rows), len(qs), f"null_space/{field}", ": one for all or each")

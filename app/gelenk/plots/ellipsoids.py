@@ -91,15 +91,15 @@ def manipulability_picture(
     q: Array,
     translation: Ellipsoids | None,
     kind: style.PictureFormat,
-    asked: Overlay = NOTHING_MORE,
+    overlay: Overlay = NOTHING_MORE,
 ) -> bytes:
     """Draw the arm with its ellipsoids at q alone, in the base frame; `translation` is None for a task without one."""
     points, slides = arm_line(chain, q)
     extent = max(float(np.ptp(points, axis=0).max()), float(np.linalg.norm(points[-1])), 1e-3)
     quantities = () if translation is None else _quantities(chain, translation, extent)
-    outlines = () if translation is None or asked.limited is None else _outlines(translation, asked.limited, extent)
+    outlines = () if translation is None or overlay.limited is None else _outlines(translation, overlay.limited, extent)
     plane = _plane(chain, translation)
-    arrows = _arrows(translation, quantities, asked)
+    arrows = _arrows(translation, quantities, overlay)
     scene = Scene(points, slides, extent, quantities, outlines, arrows)
     entries = legend(quantities, outlines, arrows, translation)
     title = f"{style.plain(name)}: {style.plain(chain.base_frame)} → {style.plain(chain.tip_frame)}"
@@ -148,13 +148,13 @@ def _outlines(translation: Ellipsoids, limited: LimitedMotion, extent: float) ->
     return tuple(found)
 
 
-def _arrows(translation: Ellipsoids | None, quantities: Sequence[Quantity], asked: Overlay) -> tuple[Arrow, ...]:
+def _arrows(translation: Ellipsoids | None, quantities: Sequence[Quantity], overlay: Overlay) -> tuple[Arrow, ...]:
     """Return the directions as arrows; the legend shows their components."""
-    directions = asked.directions
+    directions = overlay.directions
     inside, ratios = np.zeros(len(directions), dtype=bool), np.full((2, len(directions)), np.nan)
     if translation is not None and quantities and len(directions):
         inside = is_within_task(translation.space, directions)
-        ratios = np.array(transmission_ratios(translation, directions, asked.tolerance)).reshape(2, -1)
+        ratios = np.array(transmission_ratios(translation, directions, overlay.tolerance)).reshape(2, -1)
     arrows = []
     for i, direction in enumerate(directions):
         words = f"({', '.join(f'{component + 0.0:.3g}' for component in np.round(direction, 9))}): "
