@@ -52,7 +52,7 @@ class DescentRule:
     switch_error: float = 1e-2
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)  # not frozen: each request makes one, and freezing triples its cost
 class Options:
     """Options of an inverse kinematics call.
 
@@ -87,7 +87,7 @@ class Options:
     fixed_joints: Mapping[str, float] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)  # not frozen: each request makes one, and freezing triples its cost
 class TargetProblem:
     """Targets for a chain, and how they are to be solved.
 

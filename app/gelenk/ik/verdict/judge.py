@@ -39,7 +39,7 @@ def judged(
         poses.positions[rows], poses.rotations[rows] = recomputed.positions, recomputed.rotations
     errors = problem.task.errors(problem.targets, poses)
     claims = np.ones(len(qs), dtype=np.bool_) if claimed is None else claimed
-    return accepted(qs, claims, errors, *problem.tolerances, *problem.limits), errors[0], errors[1]
+    return accepted(qs, claims, errors, *problem.tolerances, problem.limits), errors[0], errors[1]
 
 
 def assembled(
@@ -81,13 +81,12 @@ def accepted(
     errors: Array,
     position_tolerance: float,
     orientation_tolerance: float,
-    lower: Array,
-    upper: Array,
+    limits: Array,
 ) -> Flags:
     """Check which of the claimed solutions are within the tolerances and the limits; shape (N,)."""
     good = claimed.copy()
     for i in range(len(qs)):
         good[i] &= errors[0, i] <= position_tolerance and errors[1, i] <= orientation_tolerance
         for j in range(qs.shape[1]):
-            good[i] &= lower[j] - _WITHIN <= qs[i, j] <= upper[j] + _WITHIN
+            good[i] &= limits[0, j] - _WITHIN <= qs[i, j] <= limits[1, j] + _WITHIN
     return good

@@ -36,7 +36,7 @@ class UnsolvedTarget:
     is_late: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)  # not frozen: each request makes one, and freezing triples its cost
 class InverseKinematics:
     """Solutions of N targets in one table: rows firsts[i] up to, but not including, firsts[i + 1] belong to target i.
 
