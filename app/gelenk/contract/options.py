@@ -10,7 +10,9 @@ from gelenk.ik.search.words import Direction
 
 RespectLimits = Annotated[bool, Field(description="Whether a configuration beyond the joint limits is an error.")]
 Positive = Annotated[float, Field(ge=1e-6, le=1e6)]
+"""A quantity that is neither zero nor beyond all measure."""
 Fraction = Annotated[float, Field(gt=0, lt=1)]
+"""A relative tolerance."""
 RankTolerance = Annotated[
     Fraction,
     Field(

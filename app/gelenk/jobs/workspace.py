@@ -126,7 +126,7 @@ def _shares(job: tuple[bytes, Array, Indices]) -> bytes:
 def _unpacked(pickled: bytes) -> tuple[RobotModel, Chain, Sampling, Orientations]:
     """Return the input of inverse kinematics; revolute joints without limits or a requested range stay unbounded."""
     request: WorkspaceWork = pickle.loads(pickled)  # noqa: S301 - written by this service
-    assert request.orientations is not None  # noqa: S101
+    assert request.orientations is not None  # noqa: S101 - as in `_dexterity`
     ends = request.chain.base_frame, request.chain.tip_frame
     robot = RobotModel(request.description, ends)
     chain, sampling = robot.chain(*ends), request.plan.sampling
@@ -194,7 +194,7 @@ def _measure(request: WorkspaceWork, found: Workspace) -> dict[str, Any]:
 
 
 def _dexterity_summary(request: WorkspaceWork, found: Workspace, values: Array) -> dict[str, Any]:
-    assert request.orientations is not None  # noqa: S101
+    assert request.orientations is not None  # noqa: S101 - as in `_dexterity`
     grid, full = request.plan.grid, found.voxels.keys[values == 1.0]
     counts = (0, 0, 0) if request.excluded else (len(grid.inner(full)), len(full), len(grid.grown(full)))
     lower, volume, upper = (count * grid.cell for count in counts)

@@ -48,7 +48,7 @@ class WorkspaceWork:
         return VOXEL_COLUMNS if self.orientations is None else (*VOXEL_COLUMNS, "dexterity")
 
 
-def question(name: str, robot: RobotModel, call: WorkspaceRequest) -> WorkspaceWork:
+def workspace_work(name: str, robot: RobotModel, call: WorkspaceRequest) -> WorkspaceWork:
     """Check a request as far as that depends on the robot, and plan its computation; raises InvalidField."""
     chain = robot.chain(call.base_frame, call.tip_frame)
     wish = Wish(

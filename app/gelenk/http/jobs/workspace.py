@@ -9,7 +9,7 @@ from gelenk.http.messages.payloads import read_json
 from gelenk.jobs.robot_files import robot_of, robot_text
 from gelenk.jobs.runner import Work
 from gelenk.jobs.workspace import work_of
-from gelenk.jobs.workspace_request import check_size, question
+from gelenk.jobs.workspace_request import check_size, workspace_work
 from gelenk.kinematics.workspace.survey import POINT_COLUMNS
 from gelenk.operations.outcome import Limits
 from gelenk.store.folders import read_plain
@@ -28,7 +28,7 @@ def _request(loaded: LoadedRobot, call: WorkspaceRequest, limits: Limits) -> dic
     for field in ("orientations", "orientations_over"):
         if call.kind != "dexterity" and field in call.model_fields_set:
             raise InvalidField(field, f"is only allowed with the kind `dexterity`; this one is `{call.kind}`")
-    check_size(question(loaded.record.name, loaded.robot, call))
+    check_size(workspace_work(loaded.record.name, loaded.robot, call))
     whole = call.model_copy(update={"base_frame": chain.base_frame, "tip_frame": chain.tip_frame})
     return {CALL: whole.model_dump_json().encode()}
 
@@ -36,7 +36,7 @@ def _request(loaded: LoadedRobot, call: WorkspaceRequest, limits: Limits) -> dic
 def _work(_: Limits, folder: Path) -> Work:
     text = robot_text(folder)
     call = read_json(WorkspaceRequest, read_plain(folder / CALL))
-    return work_of(question(text.name, robot_of(text), call))
+    return work_of(workspace_work(text.name, robot_of(text), call))
 
 
 WORK = LongWork(_request, _work)
