@@ -14,3 +14,8 @@ def catalogue() -> Path:
 def studio() -> Path:
     """Return the folder of the studio's bundle."""
     return _PACKAGE / "studio"
+
+
+def texts() -> Path:
+    """Return the folder of the translations."""
+    return _PACKAGE / "texts"

@@ -7,6 +7,7 @@ from pydantic import Field
 from gelenk.contract.common import Payload
 from gelenk.contract.kinematics import Configurations
 from gelenk.ik.search.words import Direction
+from gelenk.language import Language
 
 RespectLimits = Annotated[bool, Field(description="Whether a configuration beyond the joint limits is an error.")]
 Positive = Annotated[float, Field(ge=1e-6, le=1e6)]
@@ -28,3 +29,15 @@ class BatchRequest(Payload):
     """Addresses a batch of configurations."""
 
     joint_positions: Configurations
+
+
+class InLanguage(Payload):
+    """Chooses the language of steps, warnings and other texts for people."""
+
+    language: Language = Field(default="en", description="Of titles and texts in `steps`: English or German.")
+
+
+class WithSteps(InLanguage):
+    """Asks for the worked solution beside the numbers."""
+
+    steps: bool = Field(default=False, description="Whether the answer has the worked solution of each entry.")

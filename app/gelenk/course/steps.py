@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 
+from gelenk.course.plain import plain
 from gelenk.robot.result import Result
 
 _SHOWN_DIGITS = 10
@@ -16,16 +17,18 @@ class Step(Result):
         title: What the step computes.
         text: The step in a sentence or two.
         latex: Formulas, one per line.
+        plain: The same formulas as plain text.
     """
 
     title: str
     text: str
     latex: tuple[str, ...]
+    plain: tuple[str, ...]
 
 
 def step(title: str, text: str, *latex: str) -> Step:
     """Return a step with any number of formulas."""
-    return Step(title, text, latex)
+    return Step(title, text, latex, tuple(map(plain, latex)))
 
 
 def tex(value: float, unit: str = "") -> str:

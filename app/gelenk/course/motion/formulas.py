@@ -1,6 +1,7 @@
 """LaTeX formulas of motions for worked solutions."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from gelenk.course.steps import Step, tex
 from gelenk.robot.arrays import Array
@@ -36,4 +37,4 @@ def tex_matrix(rows: Array) -> str:
 
 def of_joint(step: Step, joint: int, joints: int) -> Step:
     """Return the step with its joint in the title, if there are several joints."""
-    return step if joints == 1 else Step(f"Joint {joint + 1}: {step.title}", step.text, step.latex)
+    return step if joints == 1 else replace(step, title=f"Joint {joint + 1}: {step.title}")

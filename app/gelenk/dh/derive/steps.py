@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from gelenk.course.steps import Step
+from gelenk.course.steps import Step, step
 from gelenk.dh.derive.jacobian import Block
 from gelenk.dh.derive.texts import Formulas, SingularCondition, Singularities
 from gelenk.dh.derive.typeset import MatrixFormula
@@ -30,7 +30,7 @@ def _table(standard: bool, found: Formulas) -> Step:
     )
     if not standard:
         text += " In the modified convention a and alpha carry the index of the link before the joint."
-    return Step("Denavit-Hartenberg table", text, (array,))
+    return step("Denavit-Hartenberg table", text, array)
 
 
 def _rows(standard: bool, found: Formulas) -> Step:
@@ -40,7 +40,7 @@ def _rows(standard: bool, found: Formulas) -> Step:
         else r"A_i = R_x(\alpha_{i-1})\, T_x(a_{i-1})\, R_z(\vartheta_i)\, T_z(d_i)"
     )
     text = "Each row put into the rule of the convention gives the pose of frame i in frame i - 1."
-    return Step("Transforms between neighbours", text, (rule, *_named("A", found.rows)))
+    return step("Transforms between neighbours", text, rule, *_named("A", found.rows))
 
 
 def _position(found: Formulas) -> Step | None:
@@ -54,7 +54,7 @@ def _position(found: Formulas) -> Step | None:
         "The position of the tip is best worked out from the right: a matrix times a vector at every step, never a "
         "matrix times a matrix. Superscripts name the frame in which the point is written."
     )
-    return Step("Position of the tip", text, tuple(lines))
+    return step("Position of the tip", text, *lines)
 
 
 def _pose(found: Formulas) -> Step:
@@ -66,7 +66,7 @@ def _pose(found: Formulas) -> Step:
         "T_0_i = A_1 A_2 … A_i. About parallel axes angles add up, so that each sum is in one sine and cosine. "
         "The last column is the position, the first three are the axes of frame i written in frame 0."
     )
-    return Step("Forward kinematics", text, tuple(lines))
+    return step("Forward kinematics", text, *lines)
 
 
 def _jacobian(standard: bool, found: Formulas) -> Step | None:
@@ -88,7 +88,7 @@ def _jacobian(standard: bool, found: Formulas) -> Step | None:
         "The column of a revolute joint is z × p over z, that of a prismatic one z over 0. The z is that of frame "
         f"{frame}, p leads from its origin to the tip. Linear rows are above angular ones, all in the axes of the base."
     )
-    return Step("Geometric Jacobian", text, (*lines, f"J = {found.jacobian.latex}"))
+    return step("Geometric Jacobian", text, *lines, f"J = {found.jacobian.latex}")
 
 
 def _determinant(singular: Singularities, block: Block) -> Step:
@@ -105,8 +105,8 @@ def _determinant(singular: Singularities, block: Block) -> Step:
             "those of its parts."
         )
     if singular.formula is None:
-        return Step("Determinant", text + " It is not written out: see the notes.", ())
-    return Step("Determinant", text, (rf"\det J_{{({rows})}} = {singular.formula.latex}",))
+        return step("Determinant", text + " It is not written out: see the notes.")
+    return step("Determinant", text, rf"\det J_{{({rows})}} = {singular.formula.latex}")
 
 
 def which_block(block: Block) -> str:
@@ -133,7 +133,7 @@ def _singular(singular: Singularities) -> Step | None:
         text = "No factor depends on a joint: there is no singular configuration."
     else:
         text = "The determinant is a product, and vanishes where one of its factors does."
-    return Step("Singular configurations", text, tuple(lines))
+    return step("Singular configurations", text, *lines)
 
 
 def _solved(condition: SingularCondition) -> str:

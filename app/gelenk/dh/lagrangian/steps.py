@@ -1,6 +1,6 @@
 """The equations of motion in the order of the lecture: short texts, and the formulas that they refer to."""
 
-from gelenk.course.steps import Step
+from gelenk.course.steps import Step, step
 from gelenk.dh.lagrangian.texts import MotionTexts
 
 
@@ -21,7 +21,7 @@ def _centers(found: MotionTexts) -> Step:
         "The position of each link's centre of mass in frame 0, differentiated by the chain rule, and the angular "
         "velocity about the normal of the plane: the sum of the joint velocities before it."
     )
-    return Step("Centres of mass and their velocities", text, tuple(lines))
+    return step("Centres of mass and their velocities", text, *lines)
 
 
 def _energies(found: MotionTexts) -> Step:
@@ -34,13 +34,13 @@ def _energies(found: MotionTexts) -> Step:
         "A link's kinetic energy is that of its mass moving with the centre and that of its turning about it. The "
         "potential energy counts from the origin of frame 0, in whose axes gravity is written."
     )
-    return Step("Kinetic and potential energy", text, tuple(lines))
+    return step("Kinetic and potential energy", text, *lines)
 
 
 def _mass_matrix(found: MotionTexts) -> Step:
     lines = [r"\sum_i T_i = \frac{1}{2} \dot{q}^{\mathsf T} M(q)\, \dot{q}", f"M(q) = {found.mass_matrix.latex}"]
     text = "The kinetic energy is a quadratic form of the joint velocities; its symmetric matrix is the mass matrix."
-    return Step("Mass matrix", text, tuple(lines))
+    return step("Mass matrix", text, *lines)
 
 
 def _coriolis(found: MotionTexts) -> Step:
@@ -64,16 +64,16 @@ def _coriolis(found: MotionTexts) -> Step:
         else "The mass matrix is constant: all Christoffel symbols are zero, and so is C."
     )
     text += " With C built from them Ṁ - 2C is skew symmetric."
-    return Step("Christoffel symbols and Coriolis matrix", text, tuple(lines))
+    return step("Christoffel symbols and Coriolis matrix", text, *lines)
 
 
 def _gravity(found: MotionTexts) -> Step:
     line = rf"g_i(q) = \frac{{\partial}}{{\partial q_i}} \sum_j U_j:\quad g(q) = {found.gravity_vector.latex}"
-    return Step("Gravity", "The torques that hold the arm at rest are the slope of the potential energy.", (line,))
+    return step("Gravity", "The torques that hold the arm at rest are the slope of the potential energy.", line)
 
 
 def _rows(found: MotionTexts) -> Step:
     rule = r"\frac{d}{dt} \frac{\partial L}{\partial \dot{q}} - \frac{\partial L}{\partial q} = \tau"
     lines = [rf"{rule} \;\Leftrightarrow\; M(q)\, \ddot{{q}} + C(q, \dot{{q}})\, \dot{{q}} + g(q) = \tau"]
     lines += [row.latex for row in found.equations_of_motion]
-    return Step("Equations of motion", "Lagrange's equations, one row per joint.", tuple(lines))
+    return step("Equations of motion", "Lagrange's equations, one row per joint.", *lines)

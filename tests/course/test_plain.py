@@ -1,0 +1,31 @@
+"""Formulas as plain text."""
+
+import pytest
+
+from gelenk.course.plain import plain
+
+
+@pytest.mark.parametrize(
+    ("latex", "expected"),
+    [
+        (r"\frac{v}{a}", "v/a"),
+        (r"T = \frac{L a + v^2}{a v} = \frac{2 \cdot 1.6 + 0.8^2}{3}", "T = (L a + v²)/(a v) = (2 · 1.6 + 0.8²)/3"),
+        (r"\vartheta_1^2 + \dot{q}_{12} \ge \ddot q", "ϑ_1² + q̇_12 ≥ q̈"),
+        (r"\begin{bmatrix} a & b \\ c & d \end{bmatrix}", "[a, b; c, d]"),
+        (r"\begin{array}{c|cc} i & a \\ \hline 1 & 2 \end{array}", "[i, a; 1, 2]"),
+        (r"J^{\#} = J^{\mathsf T}(J J^T)^{-1},\quad x", "J^# = Jᵀ(J Jᵀ)⁻¹,  x"),
+        (r"t = \sqrt{\frac{L}{a}} = 3\,\mathrm{m/s}", "t = √(L/a) = 3 m/s"),
+        (r"q_\mathrm{max}\left(a\right) \in \{1, 2\}", "q_max(a) ∈ {1, 2}"),
+        (r"\lVert x \rVert \le 90^\circ", "‖x ‖ ≤ 90°"),
+        (r"x^{i-1}_{i+1} \frac12", "xⁱ⁻¹_(i+1) 1/2"),
+    ],
+)
+def test_a_formula_reads_the_same_without_latex(latex: str, expected: str) -> None:
+    """Fractions, scripts, matrices, letters and signs become Unicode."""
+    assert plain(latex) == expected
+
+
+def test_an_unknown_command_is_an_error() -> None:
+    """So that a formula which cannot be converted is found by the tests of the examples."""
+    with pytest.raises(KeyError, match="unknowncommand"):
+        plain(r"\unknowncommand{x}")
