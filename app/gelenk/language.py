@@ -1,7 +1,9 @@
 """The language of what people read: steps of solutions, exercises, names of mistakes.
 
 A message is written in English where it is used, as `_("{n} links meet.").format(n=n)`, with this module's
-`translated` imported as `_`. The catalogues in `app/gelenk/texts` hold it in the other languages.
+`translated` imported as `_`. One that is written before its language is known, such as in a table of a module, is
+`marked` there and `translated` where it is used. The catalogues in `app/gelenk/texts` hold all of them in the other
+languages; `./dev texts` compiles them.
 """
 
 from collections.abc import Iterator
@@ -21,6 +23,11 @@ _current: ContextVar[Language] = ContextVar("language", default="en")
 def translated(message: str) -> str:
     """Return a message in the current language; in English, and where no catalogue has it, as it is."""
     return _catalogue(_current.get()).gettext(message)
+
+
+def marked(message: str) -> str:
+    """Return a message as it is, to be translated where it is used; the mark lets `./dev texts` find it."""
+    return message
 
 
 @contextmanager

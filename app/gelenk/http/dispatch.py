@@ -116,7 +116,7 @@ async def _on_the_loop(
         content = await pool_client.content(request, find, task_request())
         known = pickle.loads(content)  # noqa: S301 - from a process of ours
         await asyncio.to_thread(found.warm_up.keep, robot, call, known)
-    return found.run(robot, call, limits) if found.attempt is None else found.attempt(robot, call, limits)
+    return found.attempt(robot, call, limits)
 
 
 def route(endpoint: Endpoint[Any, Any], handle: Handler, max_body_bytes: int) -> DocumentedRoute:

@@ -20,14 +20,21 @@ class Operation:
     endpoint: Endpoint[Any, Any]
     _run: Callable[..., Outcome]
     is_heavy: Callable[[Any], bool]
-    attempt: Callable[[LoadedRobot, Any, Limits], Outcome | None] | None
+    _attempt: Callable[[LoadedRobot, Any, Limits], Outcome | None] | None
     warm_up: WarmUp[Any] | None
 
     def run(self, robot: LoadedRobot | None, request: Any, limits: Limits) -> Outcome:
         """Compute the outcome; the robot is the one that path or request name. Raises what the operation raises."""
-        if isinstance(self.endpoint, RobotEndpoint) or self.endpoint.robot_field:
-            return self._run(robot, request, limits)
-        return self._run(request)
+        takes_robot = isinstance(self.endpoint, RobotEndpoint) or self.endpoint.robot_field
+        outcome = self._run(robot, request, limits) if takes_robot else self._run(request)
+        return outcome.spoken(getattr(request, "language", "en"))
+
+    def attempt(self, robot: LoadedRobot, request: Any, limits: Limits) -> Outcome | None:
+        """Return the same, or None if the operation has a way to find out that this would take long."""
+        if self._attempt is None:
+            return self.run(robot, request, limits)
+        outcome = self._attempt(robot, request, limits)
+        return outcome and outcome.spoken(getattr(request, "language", "en"))
 
 
 @cache

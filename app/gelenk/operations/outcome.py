@@ -1,11 +1,12 @@
 """The outcome of an operation, and the limits of its computation."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial, wraps
 from typing import Any, Literal, TypeAlias, TypeVar
 
 from gelenk.jobs.store import JobLimits
+from gelenk.language import Language, language
 from gelenk.operations.request_counts import RequestCounts
 from gelenk.robot.arrays import Array
 
@@ -47,6 +48,13 @@ class Outcome:
     picture: Callable[[PictureFormat], bytes] | None = None
     columns: Sequence[str] | None = None
     solved: Callable[[int], RequestCounts] | None = None
+
+    def spoken(self, code: Language) -> "Outcome":
+        """Return the outcome with the texts of content and picture in a language."""
+        if code == "en":
+            return self
+        picture = self.picture and language(code)(self.picture)
+        return replace(self, content=language(code)(self.content), picture=picture)
 
 
 def json_only(content: Callable[[R], Any]) -> Callable[[R], Outcome]:
