@@ -50,7 +50,7 @@ def extracted(package: Path) -> tuple[dict[str, str], list[str]]:
 
 
 def _marked(tree: ast.AST) -> Iterator[tuple[int, ast.expr]]:
-    """Yield the arguments of the marks, both of `a if n == 1 else b`; those of a variable are marked where it is set."""
+    """Yield the arguments of the marks, both of `a if n == 1 else b`; a variable is marked where it is set."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in _MARKS and node.args:
             message = node.args[0]

@@ -94,7 +94,7 @@ def test_an_outcome_speaks_though_it_is_made_late() -> None:
     )
     german = outcome.spoken("de")
     assert german.picture is not None
-    assert (outcome.content(), german.content(), german.picture("svg")) == ("Links", "Glieder", b"Gliedersvg")
+    assert (outcome.content(), german.content(), german.picture("svg")) == ("Links", "Glieder", b"Glieder svg")
     with language("de"):
         assert translated("Links") == "Glieder"
     assert translated("Links") == "Links"
