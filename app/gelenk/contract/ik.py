@@ -8,14 +8,15 @@ from pydantic import Field
 from gelenk.contract.common import Answer, ChainOptions, OnTheWire
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import Configuration, Configurations
-from gelenk.contract.options import Directions
+from gelenk.contract.options import Directions, WithSteps
 from gelenk.contract.pose import AnswerFormat, Pose, pose_fields
+from gelenk.course.steps import Step
 from gelenk.ik.search.words import BlockingJoint, Direction, Family, Iterate, Method, ObjectiveName, Status, StopReason
 from gelenk.robot.arrays import Array
 
 MAX_TARGETS = 1_000_000
 MAX_STEPWISE = 1000
-"""Maximum number of targets of a call that follows a method step by step, in Python."""
+"""Maximum number of targets of a call that follows a method step by step, in Python, or with worked solutions."""
 
 MAX_TRACE = 1000
 """Maximum number of configurations of a trace in the answer; a longer one is thinned evenly."""
@@ -31,7 +32,7 @@ Targets = Annotated[
 ]
 
 
-class InverseOptions(ChainOptions):
+class InverseOptions(ChainOptions, WithSteps):
     """Options of inverse kinematics."""
 
     method: Method = Field(
@@ -221,6 +222,11 @@ class InverseResult(Answer):
         "are turned back.",
     )
     note: str | None = Field(default=None, description="What a long `trace` leaves out.")
+    steps: list[Step] | None = Field(
+        default=None,
+        description="If requested: the solution by hand where the arm has one, else how these numbers were found. "
+        "Steps state only numbers that agree with `solutions`.",
+    )
 
 
 class InverseAnswer(Answer):
@@ -270,7 +276,7 @@ ENDPOINT = RobotEndpoint(
         "targets": [{"position": [0.4, 0.1, 0.5], "rpy": [3.141592653589793, 0.0, 0.0]}],
         "tip_frame": "panda_link8",
     },
-    job=f"up to {MAX_JOB_TARGETS:,} targets ({MAX_JOB_STEPWISE:,} of a method in steps, or with `trace`) and "
-    "as many numbers in the answer as there is room for; `time_limit` is not allowed, as each target is searched "
+    job=f"up to {MAX_JOB_TARGETS:,} targets ({MAX_JOB_STEPWISE:,} of a method in steps, or with `trace` or `steps`) "
+    "and as many numbers in the answer as there is room for; `time_limit` is not allowed, as each target is searched "
     "for to the end",
 )

@@ -5,11 +5,12 @@ from typing import Any
 
 from gelenk.contract.ik import MAX_STEPWISE, MAX_TARGETS, InverseRequest
 from gelenk.ik.closed.closed_form import ClosedForm, closed_form, is_looked_at, look_at
+from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS
 from gelenk.ik.solve import solve, solve_quickly
 from gelenk.ik.verdict.result import InverseKinematics
 from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolved_headers
-from gelenk.operations.ik_request import TargetLimits, parse, task_of
+from gelenk.operations.ik_request import TargetLimits, has_table, parse, task_of
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.request_counts import RequestCounts
 from gelenk.operations.warm_up import WarmUp
@@ -29,7 +30,7 @@ def run(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome:
     """Compute configurations that bring the tip to each target."""
     seconds = None if call.time_limit is None else min(call.time_limit, _SHARE_OF_TIME * limits.seconds)
     problem = parse(loaded.robot, call, _bounds(limits), seconds)
-    return _outcome(problem.chain, call, solve(problem))
+    return _outcome(problem, call, solve(problem))
 
 
 def attempt(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome | None:
@@ -38,7 +39,7 @@ def attempt(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcom
     budget = max(1, (call.max_iterations or MAX_ITERATIONS) // ITERATIONS_PER_START)
     starts = min(budget, max(1, _QUICK_STARTS * 7 // max(7, len(problem.chain))))
     result = solve_quickly(problem, starts, by_form=call.method == "analytic")
-    return None if result is None else _outcome(problem.chain, call, result)
+    return None if result is None else _outcome(problem, call, result)
 
 
 def _bounds(limits: Limits) -> TargetLimits:
@@ -69,6 +70,7 @@ def is_heavy(call: InverseRequest) -> bool:
         and call.fixed_joints is None
         and call.solutions == "one"
         and not call.trace
+        and not call.steps
         and call.objective is None
     )
     return is_awaited() or not one_by_search or len(call.targets) > _QUICK_TARGETS
@@ -78,18 +80,18 @@ WARM_UP = WarmUp(_is_looked_at, _closed_form, _look_at)
 """The closed form of a chain, which takes some milliseconds to recognise."""
 
 
-def _outcome(chain: Chain, call: InverseRequest, result: InverseKinematics) -> Outcome:
-    fits = call.solutions == "one" and not call.trace
+def _outcome(problem: TargetProblem, call: InverseRequest, result: InverseKinematics) -> Outcome:
+    chain = problem.chain
 
     def content() -> dict[str, Any]:
-        return to_json(chain, call, result.closed_form, results_to_json(chain, call.pose_format, result))
+        return to_json(chain, call, result.closed_form, results_to_json(problem, call, result))
 
     def array() -> tuple[Array, dict[str, str]]:
         return table(chain, result), unsolved_headers(list(result.failures))
 
     return Outcome(
         content,
-        array if fits else None,
+        array if has_table(call) else None,
         solved=lambda targets: RequestCounts(
             targets, Counter(result.statuses), len(result.qs), int(result.iterations.sum())
         ),

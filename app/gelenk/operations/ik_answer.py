@@ -7,11 +7,13 @@ import numpy as np
 
 from gelenk.contract.ik import MAX_TRACE, InverseRequest
 from gelenk.contract.pose import PoseFormat
+from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.search.words import IterationPath
 from gelenk.ik.verdict.fixed import narrowed
 from gelenk.ik.verdict.result import COLUMNS, COUNTED, InverseKinematics, UnsolvedTarget
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.operations.ik_request import task_of
+from gelenk.operations.ik_steps import worked
 from gelenk.operations.pose_arrays import pose_list
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -49,7 +51,7 @@ def to_json(chain: Chain, call: InverseRequest, closed_form: str | None, results
     }
 
 
-def results_to_json(chain: Chain, pose_format: PoseFormat, result: InverseKinematics) -> list[dict[str, Any]]:
+def results_to_json(problem: TargetProblem, call: InverseRequest, result: InverseKinematics) -> list[dict[str, Any]]:
     """Return the result of each target."""
     solutions, firsts = _solutions(result), result.firsts.tolist()
     entries: list[dict[str, Any]] = [
@@ -61,7 +63,10 @@ def results_to_json(chain: Chain, pose_format: PoseFormat, result: InverseKinema
     for i, path in enumerate(result.paths or ()):
         entries[i].update(_path(path))
     for i, failure in result.failures.items():
-        entries[i].update(_failure(chain, pose_format, failure))
+        entries[i].update(_failure(problem.chain, call.pose_format, failure))
+    if call.steps:
+        for entry, steps in zip(entries, worked(problem, call, result), strict=True):
+            entry["steps"] = steps
     return entries
 
 

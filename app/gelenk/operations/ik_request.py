@@ -16,10 +16,13 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import MAX_MAGNITUDE, configurations, one_configuration
 from gelenk.robot.robot import RobotModel
 
+NUMBERS_OF_STEPS = 1000
+"""What the worked solution of a target counts for in the size of an answer."""
+
 
 @dataclass(frozen=True, slots=True)
 class TargetLimits:
-    """Limits of one call; `stepwise` holds for targets of a method that is followed step by step, in Python."""
+    """Limits of one call; `stepwise` holds for targets that are followed or worked out step by step, in Python."""
 
     targets: int
     stepwise: int
@@ -117,17 +120,22 @@ def _check_size(call: InverseRequest, targets: int, joints: int, bounds: TargetL
     if targets > bounds.targets:
         raise TooLarge("targets", targets, bounds.targets)
     if is_stepwise(call) and targets > bounds.stepwise:
-        raise TooLarge("targets of a method that is followed step by step", targets, bounds.stepwise)
+        raise TooLarge("targets that are followed or worked out step by step", targets, bounds.stepwise)
     rows = call.max_solutions if call.solutions == "all" else MAX_TRACE if call.trace else 1
     # The sweeps of families together have at most as many configurations as there may be solutions.
-    numbers = targets * (joints + 4 + joints * (call.solutions == "all")) * rows
+    numbers = targets * ((joints + 4 + joints * (call.solutions == "all")) * rows + NUMBERS_OF_STEPS * call.steps)
     if bounds.numbers is not None and numbers > bounds.numbers:
         raise TooLarge("numbers in the answer", numbers, bounds.numbers)
 
 
 def is_stepwise(call: InverseRequest) -> bool:
-    """Check whether each iteration is followed in Python."""
-    return call.method not in {"auto", "analytic"} or call.trace
+    """Check whether each iteration is followed, or each solution worked out, in Python."""
+    return call.method not in {"auto", "analytic"} or call.trace or call.steps
+
+
+def has_table(call: InverseRequest) -> bool:
+    """Check whether a table with one row per target holds all of the answer."""
+    return call.solutions == "one" and not call.trace and not call.steps
 
 
 def _check_options(call: InverseRequest) -> None:

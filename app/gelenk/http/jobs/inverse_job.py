@@ -20,7 +20,7 @@ from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
 from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolved_headers
-from gelenk.operations.ik_request import TargetLimits, is_stepwise, options_of, parse
+from gelenk.operations.ik_request import NUMBERS_OF_STEPS, TargetLimits, has_table, is_stepwise, options_of, parse
 from gelenk.operations.outcome import Limits
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
@@ -60,7 +60,8 @@ def _check_room(most_bytes: int, problem: TargetProblem, call: InverseRequest) -
     """Refuse a call whose results would exceed `most_bytes`, as some targets show; say how many there is room for."""
     count = len(problem)
     rows = call.max_solutions if call.solutions == "all" else MAX_TRACE if call.trace else 1
-    if count * rows * (len(problem.chain) + 4) * _BYTES_A_NUMBER <= most_bytes:
+    numbers = rows * (len(problem.chain) + 4) + NUMBERS_OF_STEPS * call.steps
+    if count * numbers * _BYTES_A_NUMBER <= most_bytes:
         return
     whole = _bytes_each(problem, call, count) * count
     if whole <= most_bytes:
@@ -112,7 +113,7 @@ def _work(_: Limits, folder: Path) -> Work:
         chain = robot_of(text).chain(call.base_frame, call.tip_frame)
         frame = orjson.dumps(to_json(chain, call, orjson.loads(form), []), option=orjson.OPT_SERIALIZE_NUMPY)
         files: Files = {RESULTS[JSON]: lambda target: _write_json(target, frame, run.parts.of(_STAGE, count))}
-        if call.solutions == "all" or call.trace:
+        if not has_table(call):
             return files
         shape, headers = (len(targets), len(chain)), headers_file({NPY: unsolved_headers(unsolved)})
         return {
@@ -135,12 +136,12 @@ def solved_part(job: _Part) -> bytes:
 
 def _solved(problem: TargetProblem, call: InverseRequest) -> bytes:
     chain, result = problem.chain, solve(problem)
-    results = orjson.dumps(results_to_json(chain, call.pose_format, result), option=orjson.OPT_SERIALIZE_NUMPY)
+    results = orjson.dumps(results_to_json(problem, call, result), option=orjson.OPT_SERIALIZE_NUMPY)
     return packed(
         form=as_bytes(orjson.dumps(result.closed_form)),
         results=as_bytes(results),
         unsolved=np.array(list(result.failures), dtype=np.int64),
-        rows=None if call.solutions == "all" or call.trace else table(chain, result),
+        rows=table(chain, result) if has_table(call) else None,
     )
 
 
