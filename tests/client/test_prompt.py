@@ -39,7 +39,7 @@ def test_what_is_given_by_place_but_goes_by_name_is_no_silent_loss(gelenk: Clien
     with pytest.raises(TypeError, match=r"^ik takes robot alone by place"):
         gelenk.jobs.ik("planar_2r", [])  # type: ignore[call-arg,arg-type]
     with pytest.raises(TypeError, match=r"^dc_motor takes nothing by place"):
-        gelenk.dc_motor(1.0)  # type: ignore[call-arg]
+        gelenk.dc_motor(1.0)  # type: ignore[call-arg,arg-type]
 
 
 def test_a_robot_goes_by_its_name(gelenk: Client) -> None:

@@ -5,6 +5,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BeforeValidator, Field
 
 from gelenk.contract.common import Answer, Payload, optional
+from gelenk.contract.options import InLanguage
 from gelenk.course.motion.check import MotionCertificate
 
 MAX_JOINTS = 32
@@ -54,7 +55,7 @@ class MotionLimits(Payload):
     joint_jerk: Bounds | None = optional("|q⃛|, > 0, [rad/s³ or m/s³].")
 
 
-class SampledRequest(Payload):
+class SampledRequest(InLanguage):
     """Sample times of a motion, and limits to compare it with."""
 
     samples: SampleCount = Field(

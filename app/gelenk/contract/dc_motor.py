@@ -4,8 +4,9 @@ from typing import Annotated
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload, optional
+from gelenk.contract.common import Answer, optional
 from gelenk.contract.endpoint import Endpoint
+from gelenk.contract.options import InLanguage
 from gelenk.contract.quantities import (
     AngularVelocity,
     Current,
@@ -25,7 +26,7 @@ from gelenk.course.actuators.dc_motor import Damping, Motor, OperatingPoint, Tor
 MAX_SAMPLES = 10_000
 
 
-class DcMotorRequest(Payload):
+class DcMotorRequest(InLanguage):
     """A motor with its supply and load."""
 
     resistance: Resistance = Field(description="R of the winding, [Ω].")

@@ -4,11 +4,12 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload
+from gelenk.contract.common import Answer
 from gelenk.contract.dh import DhTablePayload
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.kinematics import Configuration
 from gelenk.contract.lagrangian import EXAMPLE_MOTION, MAX_CONFIGURATIONS, DynamicsInfo, DynamicsPayload, Grid
+from gelenk.contract.options import InLanguage
 from gelenk.course.steps import Step
 from gelenk.dh.derive.texts import (
     ColumnFormulas,
@@ -21,7 +22,7 @@ from gelenk.dh.derive.texts import (
 from gelenk.dh.derive.typeset import Formula, MatrixFormula
 
 
-class DeriveRequest(Payload):
+class DeriveRequest(InLanguage):
     """A table, how to write its solution, and the configurations at which to evaluate it."""
 
     dh: DhTablePayload

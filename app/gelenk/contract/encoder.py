@@ -4,8 +4,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload, optional
+from gelenk.contract.common import Answer, optional
 from gelenk.contract.endpoint import Endpoint
+from gelenk.contract.options import InLanguage
 from gelenk.contract.quantities import Ratio, Steps
 from gelenk.course.actuators.encoders import TURN, Decoding, EncoderResolution, RequiredEncoder
 from gelenk.course.actuators.gray import Code, DiscPosition
@@ -17,7 +18,7 @@ MAX_BITS = 32
 Reading = Annotated[str, Field(max_length=MAX_BITS)]
 
 
-class EncoderRequest(Payload):
+class EncoderRequest(InLanguage):
     """An encoder on the motor's shaft, or the resolution for which one is wanted."""
 
     type: Literal["incremental", "absolute"] = Field(description="Two channels and a counter, or a code disc.")

@@ -4,8 +4,9 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
-from gelenk.contract.common import Answer, Payload, optional
+from gelenk.contract.common import Answer, optional
 from gelenk.contract.endpoint import Endpoint
+from gelenk.contract.options import InLanguage
 from gelenk.contract.quantities import Steps, Warnings
 from gelenk.course.motion.blended_motion import Phase
 from gelenk.course.motion.fly_over import Given, Turn
@@ -27,7 +28,7 @@ Distance = Annotated[float, Field(ge=1e-9, le=1e7)]
 Acceleration = Annotated[float, Field(ge=1e-6, le=1e6)]
 
 
-class FlyOverRequest(Payload):
+class FlyOverRequest(InLanguage):
     """Three points, two speeds, and exactly one of the quantities that determine the blend."""
 
     start: Point = Field(description="A: x, y and, in space, z, [m].")

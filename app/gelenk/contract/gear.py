@@ -4,13 +4,14 @@ from typing import Annotated
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload, optional
+from gelenk.contract.common import Answer, optional
 from gelenk.contract.endpoint import Endpoint
+from gelenk.contract.options import InLanguage
 from gelenk.contract.quantities import AngularVelocity, Inertia, Ratio, Steps, Torque
 from gelenk.course.actuators.gear import BackDriving, GearSide, PowerFlow, ReflectedInertias
 
 
-class GearRequest(Payload):
+class GearRequest(InLanguage):
     """A gear, with at most one speed, one torque, and both inertias or none."""
 
     ratio: Ratio = Field(description="N = ω_motor / ω_load, no unit; above 1 it reduces the speed.")

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal, TypeAlias, cast, get_args
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from gelenk.contract.common import Payload, RobotName, optional
-from gelenk.contract.options import Fraction
+from gelenk.contract.options import Fraction, InLanguage
 from gelenk.contract.pose import MAX_MAGNITUDE, Vector3
 from gelenk.course.mobility.mechanism import GivenPair, Node
 from gelenk.course.mobility.mobility import NodeCount
@@ -120,7 +120,7 @@ Pairs = Annotated[
 _OF_A_MECHANISM = ("space", "links", "pairs", "coincident", "output", "rank_tolerance")
 
 
-class MobilityRequest(Payload):
+class MobilityRequest(InLanguage):
     """A mechanism, or a robot by name."""
 
     space: Literal["planar", "spatial"] | None = optional(

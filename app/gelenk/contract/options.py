@@ -34,7 +34,7 @@ class BatchRequest(Payload):
 class InLanguage(Payload):
     """Chooses the language of steps, warnings and other texts for people."""
 
-    language: Language = Field(default="en", description="Of titles and texts in `steps`: English or German.")
+    language: Language = Field(default="en", description="Of titles, texts and warnings for people: English or German.")
 
 
 class WithSteps(InLanguage):

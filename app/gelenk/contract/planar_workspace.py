@@ -4,8 +4,9 @@ from typing import Annotated
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload, optional
+from gelenk.contract.common import Answer, optional
 from gelenk.contract.endpoint import Endpoint
+from gelenk.contract.options import InLanguage
 from gelenk.contract.quantities import Steps
 from gelenk.course.planar import WorkspacePlace, WorkspaceTrial
 
@@ -15,7 +16,7 @@ Length = Annotated[float, Field(ge=0.0, le=MAX_LENGTH)]
 Coordinate = Annotated[float, Field(ge=-MAX_LENGTH, le=MAX_LENGTH)]
 
 
-class PlanarWorkspaceRequest(Payload):
+class PlanarWorkspaceRequest(InLanguage):
     """A planar arm of two or three revolute joints without limits."""
 
     links: Annotated[list[Length], Field(min_length=2, max_length=3)] = Field(

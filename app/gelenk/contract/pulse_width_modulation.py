@@ -4,8 +4,9 @@ from typing import Annotated
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload, optional
+from gelenk.contract.common import Answer, optional
 from gelenk.contract.endpoint import Endpoint
+from gelenk.contract.options import InLanguage
 from gelenk.contract.quantities import (
     AngularVelocity,
     Friction,
@@ -20,7 +21,7 @@ from gelenk.contract.quantities import (
 from gelenk.course.actuators.pwm import Ripple
 
 
-class PwmRequest(Payload):
+class PwmRequest(InLanguage):
     """A switched supply; give exactly one of `duty`, `average_voltage` and `angular_velocity`."""
 
     supply_voltage: Annotated[float, Field(ge=1e-6, le=1e6)] = Field(description="V_s, [V].")

@@ -10,6 +10,7 @@ from typing import Literal, TypeAlias
 
 from gelenk.course.steps import Step, step, tex, tex_factor
 from gelenk.errors import CertificationFailed
+from gelenk.language import translated as _
 from gelenk.robot.result import Result
 
 Regime: TypeAlias = Literal["motoring", "standstill", "assisted", "generating", "driven_backwards", "braking"]
@@ -219,13 +220,17 @@ def motor_warnings(motor: Motor, voltage: float, load_torque: float, point: Oper
     """Return warnings about the constants and the operating point, one sentence each."""
     stall = motor.torque_constant * voltage / motor.resistance
     texts = {
-        "driven_backwards": f"the load torque of {load_torque:g} N m is beyond the stall torque of {stall:g} N m: the "
-        "load drives the motor backwards, against its voltage, and both turn into heat",
-        "generating": "the load drives the motor faster than it would turn without load: current flows to the supply",
-        "assisted": "the load helps to turn the motor; load and supply share the losses",
-        "braking": "without voltage the terminals are shorted: the motor brakes the load",
+        "driven_backwards": _(
+            "the load torque of {load:g} N m is beyond the stall torque of {stall:g} N m: the load drives the motor "
+            "backwards, against its voltage, and both turn into heat"
+        ).format(load=load_torque, stall=stall),
+        "generating": _(
+            "the load drives the motor faster than it would turn without load: current flows to the supply"
+        ),
+        "assisted": _("the load helps to turn the motor; load and supply share the losses"),
+        "braking": _("without voltage the terminals are shorted: the motor brakes the load"),
     }
-    constants = (
+    constants = _(
         "torque_constant and back_emf_constant differ: in SI, [N m/A] and [V s/rad], they are the same number; "
         "with two of them the powers do not add up, so that there is no efficiency. Was one given per 1000 rpm, or "
         "in another unit?"
@@ -247,27 +252,27 @@ def motor_steps(motor: Motor, voltage: float, load_torque: float, point: Operati
     poles = ", ".join(map(_tex_pole, modes(motor).poles))
     return (
         step(
-            "Two equations",
-            "The voltage drives a current against resistance and back-EMF, its torque turns the inertia.",
+            _("Two equations"),
+            _("The voltage drives a current against resistance and back-EMF, its torque turns the inertia."),
             r"v = R\,i + L\,\dot{i} + k_e\,\omega",
             r"J\,\dot{\omega} + b\,\omega = k_t\,i - \tau_L",
         ),
         step(
-            "Steady state",
-            "Nothing changes any more: both derivatives are zero.",
+            _("Steady state"),
+            _("Nothing changes any more: both derivatives are zero."),
             omega + divided,
             rf"i = \frac{{V - k_e\,\omega}}{{R}} = {tex(point.current, 'A')}",
         ),
         step(
-            "Without load, and held",
-            "The two ends of the torque-speed line.",
+            _("Without load, and held"),
+            _("The two ends of the torque-speed line."),
             rf"\omega_0 = \frac{{k_t V}}{{R\,b + k_t k_e}} = {free}",
             rf"\tau_s = \frac{{k_t V}}{{R}} = {stall}",
             rf"i_s = \frac{{V}}{{R}} = {tex(line.stall_current, 'A')}",
         ),
         step(
-            "Time constants",
-            "The poles are exact; the two time constants are what is left of them when the other one is far away.",
+            _("Time constants"),
+            _("The poles are exact; the two time constants are what is left of them when the other one is far away."),
             rf"\lambda = {poles}\;\mathrm{{s^{{-1}}}}",
             rf"\tau_m \approx \frac{{J R}}{{R\,b + k_t k_e}} = {tex(motor.mechanical_time_constant, 's')}",
             rf"\tau_e = \frac{{L}}{{R}} = {tex(motor.electrical_time_constant, 's')}",

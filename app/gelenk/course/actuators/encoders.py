@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from gelenk.course.steps import Step, step, tex
+from gelenk.language import translated as _
 from gelenk.robot.result import Result
 
 Decoding: TypeAlias = Literal["x1", "x2", "x4"]
@@ -99,8 +100,8 @@ def resolution_steps(counts: int, gear_ratio: float, how: str, sample_period: fl
     degrees = 360.0 / counts
     at_load = rf"{tex(degrees)}^\circ / {tex(gear_ratio)} = {tex(degrees / gear_ratio)}^\circ"
     angle = step(
-        "Resolution",
-        "A turn divided by its counts; behind a gear the load turns less for each.",
+        _("Resolution"),
+        _("A turn divided by its counts; behind a gear the load turns less for each."),
         rf"n = {how} = {counts}",
         rf"\Delta\varphi_m = \frac{{360^\circ}}{{n}} = {tex(degrees)}^\circ",
         rf"\Delta\varphi_L = \frac{{\Delta\varphi_m}}{{N}} = {at_load}",
@@ -108,8 +109,8 @@ def resolution_steps(counts: int, gear_ratio: float, how: str, sample_period: fl
     if sample_period is None:
         return (angle,)
     quotient = rf"\frac{{2\pi}}{{{counts} \cdot {tex(sample_period)}}} = {tex(TURN / counts / sample_period, 'rad/s')}"
-    text = "Speed as counts in a sample period is a multiple of one count in one period."
-    velocity = step("Velocity quantum", text, rf"\Delta\omega = \frac{{2\pi}}{{n\,T_s}} = {quotient}")
+    text = _("Speed as counts in a sample period is a multiple of one count in one period.")
+    velocity = step(_("Velocity quantum"), text, rf"\Delta\omega = \frac{{2\pi}}{{n\,T_s}} = {quotient}")
     return angle, velocity
 
 
@@ -117,10 +118,13 @@ def required_step(found: RequiredEncoder, decoding: Decoding) -> Step:
     """Return the worked solution for the coarsest encoder."""
     n, lines = found.counts_per_revolution, COUNTS_A_LINE[decoding]
     return step(
-        "Encoder needed",
-        "The resolution wanted at the load is N times as coarse at the motor; counts, bits and lines are rounded up.",
+        _("Encoder needed"),
+        _(
+            "The resolution wanted at the load is N times as coarse at the motor; counts, bits and lines are "
+            "rounded up."
+        ),
         rf"\Delta\varphi_m = N\,\Delta\varphi_L = {tex(math.degrees(found.motor_resolution))}^\circ",
         rf"n = \left\lceil \frac{{360^\circ}}{{\Delta\varphi_m}} \right\rceil = {n}",
         rf"\lceil \log_2 {n} \rceil = {found.bits}\ \mathrm{{bit}}",
-        rf"\lceil {n} / {lines} \rceil = {found.pulses_per_revolution}\ \mathrm{{lines}}",
+        rf"\lceil {n} / {lines} \rceil = {found.pulses_per_revolution}\ \mathrm{{{_('lines')}}}",
     )

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from gelenk.course.steps import Step, step, tex, tex_factor
+from gelenk.language import translated as _
 from gelenk.robot.result import Result
 
 PowerFlow: TypeAlias = Literal["motor_to_load", "load_to_motor", "none"]
@@ -33,14 +34,14 @@ class BackDriving(Result):
 def back_driving(efficiency: float) -> BackDriving:
     """Return what happens when the load drives a gear of efficiency η in (0, 1]."""
     back = 2.0 - 1.0 / efficiency
-    note = (
-        f"the load can drive the motor: its efficiency is then {back:.4g}, if the losses are friction in proportion to "
-        "what is transmitted"
-    )
+    note = _(
+        "the load can drive the motor: its efficiency is then {efficiency:.4g}, if the losses are friction in "
+        "proportion to what is transmitted"
+    ).format(efficiency=back)
     if efficiency == 1.0:
-        note = "without losses the load drives the motor as well as the motor the load"
+        note = _("without losses the load drives the motor as well as the motor the load")
     if back <= 0.0:
-        note = (
+        note = _(
             "the gear locks itself: driven from the load its friction is more than what is transmitted, so the load "
             "cannot turn the motor, and lowering a load takes motor torque in the direction of motion"
         )
@@ -150,16 +151,16 @@ def gear_steps(
     steps = []
     if motor.angular_velocity is not None and load.angular_velocity is not None:
         divided = rf"\frac{{{tex(motor.angular_velocity)}}}{{{N}}} = {tex(load.angular_velocity, 'rad/s')}"
-        text = "The gear divides the speed by its ratio."
-        steps.append(step("Speeds", text, rf"\omega_L = \frac{{\omega_m}}{{N}} = {divided}"))
+        text = _("The gear divides the speed by its ratio.")
+        steps.append(step(_("Speeds"), text, rf"\omega_L = \frac{{\omega_m}}{{N}} = {divided}"))
     if motor.torque is not None and load.torque is not None:
         symbol, value = r"\eta", eta
-        text = "The gear multiplies the torque by its ratio, less what friction takes."
+        text = _("The gear multiplies the torque by its ratio, less what friction takes.")
         if flow == "load_to_motor":
             symbol, value = r"\left(2 - \tfrac{1}{\eta}\right)^{-1}", f"({tex(2.0 - 1.0 / efficiency)})^{{-1}}"
-            text = "The load drives: now friction helps the motor to hold it."
+            text = _("The load drives: now friction helps the motor to hold it.")
         product = rf"{value} \cdot {N} \cdot {tex_factor(motor.torque)}"
-        steps.append(step("Torques", text, rf"\tau_L = {symbol}\,N\,\tau_m = {product} = {tex(load.torque, 'N m')}"))
+        steps.append(step(_("Torques"), text, rf"\tau_L = {symbol}\,N\,\tau_m = {product} = {tex(load.torque, 'N m')}"))
     if inertia is not None:
         steps.append(_inertia_step(inertia))
     return tuple(steps)
@@ -168,9 +169,11 @@ def gear_steps(
 def _inertia_step(inertia: ReflectedInertias) -> Step:
     unit = "kg m^2"
     return step(
-        "Inertias",
-        "Kinetic energy is the same from both sides, so an inertia crosses the gear with the ratio squared. A given "
-        "motor torque accelerates the load most where rotor and reflected load are equal.",
+        _("Inertias"),
+        _(
+            "Kinetic energy is the same from both sides, so an inertia crosses the gear with the ratio squared. A "
+            "given motor torque accelerates the load most where rotor and reflected load are equal."
+        ),
         rf"J_{{\mathrm{{motor}}}} = J_m + \frac{{J_L}}{{N^2}} = {tex(inertia.at_motor, unit)}",
         rf"J_{{\mathrm{{load}}}} = N^2 J_m + J_L = {tex(inertia.at_load, unit)}",
         rf"N^* = \sqrt{{\frac{{J_L}}{{J_m}}}} = {tex(inertia.optimal_ratio)}",

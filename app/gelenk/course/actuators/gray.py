@@ -11,6 +11,7 @@ from typing import Literal, TypeAlias
 from gelenk.course.actuators.encoders import TURN
 from gelenk.course.steps import Step, step
 from gelenk.errors import InvalidField, counted
+from gelenk.language import translated as _
 from gelenk.robot.result import Result
 
 Code: TypeAlias = Literal["gray", "binary"]
@@ -85,8 +86,8 @@ def unwrapped(values: Sequence[int], bits: int) -> list[int]:
 def code_step(example: DiscPosition) -> Step:
     """Return the worked code of one position."""
     return step(
-        "Gray code",
-        "Each digit is compared with its left neighbour: equal gives 0, different gives 1.",
+        _("Gray code"),
+        _("Each digit is compared with its left neighbour: equal gives 0, different gives 1."),
         r"g = b \oplus (b \gg 1)",
         rf"b = {example.binary}_2 = {example.value},\quad g = {example.gray}",
     )

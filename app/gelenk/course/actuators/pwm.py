@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from gelenk.course.actuators.dc_motor import Motor
 from gelenk.course.steps import Step, step, tex, tex_factor
 from gelenk.errors import CertificationFailed
+from gelenk.language import translated as _
 from gelenk.robot.result import Result
 
 _CLOSING_TOLERANCE = 1e-9
@@ -64,8 +65,8 @@ def speed_step(motor: Motor, angular_velocity: float, load_torque: float) -> Ste
     omega, load = tex_factor(angular_velocity), tex_factor(load_torque)
     numbers = rf"{k_e} \cdot {omega} + {R} \cdot \frac{{{b} \cdot {omega} + {load}}}{{{k_t}}}"
     return step(
-        "Voltage for the speed",
-        "The average voltage stands against the back-EMF, and drives the current whose torque the load takes.",
+        _("Voltage for the speed"),
+        _("The average voltage stands against the back-EMF, and drives the current whose torque the load takes."),
         r"V = k_e\,\omega + R\,\frac{b\,\omega + \tau_L}{k_t}",
         rf"V = {numbers} = {tex(voltage_for_speed(motor, angular_velocity, load_torque), 'V')}",
     )
@@ -134,15 +135,17 @@ def pwm_warnings(pulses: Pulses, ripple: Ripple | None) -> tuple[str, ...]:
     """Return warnings to consider before building the circuit, one sentence each."""
     found = []
     if pulses.direction < 0:
-        found.append("the average voltage is negative: that takes an H-bridge, which turns the supply round")
+        found.append(_("the average voltage is negative: that takes an H-bridge, which turns the supply round"))
     if pulses.duty == 0.0:
-        found.append("at D = 0 nothing is switched on: with a back-EMF the motor brakes through the closed switch")
+        found.append(_("at D = 0 nothing is switched on: with a back-EMF the motor brakes through the closed switch"))
     if pulses.duty == 1.0:
-        found.append("at D = 1 nothing is switched off: the motor sees the supply itself")
+        found.append(_("at D = 1 nothing is switched off: the motor sees the supply itself"))
     if ripple is not None and min(pulses.direction * ripple.lowest, pulses.direction * ripple.highest) < 0.0:
         found.append(
-            "the current flows against the pulses, in a part of the period at least: that takes a switch on the way "
-            "back; through a diode alone it would stop at zero, and the average voltage would be another"
+            _(
+                "the current flows against the pulses, in a part of the period at least: that takes a switch on the "
+                "way back; through a diode alone it would stop at zero, and the average voltage would be another"
+            )
         )
     return tuple(found)
 
@@ -153,14 +156,14 @@ def pwm_steps(pulses: Pulses, inductance: float | None, ripple: Ripple | None) -
     mean = rf"D\,V_s = {D} \cdot {tex_factor(pulses.high_voltage)} = {tex(pulses.average_voltage, 'V')}"
     steps = (
         step(
-            "Averages",
-            "Over a period the motor sees the mean; the heater in it sees the root mean square.",
+            _("Averages"),
+            _("Over a period the motor sees the mean; the heater in it sees the root mean square."),
             rf"V_{{\mathrm{{avg}}}} = {mean}",
             rf"V_{{\mathrm{{rms}}}} = \sqrt{{D}}\,V_s = {tex(pulses.rms_voltage, 'V')}",
         ),
         step(
-            "Times",
-            "The period is divided by the duty.",
+            _("Times"),
+            _("The period is divided by the duty."),
             rf"t_{{\mathrm{{on}}}} = \frac{{D}}{{f}} = \frac{{{D}}}{{{f}}} = {tex(pulses.on_time, 's')}",
             rf"t_{{\mathrm{{off}}}} = \frac{{1 - D}}{{f}} = {tex(pulses.off_time, 's')}",
         ),
@@ -174,5 +177,5 @@ def pwm_steps(pulses: Pulses, inductance: float | None, ripple: Ripple | None) -
         parts = r"\frac{(1 - e^{-t_{\mathrm{on}} R/L})(1 - e^{-t_{\mathrm{off}} R/L})}{1 - e^{-R/(L f)}}"
         formulas.append(rf"\Delta i = \frac{{V_s}}{{R}} \cdot {parts} = {tex(ripple.ripple, 'A')}")
         formulas.append(rf"i \in [{tex(ripple.lowest)},\ {tex(ripple.highest)}]\,\mathrm{{A}}")
-    text = "The current rises in a pulse and falls after it, along exponentials of the time constant L/R."
-    return (*steps, step("Ripple", text, *formulas)) if formulas else steps
+    text = _("The current rises in a pulse and falls after it, along exponentials of the time constant L/R.")
+    return (*steps, step(_("Ripple"), text, *formulas)) if formulas else steps

@@ -18,8 +18,12 @@ from typing import Literal, TypeAlias
 from gelenk.course.mobility.mechanism import FLOATING, JointSplit, Mechanism, Pair, check_kind, joint_split
 from gelenk.course.mobility.pairs import FREEDOMS, KINDS, Order, Space
 from gelenk.course.mobility.screws import PostureMobility
-from gelenk.errors import CertificationFailed, InvalidField, counted, listed, quoted
+from gelenk.errors import CertificationFailed, InvalidField, counted, quoted
+from gelenk.language import marked
+from gelenk.language import translated as _
 from gelenk.robot.result import Result
+
+_SHOWN_NAMES = 12
 
 Verdict: TypeAlias = Literal["mechanism", "structure", "overconstrained"]
 NodeCount: TypeAlias = tuple[str, int, str | None]
@@ -143,32 +147,47 @@ def warnings(counted: Tally, found: Mechanism | None, stands: PostureMobility | 
         sentences += _graph_sentences(found)
     elif any(kind.type == "spherical" and kind.count > 1 for kind in counted.kinds):
         sentences.append(
-            "Counts alone do not show whether a bar between two spherical joints spins idly about itself: give the "
-            "links of each pair to have such freedoms found."
+            _(
+                "Counts alone do not show whether a bar between two spherical joints spins idly about itself: give the "
+                "links of each pair to have such freedoms found."
+            )
         )
     if idle:
-        sentences.append(
-            f"Of the mobility {counted.mobility}, {idle} is idle: a part that two spherical joints hold spins about "
-            "the line through their centres and moves nothing else."
+        text = _(
+            "Of the mobility {mobility}, {idle} is idle: a part that two spherical joints hold spins about the line "
+            "through their centres and moves nothing else."
         )
+        sentences.append(text.format(mobility=counted.mobility, idle=idle))
     is_open = found is not None and found.topology.loops == 0
     if stands is not None and stands.redundant:
-        sentences.append(
-            f"The formula ignores geometry: as the linkage stands, {stands.redundant} of its {counted.constraints} "
-            f"constraints {'is' if stands.redundant == 1 else 'are'} redundant, and its mobility is "
-            f"{stands.mobility}, not {counted.mobility}."
-        )
+        sentences.append(_geometry_sentence(counted, stands))
     elif stands is None and counted.mobility - idle <= 0 and counted.pairs and not is_open:
-        sentences.append(_GEOMETRY[counted.space])
+        sentences.append(_(_GEOMETRY[counted.space]))
     return sentences
 
 
+def _geometry_sentence(counted: Tally, stands: PostureMobility) -> str:
+    text = _(
+        "The formula ignores geometry: as the linkage stands, 1 of its {constraints} constraints is redundant, and its "
+        "mobility is {actual}, not {mobility}."
+        if stands.redundant == 1
+        else "The formula ignores geometry: as the linkage stands, {redundant} of its {constraints} constraints are "
+        "redundant, and its mobility is {actual}, not {mobility}."
+    )
+    return text.format(
+        redundant=stands.redundant,
+        constraints=counted.constraints,
+        actual=stands.mobility,
+        mobility=counted.mobility,
+    )
+
+
 _GEOMETRY: dict[Space, str] = {
-    "planar": (
+    "planar": marked(
         "The formula ignores geometry: with special dimensions, such as equal, parallel cranks, constraints are "
         "redundant and the linkage may move nonetheless."
     ),
-    "spatial": (
+    "spatial": marked(
         "The formula ignores geometry: where axes are parallel or meet in a point, or with special dimensions, "
         "constraints are redundant and the linkage may move nonetheless, as a planar linkage counted with λ = 6, "
         "Bennett's and Sarrus' do, each with mobility 1. A planar linkage is to be counted with λ = 3."
@@ -177,10 +196,13 @@ _GEOMETRY: dict[Space, str] = {
 
 
 def _split_sentence(split: JointSplit) -> str:
-    return (
-        f"{split.links} links meet at joint {quoted(split.joint)}: that is {split.pairs} pairs, of which {split.added} "
-        f"{'was' if split.added == 1 else 'were'} missing and {'has' if split.added == 1 else 'have'} been added."
+    text = _(
+        "{links} links meet at joint {joint}: that is {pairs} pairs, of which 1 was missing and has been added."
+        if split.added == 1
+        else "{links} links meet at joint {joint}: that is {pairs} pairs, of which {added} were missing and have been "
+        "added."
     )
+    return text.format(links=split.links, joint=quoted(split.joint), pairs=split.pairs, added=split.added)
 
 
 def _graph_sentences(found: Mechanism) -> list[str]:
@@ -188,24 +210,35 @@ def _graph_sentences(found: Mechanism) -> list[str]:
     sentences = []
     if len(graph.components) > 1:
         lost = [part for part in graph.components if found.ground not in part]
-        loose = listed(tuple(names[part[0]] for part in lost))
-        which = f"a part, that with {loose}, is" if len(lost) == 1 else f"{len(lost)} parts, those with {loose}, are"
-        sentences.append(
-            f"The links are not all connected: {which} not joined to the ground, and each such part counts with the "
-            f"{FREEDOMS[found.space]} freedoms of a free body."
+        text = _(
+            "The links are not all connected: a part, that with {links}, is not joined to the ground, and each such "
+            "part counts with the {freedoms} freedoms of a free body."
+            if len(lost) == 1
+            else "The links are not all connected: {count} parts, those with {links}, are not joined to the ground, "
+            "and each such part counts with the {freedoms} freedoms of a free body."
         )
+        loose = _names([names[part[0]] for part in lost])
+        sentences.append(text.format(count=len(lost), links=loose, freedoms=FREEDOMS[found.space]))
     if graph.loops:
-        hanging = tuple(names[link] for link in graph.pendants)
+        hanging = [names[link] for link in graph.pendants]
         if hanging:
-            sentences.append(
-                f"A single pair holds {listed(hanging)}, while other links form loops. Should such a link meet others "
-                "at a joint as well, that joint has more than two links and must be split: name it in `coincident`."
+            text = _(
+                "A single pair holds {links}, while other links form loops. Should such a link meet others at a joint "
+                "as well, that joint has more than two links and must be split: name it in `coincident`."
             )
+            sentences.append(text.format(links=_names(hanging)))
         if rollers := _rollers(found):
-            sentences.append(f"If {listed(rollers)} is a round roller, its spin about its own pin is idle.")
+            text = _("If {links} is a round roller, its spin about its own pin is idle.")
+            sentences.append(text.format(links=_names(rollers)))
     if any(pair.type == FLOATING for pair in found.pairs):
-        sentences.append("A floating joint removes no freedom: the links below it are unconstrained.")
+        sentences.append(_("A floating joint removes no freedom: the links below it are unconstrained."))
     return sentences
+
+
+def _names(names: Sequence[str]) -> str:
+    """Return the first names, quoted, and how many more there are."""
+    shown, more = ", ".join(map(quoted, names[:_SHOWN_NAMES])), len(names) - _SHOWN_NAMES
+    return shown if more <= 0 else _("{names} and {more} more").format(names=shown, more=more)
 
 
 def _rollers(found: Mechanism) -> tuple[str, ...]:

@@ -6,16 +6,42 @@ from gelenk.course.mobility.pairs import FREEDOMS
 from gelenk.course.mobility.screws import PostureMobility
 from gelenk.course.steps import Step, step
 from gelenk.errors import quoted
+from gelenk.language import marked
+from gelenk.language import translated as _
 
 _VERDICTS = {
-    "mechanism": "it moves: a mechanism",
-    "structure": "it does not move: a structure, statically determinate",
-    "overconstrained": "more constraints than freedoms: over-constrained",
+    "mechanism": marked("M = {mobility}: it moves: a mechanism."),
+    "structure": marked("M = {mobility}: it does not move: a structure, statically determinate."),
+    "overconstrained": marked("M = {mobility}: more constraints than freedoms: over-constrained."),
 }
 _CHAINS = {
-    "open": "no loop: an open chain",
-    "closed": "two paths join each link to each other: a closed chain",
-    "mixed": "some links lie on no loop, or on none with the others: a mixed chain",
+    "open": marked("Independent loops: {sum} = {loops}; no loop: an open chain."),
+    "closed": marked("Independent loops: {sum} = {loops}; two paths join each link to each other: a closed chain."),
+    "mixed": marked(
+        "Independent loops: {sum} = {loops}; some links lie on no loop, or on none with the others: a mixed chain."
+    ),
+}
+_KINDS = {
+    "revolute": marked("revolute"),
+    "prismatic": marked("prismatic"),
+    "rolling": marked("rolling"),
+    "pin_in_slot": marked("pin in slot"),
+    "cam": marked("cam"),
+    "gear": marked("gear"),
+    "screw": marked("screw"),
+    "universal": marked("universal"),
+    "cylindrical": marked("cylindrical"),
+    "spherical": marked("spherical"),
+    "planar": marked("planar"),
+    "sphere_in_groove": marked("sphere in groove"),
+    "point_contact": marked("point contact"),
+    "fixed": marked("fixed"),
+    "floating": marked("floating"),
+}
+_ORDERS = {
+    "low": marked("{count} {kind} (c = {constraints}, low order)"),
+    "high": marked("{count} {kind} (c = {constraints}, high order)"),
+    None: marked("{count} {kind} (c = {constraints})"),
 }
 
 
@@ -25,35 +51,41 @@ def steps(counted: Tally, found: Mechanism | None, stands: PostureMobility | Non
     idle = 0 if found is None else len(found.idle_spins())
     left = total - idle
     freedoms, n, j = FREEDOMS[counted.space], counted.links, counted.pairs
-    parts = "1 of orientation and 2 of position" if counted.space == "planar" else "3 of orientation and 3 of position"
-    ground = "" if found is None else f" {quoted(found.links[found.ground])}"
-    listed = ", ".join(f"{kind.count} {_words(kind)}" for kind in counted.kinds) or "none"
+    space = _(
+        "A free body has λ = 3 freedoms: 1 of orientation and 2 of position."
+        if counted.space == "planar"
+        else "A free body has λ = 6 freedoms: 3 of orientation and 3 of position."
+    )
+    links = _("n = {n}, the ground included.") if found is None else _("n = {n}, the ground {ground} included.")
+    ground = "" if found is None else quoted(found.links[found.ground])
+    pairs = _("j = {j}: {pairs}.") if counted.kinds else _("j = {j}: none.")
     result = [
-        step("Space", f"A free body has λ = {freedoms} freedoms: {parts}.", rf"\lambda = {freedoms}"),
-        step("Links", f"n = {n}, the ground{ground} included.", f"n = {n}"),
+        step(_("Space"), space, rf"\lambda = {freedoms}"),
+        step(_("Links"), links.format(n=n, ground=ground), f"n = {n}"),
         *(_split(split.joint, split.links) for split in counted.splits),
-        step("Pairs", f"j = {j}: {listed}.", f"j = {j}"),
+        step(_("Pairs"), pairs.format(j=j, pairs=", ".join(map(_words, counted.kinds))), f"j = {j}"),
         _constraints(counted),
         _formula(counted),
     ]
     if stands is not None:
         result.append(_geometry(counted, stands))
     if idle:
-        text = f"Idle freedoms, parts that spin between two spherical joints: {idle}. {total} − {idle} = {left}."
-        result.append(step("Idle freedoms", text, f"{total} - {idle} = {left}"))
+        text = _("Idle freedoms, parts that spin between two spherical joints: {idle}. {total} − {idle} = {left}.")
+        text = text.format(idle=idle, total=total, left=left)
+        result.append(step(_("Idle freedoms"), text, f"{total} - {idle} = {left}"))
     if found is not None:
         result.append(_loops(found))
-    return [*result, step("Verdict", f"M = {left}: {_VERDICTS[verdict(left)]}.", f"M = {left}")]
+    return [*result, step(_("Verdict"), _(_VERDICTS[verdict(left)]).format(mobility=left), f"M = {left}")]
 
 
 def _split(joint: str, links: int) -> Step:
-    text = f"{links} links meet at joint {quoted(joint)}: it is split into {links} − 1 = {links - 1} pairs."
-    return step("Coincident joint", text, f"{links} - 1 = {links - 1}")
+    text = _("{links} links meet at joint {joint}: it is split into {links} − 1 = {pairs} pairs.")
+    text = text.format(links=links, joint=quoted(joint), pairs=links - 1)
+    return step(_("Coincident joint"), text, f"{links} - 1 = {links - 1}")
 
 
 def _words(kind: PairCount) -> str:
-    order = f", {kind.order} order" if kind.order else ""
-    return f"{kind.type.replace('_', ' ')} (c = {kind.constraints}{order})"
+    return _(_ORDERS[kind.order]).format(count=kind.count, kind=_(_KINDS[kind.type]), constraints=kind.constraints)
 
 
 def _constraints(counted: Tally) -> Step:
@@ -62,9 +94,13 @@ def _constraints(counted: Tally) -> Step:
     plain, latex = " + ".join(f"{k}·{c}" for k, c in terms), " + ".join(rf"{k} \cdot {c}" for k, c in terms)
     text = f"Σc = {plain} = {total}." if terms else "Σc = 0."
     if counted.couplings:
-        who = "One joint follows" if counted.couplings == 1 else f"{counted.couplings} joints follow"
-        text += f" {who} another one, a constraint each."
-    return step("Constraints", text, rf"\sum c_i = {latex} = {total}" if terms else r"\sum c_i = 0")
+        follow = _(
+            "{sum} One joint follows another one, a constraint each."
+            if counted.couplings == 1
+            else "{sum} {couplings} joints follow another one, a constraint each."
+        )
+        text = follow.format(sum=text, couplings=counted.couplings)
+    return step(_("Constraints"), text, rf"\sum c_i = {latex} = {total}" if terms else r"\sum c_i = 0")
 
 
 def _formula(counted: Tally) -> Step:
@@ -75,21 +111,25 @@ def _formula(counted: Tally) -> Step:
         f"M = λ(n − 1) − Σc = {freedoms}({n} − 1) − {total}{coupled} = {counted.mobility}."
     )
     latex = rf"M = \lambda (n - 1) - \sum c_i = {freedoms} \, ({n} - 1) - {total}{coupled} = {counted.mobility}"
-    return step("Grübler", text, latex.replace("−", "-"))
+    return step(_("Grübler"), text, latex.replace("−", "-"))
 
 
 def _geometry(counted: Tally, stands: PostureMobility) -> Step:
     freedoms, n, total, extra = FREEDOMS[counted.space], counted.links, counted.constraints, stands.redundant
-    text = (
-        f"Of the {total} constraints {total - extra} are independent as the linkage stands, {extra} redundant: "
-        f"M = {freedoms}({n} − 1) − {total - extra} = {stands.mobility}."
+    text = _(
+        "Of the {total} constraints {independent} are independent as the linkage stands, {redundant} redundant: {sum}."
+    ).format(
+        total=total,
+        independent=total - extra,
+        redundant=extra,
+        sum=f"M = {freedoms}({n} − 1) − {total - extra} = {stands.mobility}",
     )
     latex = rf"M = \lambda (n - 1) - r = {freedoms} \, ({n} - 1) - {total - extra} = {stands.mobility}"
-    return step("Geometry", text, latex)
+    return step(_("Geometry"), text, latex)
 
 
 def _loops(found: Mechanism) -> Step:
     graph, j, n = found.topology, len(found.pairs), len(found.links)
     parts = len(graph.components)
-    text = f"Independent loops: L = j − n + {parts} = {j} − {n} + {parts} = {graph.loops}; {_CHAINS[graph.chain]}."
-    return step("Loops", text, f"L = j - n + {parts} = {j} - {n} + {parts} = {graph.loops}")
+    text = _(_CHAINS[graph.chain]).format(sum=f"L = j − n + {parts} = {j} − {n} + {parts}", loops=graph.loops)
+    return step(_("Loops"), text, f"L = j - n + {parts} = {j} - {n} + {parts} = {graph.loops}")
