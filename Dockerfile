@@ -8,6 +8,21 @@ RUN apt-get update \
     && apt-get install --yes --no-install-recommends libgomp1 \
     && rm -rf /var/cache/apt/* /var/lib/apt/lists/*
 
+# The handbook, of which only the pages go on. pip takes no hashes of what another package asks for: they are compared.
+FROM base AS handbook
+WORKDIR /build
+COPY requirements-dev.lock ./
+RUN sed '/--hash/d; s/ \\$//' requirements-dev.lock > versions \
+    && python3 -m pip download --no-cache-dir --only-binary=:all: --constraint versions --dest wheels \
+        sphinx furo myst-parser ziamath \
+    && for wheel in wheels/*; do \
+        sum=$(sha256sum "$wheel") && grep --quiet "sha256:${sum%% *}" requirements-dev.lock || exit 1; done \
+    && python3 -m venv --without-pip /opt/sphinx \
+    && python3 -m pip --python /opt/sphinx/bin/python install --no-cache-dir --no-index --no-deps wheels/*
+COPY app/gelenk/studio/icon.svg app/gelenk/studio/
+COPY docs docs
+RUN /opt/sphinx/bin/python -m sphinx --fail-on-warning --quiet --doctree-dir /tmp --conf-dir docs/handbook docs handbook
+
 FROM base AS builder
 # hadolint ignore=DL3008
 RUN apt-get update && apt-get install --yes --no-install-recommends binutils
@@ -18,6 +33,7 @@ RUN python3 -m venv --without-pip /opt/venv \
 COPY pyproject.toml README.md LICENSE ./
 COPY app app
 COPY robots robots
+COPY --from=handbook /build/handbook build/handbook
 RUN python3 -m pip --python /opt/venv/bin/python install --no-cache-dir --no-deps --no-build-isolation . \
     && python3 -m pip --python /opt/venv/bin/python uninstall --yes hatchling pathspec pluggy tomlkit trove-classifiers
 ENV PATH=/opt/venv/bin:$PATH

@@ -101,8 +101,8 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
             {"name": "Robots", "description": "The catalogue and your own robots."},
             {"name": "DH tables", "description": "Denavit-Hartenberg tables: to and from URDF, compared, derived."},
             {"name": "Kinematics", "description": "Computations for a robot."},
-            {"name": "Jobs", "description": "Long-running work: its progress and results."},
             {"name": "Course", "description": "The course's calculators, which store nothing."},
+            {"name": "Jobs", "description": "Long-running work: its progress and results."},
             {"name": "Service", "description": "About the service itself."},
         ],
     )

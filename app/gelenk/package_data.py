@@ -16,6 +16,12 @@ def studio() -> Path:
     return _PACKAGE / "studio"
 
 
+def handbook() -> Path:
+    """Return the folder of the built handbook, which need not be there: in the installed package, or in a checkout."""
+    installed = _PACKAGE / "handbook"
+    return installed if installed.is_dir() else _PACKAGE.parents[1] / "build" / "handbook"
+
+
 def texts() -> Path:
     """Return the folder of the translations."""
     return _PACKAGE / "texts"

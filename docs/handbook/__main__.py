@@ -46,6 +46,7 @@ def build(pages: Path, output: Path, only: list[str] | None = None) -> int:
         only: Sources that are read and written; all if empty.
     """
     options = ["--fail-on-warning", "--nitpicky", "--quiet", "--conf-dir", str(Path(__file__).resolve().parent)]
+    options += ["--doctree-dir", str(output.with_name("doctrees"))]  # not among what is served
     if not only:
         options += ["--fresh-env", "--write-all"]
     return build_main([*options, str(pages), str(output), *(only or [])])

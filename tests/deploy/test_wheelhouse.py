@@ -104,12 +104,15 @@ def dev(folder: Path, *arguments: str, index: Path | None = None, **variables: s
 
 @pytest.mark.slow
 def test_what_was_carried_over_is_installed(project: Path) -> None:
+    (project / "build" / "handbook").mkdir(parents=True)
+    (project / "build" / "handbook" / "index.html").touch()
     made = dev(project, "wheelhouse", "carried", index=project.parent / "index")
     carried = project.parent / "carried"
     assert made.returncode == 0, made.stderr
     assert {path.name for path in (carried / "wheels").iterdir()} == {WHEEL}
     assert not (carried / "app" / "gelenk" / "__pycache__").exists()
     assert [path.name for path in (carried / "docs").iterdir()] == ["index.md"], "the handbook is built elsewhere"
+    assert [path.name for path in (carried / "build" / "handbook").iterdir()] == ["index.html"]
     run = dev(carried, "install")
     assert run.returncode == 0, run.stderr
     code = "import gelenk_probe; print(gelenk_probe.ANSWER)"

@@ -3,6 +3,8 @@
 The handbook itself is compared and built by `./dev handbook`, a step of its own in `.ci/run`.
 """
 
+import base64
+import hashlib
 import re
 import subprocess
 import sys
@@ -12,6 +14,7 @@ import pytest
 
 from docs.handbook.committed import renew
 from docs.handbook.session import service
+from gelenk.http.pages import HANDBOOK_POLICY
 
 pytestmark = pytest.mark.slow
 
@@ -159,6 +162,10 @@ def test_a_page_is_built_and_in_the_navigation_by_the_list_of_the_first(tmp_path
     assert '<span class="caption-text">Part</span>' in text
     glyphs = re.findall(r'<symbol id="([^"]+)"', text)
     assert len(glyphs) == len(set(glyphs)) > 2
+    for page in output.rglob("*.html"):
+        for script in re.findall(r"<script>(.*?)</script>", page.read_text(), re.DOTALL):
+            digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+            assert f"'sha256-{digest}'" in HANDBOOK_POLICY, f"the service's policy would keep {script} from running"
 
 
 def test_what_is_unsound_ends_the_build(tmp_path: Path) -> None:

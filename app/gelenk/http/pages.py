@@ -1,27 +1,33 @@
-"""The pages: the studio, for looking at robots, and the documentation, from files on this machine alone.
+"""The pages: the studio, for looking at robots, the documentation and the handbook, from this machine's files alone.
 
 They work without a network, below any root path, because all of their links are relative. A content security policy
 keeps the browser from loading anything from elsewhere. The package fastapi-offline provides the bundles of Swagger UI
-and ReDoc; `app/studio` is bundled into the studio's files, of which a browser checks each time whether one has changed.
+and ReDoc; the studio's files come from `app/studio`, the handbook's from `docs`, and of both a browser checks each time
+whether one has changed.
 """
 
 from pathlib import Path
 
 import fastapi_offline
 from fastapi import FastAPI, Request
-from starlette.responses import HTMLResponse, Response
+from starlette.responses import HTMLResponse, RedirectResponse, Response
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
-from gelenk.package_data import studio
+from gelenk.package_data import handbook, studio
 
 STUDIO = studio()
 STUDIO_POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; font-src 'self'; "
     "connect-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-_STUDIO_HEADERS = {
-    "Content-Security-Policy": STUDIO_POLICY,
+HANDBOOK_POLICY = (
+    "default-src 'none'; script-src 'self' 'sha256-ySvT2PEZeueHGC1y2crNuNTfphBynFPP7i+U21fEgX0='; "
+    "style-src 'self' 'unsafe-inline'; img-src 'self' data:; font-src 'self'; connect-src 'self'; base-uri 'none'; "
+    "form-action 'self'; frame-ancestors 'none'"
+)
+"""The one script within its pages is the theme's (Furo), which reads whether the reader wants them dark."""
+_KEPT = {
     "Cache-Control": "no-cache",
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
@@ -42,6 +48,9 @@ _PAGE = """<!doctype html>
 {style}
 </head>
 <body style="margin: 0">
+<nav style="font-family: sans-serif; padding: 0.8em 20px">
+<a href=".">Studio</a> · <a href="handbook/">Handbook</a> · <a href="docs">Try calls</a> · <a href="redoc">Reference</a>
+</nav>
 <div id="page"></div>
 <script src="documentation/bundles/{bundle}"></script>
 <script src="documentation/own/{starter}"></script>
@@ -49,23 +58,41 @@ _PAGE = """<!doctype html>
 </html>
 """
 
+_NO_EMPTY_BAR = """
+<style>
+.swagger-ui .scheme-container:not(:has(.auth-wrapper)) { display: none }
+</style>"""
+"""Swagger UI leaves one where no key is set."""
+_NO_HANDBOOK = """<!doctype html>
+<html lang="en">
+<meta charset="utf-8">
+<title>Gelenk handbook</title>
+<p>The handbook is not built here: <code>./dev handbook</code> in a checkout builds it.
+Then start the service again.</p>
+</html>
+"""
 
-class _StudioFiles(StaticFiles):
-    """The files of the bundle, with the page's own headers."""
+
+class _PageFiles(StaticFiles):
+    """The files of a bundle, with a policy of their own; a folder's address is that of its first page."""
+
+    def __init__(self, folder: Path, policy: str) -> None:
+        super().__init__(directory=folder)
+        self._headers = {"Content-Security-Policy": policy, **_KEPT}
 
     async def get_response(self, path: str, scope: Scope) -> Response:
-        response = await super().get_response(path, scope)
-        response.headers.update(_STUDIO_HEADERS)
+        response = await super().get_response("index.html" if path == "." else path, scope)
+        response.headers.update(self._headers)
         return response
 
 
 def install(app: FastAPI) -> None:
-    """Serve the studio at `/` and its files below `/studio`; `/docs` to try calls, and `/redoc` to read."""
-    files = _StudioFiles(directory=STUDIO)
+    """Serve the studio at `/` and its files below `/studio`; `/docs` to try calls, `/redoc` and `/handbook` to read."""
+    files = _PageFiles(STUDIO, STUDIO_POLICY)
     app.mount("/documentation/bundles", StaticFiles(directory=_BUNDLES))
     app.mount("/documentation/own", StaticFiles(directory=_OWN))
     app.mount("/studio", files)
-    style = '<link rel="stylesheet" href="documentation/bundles/swagger-ui.css">'
+    style = '<link rel="stylesheet" href="documentation/bundles/swagger-ui.css">' + _NO_EMPTY_BAR
     swagger = _PAGE.format(title="try it", style=style, bundle="swagger-ui-bundle.js", starter="swagger.js")
     redoc = _PAGE.format(title="reference", style="", bundle="redoc.standalone.js", starter="redoc.js")
 
@@ -77,6 +104,24 @@ def install(app: FastAPI) -> None:
     async def reference() -> HTMLResponse:
         return HTMLResponse(redoc, headers={"Content-Security-Policy": _POLICY})
 
+    _install_handbook(app)
+
     @app.get("/", include_in_schema=False)
     async def page(request: Request) -> Response:
         return await files.get_response("index.html", request.scope)
+
+
+def _install_handbook(app: FastAPI) -> None:
+    """Serve the handbook, or in its place how to build it."""
+
+    @app.get("/handbook", include_in_schema=False)
+    async def with_slash() -> Response:
+        return RedirectResponse("handbook/")  # all of its links are relative to its folder
+
+    if (handbook() / "index.html").is_file():
+        app.mount("/handbook", _PageFiles(handbook(), HANDBOOK_POLICY))
+        return
+
+    @app.get("/handbook/", include_in_schema=False)
+    async def how_to_build() -> HTMLResponse:
+        return HTMLResponse(_NO_HANDBOOK)

@@ -30,7 +30,9 @@ export function furnish(places: Places, studio: Studio): void {
   heading(places.heading, studio.store);
   marks(places.marks, studio);
   const help = button("Help", showShortcuts, { class: "tool", title: "What the keyboard does (?)" });
-  places.tools.append(help, themeSwitch(studio), element("a", { class: "tool", href: "docs" }, "API"));
+  const pages = { handbook: "Handbook", docs: "API" };
+  const links = Object.entries(pages).map(([href, name]) => element("a", { class: "tool", href }, name));
+  places.tools.append(help, themeSwitch(studio), ...links);
 }
 
 function tabs({ tabs: host, panel }: Places, studio: Studio): void {

@@ -13,7 +13,8 @@ from gelenk.contract.endpoint import Route, Scope
 from gelenk.contract.endpoints import ROUTES
 
 OPEN_PATHS = frozenset(
-    {"/", "/studio", "/docs", "/redoc", "/documentation/bundles", "/documentation/own", "/openapi.json"}
+    {"/", "/studio", "/handbook", "/handbook/", "/docs", "/redoc", "/openapi.json"}
+    | {"/documentation/bundles", "/documentation/own"}
 )
 """Pages, their files and the schema: the same for everyone, and a browser sends no key for them."""
 _MOST_REMEMBERED = 1024

@@ -1,0 +1,30 @@
+"""The page to try calls on finds operations by their words, shows no padlock where no key is set, and leads on."""
+
+from tests.studio.browser import Studio
+
+
+def test_operations_are_found_by_words_of_path_name_or_description(studio: Studio) -> None:
+    page = studio.page
+    page.goto(f"{studio.url}/docs")
+    page.locator(".opblock").first.wait_for()
+    all_of_them = page.locator(".opblock").count()
+    assert page.locator(".authorization__btn, .auth-wrapper").count() == 0
+    groups = [heading.split("\n")[0] for heading in page.locator(".opblock-tag").all_inner_texts()]
+    assert groups == ["Robots", "DH tables", "Kinematics", "Course", "Jobs", "Service"]
+    field = page.get_by_label("Find an operation")
+    for words, path in {
+        "FORCE ellipsoids": "/v1/robots/{robot}/manipulability",  # of the description
+        "inverse kine": "/v1/robots/{robot}/ik",  # of the name
+        "to-urdf": "/v1/dh/to-urdf",  # of the path
+    }.items():
+        field.fill(words)
+        page.wait_for_function("() => document.querySelectorAll('.opblock').length < 10", polling=50)
+        found = page.locator(".opblock-summary-path").all_inner_texts()
+        assert path in [one.replace("\u200b", "") for one in found], words
+    field.fill("no such words")
+    page.locator(".opblock").first.wait_for(state="detached")
+    field.fill("")
+    page.locator(".opblock").first.wait_for()
+    assert page.locator(".opblock").count() == all_of_them
+    page.get_by_role("link", name="Handbook").click()
+    assert page.url == f"{studio.url}/handbook/"
