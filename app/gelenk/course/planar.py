@@ -18,6 +18,7 @@ import numpy as np
 
 from gelenk.course.steps import Step, step, tex
 from gelenk.errors import CertificationFailed
+from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.result import Result
 
@@ -224,22 +225,25 @@ def workspace_steps(arm: PlanarWorkspace) -> tuple[Step, ...]:
     total, excess = sum(arm.links), tex(2.0 * max(arm.links) - sum(arm.links))
     near, far = tex(last - inner), tex(last + inner, "m")
     rings = r" \cup ".join(rf"[{tex(lower)},\ {tex(upper)}]" for lower, upper in arm.secondary) or r"\varnothing"
+    beyond = rf"r \ge {far} \text{{ {_('or')} }} r \le {near}\,\mathrm{{m}}"
     return (
         step(
-            "Primary workspace",
-            "Stretched the arm reaches farthest. It reaches the base unless one link is longer than all the others.",
+            _("Primary workspace"),
+            _("Stretched the arm reaches farthest. It reaches the base unless one link is longer than all the others."),
             lengths,
             rf"r_{{\max}} = \sum l_i = {tex(total, 'm')}",
             rf"r_{{\min}} = \max(0,\ 2\,l_{{\max}} - \sum l_i) = \max(0,\ {excess}) = {tex(arm.primary[0][0], 'm')}",
         ),
         step(
-            "Secondary workspace",
-            f"With all orientations at distance r the wrist goes round a circle of radius l_{n} about the tip, and "
-            f"comes as near to the base as |r - l_{n}| and as far as r + l_{n}: all of it has to be within the "
-            "ring that the wrist can reach.",
+            _("Secondary workspace"),
+            _(
+                "With all orientations at distance r the wrist goes round a circle of radius l_{n} about the tip, and "
+                "comes as near to the base as |r - l_{n}| and as far as r + l_{n}: all of it has to be within the ring "
+                "that the wrist can reach."
+            ).format(n=n),
             rf"\rho \in [{tex(inner)},\ {tex(outer)}]\,\mathrm{{m}}",
             rf"r + l_{n} \le {tex(outer)} \;\Rightarrow\; r \le {tex(outer - last, 'm')}",
-            rf"|r - l_{n}| \ge {tex(inner)} \;\Rightarrow\; r \ge {far}\ \text{{or}}\ r \le {near}\,\mathrm{{m}}",
+            rf"|r - l_{n}| \ge {tex(inner)} \;\Rightarrow\; {beyond}",
             rf"\mathrm{{WS}}_2:\ r \in {rings}",
         ),
     )

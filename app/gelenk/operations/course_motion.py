@@ -10,6 +10,8 @@ from gelenk.contract.course_motion import MAX_SAMPLED_NUMBERS, SampledRequest
 from gelenk.course.motion.check import MotionClaims, certified
 from gelenk.course.motion.formulas import SHOWN_JOINTS
 from gelenk.errors import InvalidField, counted
+from gelenk.language import marked
+from gelenk.language import translated as _
 from gelenk.operations.outcome import Outcome, PictureFormat
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.time_scaling import QUANTITIES, ScalingLimits
@@ -122,7 +124,7 @@ def _peaks_of(found: Peaks, limit: Array | None) -> list[dict[str, float | None]
 def limit_warnings(found: PeaksByOrder, limits: ScalingLimits, on_others: str = "") -> list[str]:
     """Return a warning for each joint and quantity whose limit is exceeded.
 
-    `on_others` says what to know of the joints that a worked solution does not show, where it shows only some.
+    `on_others` is the message about the joints that a worked solution does not show, where it shows only some.
     """
     texts = []
     for order, quantity in enumerate(QUANTITIES, start=1):
@@ -130,14 +132,22 @@ def limit_warnings(found: PeaksByOrder, limits: ScalingLimits, on_others: str = 
         if limit is not None:
             ratios = np.abs(found[order].values) / limit
             texts += [
-                f"Joint {j + 1} goes beyond its limit of {quantity} by a factor of {ratios[j]:.4g}, "
-                f"at {found[order].times[j]:.6g} s."
+                _(_BEYOND[quantity]).format(joint=j + 1, factor=ratios[j], time=found[order].times[j])
                 for j in np.flatnonzero(ratios > 1.0 + _ROUNDING)
             ]
     joints = len(found[1].values)
     if on_others and joints > SHOWN_JOINTS:
-        texts.append(f"The worked solution shows {SHOWN_JOINTS} of {joints} joints; {on_others}.")
+        texts.append(_(on_others).format(shown=SHOWN_JOINTS, joints=joints))
     return texts
+
+
+_BEYOND = {
+    "velocity": marked("Joint {joint} goes beyond its limit of velocity by a factor of {factor:.4g}, at {time:.6g} s."),
+    "acceleration": marked(
+        "Joint {joint} goes beyond its limit of acceleration by a factor of {factor:.4g}, at {time:.6g} s."
+    ),
+    "jerk": marked("Joint {joint} goes beyond its limit of jerk by a factor of {factor:.4g}, at {time:.6g} s."),
+}
 
 
 def limits_of(call: SampledRequest, joints: int) -> ScalingLimits:

@@ -8,6 +8,7 @@ from gelenk.contract.spline import SplineRequest
 from gelenk.course.motion.check import MotionClaims
 from gelenk.course.motion.spline_steps import spline_steps
 from gelenk.course.motion.time_law_steps import peak_step
+from gelenk.language import marked
 from gelenk.operations.course_motion import (
     PlannedMotion,
     is_heavy_motion,
@@ -23,6 +24,7 @@ from gelenk.operations.outcome import Outcome
 from gelenk.trajectory.motion.splines import EndRates, Spline, cubic_spline
 
 _SHOWN_UNKNOWNS = 32
+_OTHERS = marked("The worked solution shows {shown} of {joints} joints; A is the same for all.")
 _VELOCITIES = ("start_velocity", "end_velocity")
 _ACCELERATIONS = ("start_acceleration", "end_acceleration")
 
@@ -53,7 +55,7 @@ def _plan(call: SplineRequest) -> PlannedMotion:
         "system": _system(found),
         "knots": _knots(found),
         "steps": (*spline_steps(found, call.boundary), peak_step(peaks[1], peaks[2])),
-        "warnings": limit_warnings(peaks, limits, "A is the same for all"),
+        "warnings": limit_warnings(peaks, limits, _OTHERS),
     }
     title = f"Cubic spline, {call.boundary.replace('_', ' ')}"
     return PlannedMotion(found.motion, MotionClaims(times, knots, starts, ends, 2, peaks), limits, title, further)

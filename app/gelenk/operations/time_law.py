@@ -12,6 +12,7 @@ from gelenk.course.motion.time_law_steps import lift_steps, peak_step, two_point
 from gelenk.course.motion.trapezoid_steps import blend_steps, trapezoid_steps
 from gelenk.course.steps import Step
 from gelenk.errors import InvalidField, counted
+from gelenk.language import marked
 from gelenk.operations.course_motion import (
     PlannedMotion,
     is_heavy_motion,
@@ -42,6 +43,7 @@ _GIVEN_RATES: dict[str, int] = {
     "trapezoidal": 1,
     "parabolic_blends": 0,
 }
+_OTHERS = marked("The worked solution shows {shown} of {joints} joints; the others go the same way.")
 _KNOTS = {"4-3-4", "parabolic_blends"}
 
 
@@ -176,7 +178,7 @@ def _planned(
 ) -> PlannedMotion:
     """Return the plan, with the fields that only answers for other laws have set to None."""
     limits = limits_of(call, claims.points.shape[1])
-    warnings = limit_warnings(claims.peaks, limits, "the others go the same way")
+    warnings = limit_warnings(claims.peaks, limits, _OTHERS)
     others = dict.fromkeys(("normalised", "profiles", "blends"))
     further = {"law": call.law, **others, **(of_this_law or {}), "steps": steps, "warnings": warnings}
     return PlannedMotion(motion, claims, limits, title, further, passed)

@@ -6,6 +6,7 @@ from gelenk.contract.time_scaling import TimeScalingRequest
 from gelenk.course.motion.check import MotionClaims
 from gelenk.course.motion.time_scaling_steps import scaling_steps
 from gelenk.errors import InvalidField
+from gelenk.language import translated as _
 from gelenk.operations.course_motion import (
     PlannedMotion,
     is_heavy_motion,
@@ -103,8 +104,8 @@ def _factor(call: TimeScalingRequest, scaling: Scaling) -> float:
 
 def _warnings(motion: PiecewisePolynomial, scaling: Scaling) -> list[str]:
     if scaling.factor is None:
-        return ["Nothing moves: any time will do."]
+        return [_("Nothing moves: any time will do.")]
     velocities = np.abs(motion.derivative().at(motion.breaks))
     if np.any(velocities[[0, -1]].max(axis=0) > _AT_REST * np.maximum(velocities.max(axis=0), scaling.factor)):
-        return ["The motion does not begin and end at rest: its end velocities are divided by k too."]
+        return [_("The motion does not begin and end at rest: its end velocities are divided by k too.")]
     return []

@@ -5,14 +5,16 @@ import math
 from gelenk.course.motion.blended_motion import BlendedMotion
 from gelenk.course.motion.fly_over import Blend, Given
 from gelenk.course.steps import Step, step, tex
+from gelenk.language import marked
+from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 
 _TEXTS: dict[Given, str] = {
-    "blend_time": "The time of the blend is given.",
-    "distance_before": "The distance before B determines the time of the blend.",
-    "distance_after": "The distance after B determines the time of the blend.",
-    "radius": "The larger of both distances determines the time of the blend.",
-    "max_acceleration": "The change of velocity takes at least this time.",
+    "blend_time": marked("The time of the blend is given."),
+    "distance_before": marked("The distance before B determines the time of the blend."),
+    "distance_after": marked("The distance after B determines the time of the blend."),
+    "radius": marked("The larger of both distances determines the time of the blend."),
+    "max_acceleration": marked("The change of velocity takes at least this time."),
 }
 
 
@@ -20,26 +22,26 @@ def fly_over_steps(blend: Blend, given: Given, value: float, whole: BlendedMotio
     """Return the worked solution of a blend that a value determined, and of the whole motion if requested."""
     corner = blend.corner
     directions = step(
-        "Directions of the legs",
-        "Unit vectors along both legs.",
+        _("Directions of the legs"),
+        _("Unit vectors along both legs."),
         _direction("K_{AB}", "B - A", corner.corner - corner.start, corner.length_before, corner.direction_before),
         _direction("K_{BC}", "C - B", corner.end - corner.corner, corner.length_after, corner.direction_after),
     )
     ends = step(
-        "Where the blend begins and ends",
-        "With constant acceleration the mean speed along each leg is half of the speed there.",
+        _("Where the blend begins and ends"),
+        _("With constant acceleration the mean speed along each leg is half of the speed there."),
         _distance("1", corner.speed_before, blend.time, blend.distance_before, "B - A"),
         _distance("2", corner.speed_after, blend.time, blend.distance_after, "C - B"),
         rf"A' = B - d_1 K_{{AB}} = {_vector(blend.entry)}",
         rf"C' = B + d_2 K_{{BC}} = {_vector(blend.exit)}",
     )
     closest = step(
-        "Closest to B",
-        "Where the velocity is perpendicular to the path to B.",
+        _("Closest to B"),
+        _("Where the velocity is perpendicular to the path to B."),
         rf"(p - B) \cdot \dot p = 0 \;\Rightarrow\; t = {tex(blend.closest_time, 's')}, \quad "
         rf"\lVert p - B \rVert = {tex(blend.closest_distance, 'm')}",
     )
-    time = step("Time of the blend", _TEXTS[given], rf"\Delta T = {_quotient(blend, given, value)}")
+    time = step(_("Time of the blend"), _(_TEXTS[given]), rf"\Delta T = {_quotient(blend, given, value)}")
     steps = (directions, time, ends, _parabola(blend), closest)
     return steps if whole is None else (*steps, _whole(whole))
 
@@ -47,13 +49,14 @@ def fly_over_steps(blend: Blend, given: Given, value: float, whole: BlendedMotio
 def fly_over_warnings(blend: Blend) -> list[str]:
     """Return warnings about unusual blends: straight, reversed, without duration, or with a speed of 0."""
     corner = blend.corner
+    is_straight = corner.turn == "straight"
     turns_back = corner.turn == "reversal" and corner.speed_before > 0.0 and corner.speed_after > 0.0
     texts = {
-        "A, B and C lie on one line: the blend only changes the speed, and passes through B": corner.turn == "straight",
-        "BC leads back along AB: the motion stops for a moment before B, and returns without reaching B": turns_back,
-        "nothing has to change in B: the blend takes no time": blend.time == 0.0,
-        "v₁ is 0: the blend begins in B itself, at rest": corner.speed_before == 0.0,
-        "v₂ is 0: the blend ends in B itself, at rest": corner.speed_after == 0.0,
+        _("A, B and C lie on one line: the blend only changes the speed, and passes through B"): is_straight,
+        _("BC leads back along AB: the motion stops for a moment before B, and returns without reaching B"): turns_back,
+        _("nothing has to change in B: the blend takes no time"): blend.time == 0.0,
+        _("v₁ is 0: the blend begins in B itself, at rest"): corner.speed_before == 0.0,
+        _("v₂ is 0: the blend ends in B itself, at rest"): corner.speed_after == 0.0,
     }
     return [text for text, applies in texts.items() if applies]
 
@@ -85,13 +88,13 @@ def _distance(index: str, speed: float, time: float, distance: float, leg: str) 
 def _parabola(blend: Blend) -> Step:
     corner = blend.corner
     if blend.time == 0.0:
-        return step("The blend", "Nothing changes: both velocities are the same.", r"v_2 K_{BC} = v_1 K_{AB}")
-    text = "A parabola in the plane of A, B and C whose tangents at the ends meet in B."
+        return step(_("The blend"), _("Nothing changes: both velocities are the same."), r"v_2 K_{BC} = v_1 K_{AB}")
+    text = _("A parabola in the plane of A, B and C whose tangents at the ends meet in B.")
     if corner.turn != "corner":
-        text = "All three points lie on one line, and so does the blend."
+        text = _("All three points lie on one line, and so does the blend.")
     velocity, half = corner.speed_before * corner.direction_before, 0.5 * blend.acceleration
     return step(
-        "The blend",
+        _("The blend"),
         text,
         r"p(t) = A' + v_1 K_{AB}\,t + \frac{v_2 K_{BC} - v_1 K_{AB}}{2 \Delta T}\,t^2 = "
         rf"{_vector(blend.entry)} + {_vector(velocity)}\,t + {_vector(half)}\,t^2",
@@ -102,9 +105,11 @@ def _parabola(blend: Blend) -> Step:
 
 def _whole(whole: BlendedMotion) -> Step:
     return step(
-        "From rest to rest",
-        "Accelerate, coast, blend, coast, decelerate; beside it the same legs with a stop in B. The blend takes as "
-        "long as both distances at full speed, so what is saved is the braking and the accelerating in B.",
+        _("From rest to rest"),
+        _(
+            "Accelerate, coast, blend, coast, decelerate; beside it the same legs with a stop in B. The blend takes as "
+            "long as both distances at full speed, so what is saved is the braking and the accelerating in B."
+        ),
         rf"T = {' + '.join(tex(phase.duration) for phase in whole.phases)} = {tex(whole.duration, 's')}",
         rf"T_{{\mathrm{{stop}}}} = {tex(whole.stopping_duration, 's')}",
     )

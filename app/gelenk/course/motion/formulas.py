@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from gelenk.course.steps import Step, tex
+from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 
 SHOWN_JOINTS = 4
@@ -37,4 +38,6 @@ def tex_matrix(rows: Array) -> str:
 
 def of_joint(step: Step, joint: int, joints: int) -> Step:
     """Return the step with its joint in the title, if there are several joints."""
-    return step if joints == 1 else replace(step, title=f"Joint {joint + 1}: {step.title}")
+    if joints == 1:
+        return step
+    return replace(step, title=_("Joint {number}: {title}").format(number=joint + 1, title=step.title))

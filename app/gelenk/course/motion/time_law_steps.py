@@ -6,6 +6,7 @@ import numpy as np
 
 from gelenk.course.motion.formulas import SHOWN_JOINTS, of_joint, tex_polynomial, tex_row
 from gelenk.course.steps import Step, step, tex, tex_factor
+from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.extremes import Peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
@@ -13,8 +14,8 @@ from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 _LETTERS = "abcdefgh"
 _CONDITIONS = {
     3: (r"q(0) = q_0", r"\dot q(0) = v_0", r"q(T) = q_1", r"\dot q(T) = v_1"),
-    5: (r"q,\ \dot q,\ \ddot q \text{ at } t = 0 \text{ and at } t = T",),
-    7: (r"q,\ \dot q,\ \ddot q,\ \dddot q \text{ at } t = 0 \text{ and at } t = T",),
+    5: (r"q,\ \dot q,\ \ddot q,\quad t \in \{0, T\}",),
+    7: (r"q,\ \dot q,\ \ddot q,\ \dddot q,\quad t \in \{0, T\}",),
 }
 
 
@@ -30,10 +31,11 @@ def two_point_steps(
     degree, joints = motion.coefficients.shape[1] - 1, starts.shape[1]
     names = _LETTERS[: degree + 1]
     general = " + ".join(f"{name} \\lambda^{{{degree - i}}}" for i, name in enumerate(names[:-2]))
+    text = _("{conditions} conditions, {coefficients} coefficients: a polynomial of degree {degree} in λ = t/T.")
     steps = [
         step(
-            "Time law",
-            f"{2 * len(starts)} conditions, {degree + 1} coefficients: a polynomial of degree {degree} in λ = t/T.",
+            _("Time law"),
+            text.format(conditions=2 * len(starts), coefficients=degree + 1, degree=degree),
             rf"q(\lambda) = q_0 + \Delta q\,({general} + {names[-2]} \lambda + {names[-1]}),"
             r"\quad \lambda = \frac{t}{T}",
             *_CONDITIONS[degree],
@@ -41,27 +43,27 @@ def two_point_steps(
     ]
     for j, own in enumerate(normalised[:SHOWN_JOINTS]):
         if own is None:
-            text = "q₁ = q₀: dividing by Δq = 0 is not possible, and the general form in t is used."
-            form = step("No normalised form", text, r"\Delta q = 0")
+            text = _("q₁ = q₀: dividing by Δq = 0 is not possible, and the general form in t is used.")
+            form = step(_("No normalised form"), text, r"\Delta q = 0")
         elif degree == 3:
             form = _cubic(starts[:, j].tolist(), ends[:, j].tolist(), motion.duration, own)
         else:
             found = ",\\ ".join(f"{name} = {tex(value)}" for name, value in zip(names, own, strict=True))
-            form = step("Coefficients", "Lowest powers from the start, the others from the end.", found)
+            form = step(_("Coefficients"), _("Lowest powers from the start, the others from the end."), found)
         polynomial = tex_polynomial(motion.coefficients[0, ::-1, j].tolist())
-        in_time = step("In time", "λ = t/T put in.", f"q(t) = {polynomial}")
+        in_time = step(_("In time"), _("λ = t/T put in."), f"q(t) = {polynomial}")
         steps += [of_joint(form, j, joints), of_joint(in_time, j, joints)]
     return tuple(steps)
 
 
 def _cubic(start: Sequence[float], end: Sequence[float], duration: float, coefficients: Sequence[float]) -> Step:
     """Write out the four conditions one after the other."""
-    (q0, v0), (q1, v1), (a, b, c, _) = start, end, coefficients
+    (q0, v0), (q1, v1), (a, b, c) = start, end, coefficients[:3]
     delta = tex(q1 - q0)
     c_value, sum_value = (rf"\frac{{{tex_factor(v)} \cdot {tex(duration)}}}{{{delta}}}" for v in (v0, v1))
     return step(
-        "Coefficients",
-        "Velocities in λ are those in t times T.",
+        _("Coefficients"),
+        _("Velocities in λ are those in t times T."),
         rf"\Delta q = q_1 - q_0 = {tex(q1)} - {tex_factor(q0)} = {delta}",
         r"q(0) = q_0 \Rightarrow d = 0",
         rf"q'(0) = \Delta q\,c = v_0 T \Rightarrow c = {c_value} = {tex(c)}",
@@ -77,20 +79,22 @@ def lift_steps(motion: PiecewisePolynomial, knots: Array) -> tuple[Step, ...]:
     joints = knots.shape[1]
     steps = [
         step(
-            "Three pieces",
-            "A quartic to lift off, a cubic to travel, a quartic to set down; each in the time since it begins. 5 + 4 "
-            "+ 5 coefficients, 14 conditions: positions at four knots (six of them, twice at the inner ones), velocity "
-            "and acceleration at both ends, and both continuous at the two inner knots.",
+            _("Three pieces"),
+            _(
+                "A quartic to lift off, a cubic to travel, a quartic to set down; each in the time since it begins. 5 "
+                "+ 4 + 5 coefficients, 14 conditions: positions at four knots (six of them, twice at the inner ones), "
+                "velocity and acceleration at both ends, and both continuous at the two inner knots."
+            ),
             r"L(t) = \sum_{k=0}^4 a_k t^k,\quad T(t) = \sum_{k=0}^3 b_k t^k,\quad S(t) = \sum_{k=0}^4 c_k t^k",
             rf"h = ({tex_row(np.diff(motion.breaks))})",
         )
     ]
-    text = "Equal accelerations at the inner knots are two equations for the two velocities there."
+    text = _("Equal accelerations at the inner knots are two equations for the two velocities there.")
     for j in range(min(joints, SHOWN_JOINTS)):
         v1, v2 = map(tex, motion.coefficients[1:, 1, j].tolist())
         rows = motion.coefficients[:, ::-1, j].tolist()
         pieces = (f"{name}(t) = {tex_polynomial(row)}" for name, row in zip("LTS", rows, strict=True))
-        steps.append(of_joint(step("Coefficients", text, rf"v_1 = {v1},\quad v_2 = {v2}", *pieces), j, joints))
+        steps.append(of_joint(step(_("Coefficients"), text, rf"v_1 = {v1},\quad v_2 = {v2}", *pieces), j, joints))
     return tuple(steps)
 
 
@@ -101,5 +105,5 @@ def peak_step(velocity: Peaks, acceleration: Peaks) -> Step:
         index = "" if len(velocity.values) == 1 else f"_{{{j + 1}}}"
         for symbol, found in ((r"\dot q", velocity), (r"\ddot q", acceleration)):
             value, time = float(found.values[j]), float(found.times[j])
-            lines.append(rf"\max|{symbol}{index}| = {tex(abs(value))} \text{{ at }} t = {tex(time)}")
-    return step("Peaks", "Where the next derivative is zero, or at an end of a piece.", *lines)
+            lines.append(rf"\max|{symbol}{index}| = {tex(abs(value))} \text{{ {_('at')} }} t = {tex(time)}")
+    return step(_("Peaks"), _("Where the next derivative is zero, or at an end of a piece."), *lines)
