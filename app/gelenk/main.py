@@ -24,6 +24,7 @@ from gelenk.http.access.middleware import AccessRule, Middleware
 from gelenk.http.access.origins import Origins
 from gelenk.http.access.route_table import RouteTable
 from gelenk.http.access.tracing import TracedId, exporter_variables, telemetry
+from gelenk.http.dh_picture import picture_route
 from gelenk.http.jobs.jobs import jobs_router
 from gelenk.http.jobs.long_works import LONG_WORK
 from gelenk.http.messages import openapi, problems
@@ -120,7 +121,7 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         app.router.routes.append(route)
         if isinstance(endpoint, RobotEndpoint):
             app.operations[endpoint.name] = route
-    app.router.routes.extend(documented_routes(pool_client, size))
+    app.router.routes.extend([*documented_routes(pool_client, size), picture_route(pool_client, size)])
     app.include_router(jobs_router(runner))
     app.include_router(service_router(readiness, metrics))
     pages.install(app)

@@ -18,6 +18,7 @@ from gelenk.contract import (
     dc_motor,
     derive_dh,
     dh_from_urdf,
+    dh_picture,
     dh_to_urdf,
     dynamics,
     encoder,
@@ -131,6 +132,7 @@ class Operations:
     dh_from_urdf = _calculator(dh_from_urdf.ENDPOINT)
     convert_dh = _calculator(convert_dh.ENDPOINT)
     compare_dh = _calculator(compare_dh.ENDPOINT)
+    dh_picture = _calculator(dh_picture.ENDPOINT)
     derive_dh = _calculator(derive_dh.ENDPOINT)
 
     dc_motor = _calculator(dc_motor.ENDPOINT)

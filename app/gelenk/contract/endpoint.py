@@ -99,6 +99,7 @@ class Endpoint(Route, Generic[P, A]):
         example: Request that works unchanged, on the Panda if it is about a robot.
         robot_field: Field of the request that names a robot; "" if there is none.
         picture: What an image of the answer shows; "" if it has none.
+        is_picture: Whether the image is sent unless the caller prefers JSON.
         npy_answer: Content of the npy answer; "" if it has none.
         batch: Field that an npy body stands for; "" if there is no such body.
         options: Model of the query fields beside an npy body.
@@ -114,6 +115,7 @@ class Endpoint(Route, Generic[P, A]):
     example: dict[str, Any]
     robot_field: str = ""
     picture: str = ""
+    is_picture: bool = False
     npy_answer: str = ""
     batch: str = ""
     options: type[BaseModel] | None = None

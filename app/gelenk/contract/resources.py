@@ -149,6 +149,21 @@ RESOURCES = (
         "`from-urdf` does.",
     ),
     Resource(
+        name="get_dh_picture",
+        method="GET",
+        path="v1/dh/picture",
+        tag="DH tables",
+        scope=Scope.READ,
+        responses={200: {"content": {"image/svg+xml": {}, "image/png": {}}, "description": "The picture"}},
+        problems=(422, *_BY_WORKER),
+        summary="Picture of the DH parameters",
+        description="""
+        The two links of the lecture with their frames, and a, α, d and ϑ of each, in either convention.
+
+        SVG unless `Accept` says `image/png`. The same call with POST draws any table.
+        """,
+    ),
+    Resource(
         name="get_job",
         method="GET",
         path="v1/jobs/{job}",

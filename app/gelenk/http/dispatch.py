@@ -73,6 +73,8 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
     """Return the handler of an endpoint's requests."""
     further = {NPY: endpoint.npy_answer, CSV: endpoint.table, SVG: endpoint.picture, PNG: endpoint.picture}
     offered = (JSON, *(media_type for media_type, content in further.items() if content))
+    if endpoint.is_picture:
+        offered = (SVG, PNG, JSON)
     accepted = (JSON,) if endpoint.options is None else (JSON, NPY)
     is_job = endpoint.is_job
 

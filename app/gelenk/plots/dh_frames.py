@@ -17,7 +17,7 @@ from matplotlib.patheffects import withStroke
 
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
-from gelenk.plots.dh_scene import Body, DhScene, Kind, Stroke, dh_scene
+from gelenk.plots.dh_scene import DhScene, DrawnJoint, Kind, Stroke, dh_scene
 from gelenk.plots.labels import Wanted, placed
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable
@@ -99,7 +99,7 @@ class _View:
         on_page: Array = (points @ self._plane.T - self._middle) * self.scale + self._center
         return on_page
 
-    def ends(self, body: Body, arrow: float) -> list[Array]:
+    def ends(self, body: DrawnJoint, arrow: float) -> list[Array]:
         """Return the two ends of a joint on the page, the nearer one last."""
         turns = np.arange(4) * 0.5 * math.pi + 0.25 * math.pi if body.slides else np.linspace(0.0, 2.0 * math.pi, 40)
         ring = _RADIUS * arrow * np.column_stack((np.cos(turns), np.sin(turns), np.zeros(len(turns))))

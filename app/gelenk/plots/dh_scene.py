@@ -38,7 +38,7 @@ class Name:
 
 
 @dataclass(frozen=True, slots=True)
-class Body:
+class DrawnJoint:
     """A joint at the origin of a frame T, (4, 4), along its z."""
 
     slides: bool
@@ -52,7 +52,7 @@ class DhScene:
     arrow: float
     strokes: list[Stroke] = field(default_factory=list)
     names: list[Name] = field(default_factory=list)
-    bodies: list[Body] = field(default_factory=list)
+    bodies: list[DrawnJoint] = field(default_factory=list)
     arcs: list[tuple[Kind, Array]] = field(default_factory=list)
 
     def line(self, kind: Kind, start: Array, end: Array, name: str = "") -> None:
@@ -116,7 +116,7 @@ def dh_scene(table: DhTable, q: Sequence[float]) -> DhScene:
         before, after = frames[i], frames[i + 1]
         joint = before if standard else after
         _axis(scene, joint[:3, 2], [joint[:3, 3], corner])
-        scene.bodies.append(Body(row.type == "prismatic", joint))
+        scene.bodies.append(DrawnJoint(row.type == "prismatic", joint))
         theta = row.theta + (position if row.type == "revolute" else 0.0)
         _row(scene, i + 1, standard, (before, corner, after), (row.alpha, math.remainder(theta, 2.0 * math.pi)))
     scene.axes(named)

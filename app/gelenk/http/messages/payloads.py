@@ -95,7 +95,8 @@ class BoundedRequest(Request):
         """Return the media type of the response, among those offered; see `preferred_type`."""
         accept = self._fields.get(b"accept", b"")
         # What nearly every client sends names no other type than the first.
-        return offered[0] if accept in _ANYTHING else preferred_type(accept.decode("latin-1"), offered)
+        is_first = accept in _ANYTHING and offered[0] == JSON
+        return JSON if is_first else preferred_type(accept.decode("latin-1"), offered)
 
     @property
     def length(self) -> int:
