@@ -1,8 +1,12 @@
 """The worked solutions of an inverse kinematics answer."""
 
 from gelenk.contract.ik import InverseRequest
+from gelenk.course.inverse.agreement import Sent, hand_steps
+from gelenk.course.inverse.arm import HandArm, hand_arm
 from gelenk.course.inverse.solver import solver_step
 from gelenk.course.steps import Step
+from gelenk.dh.tables.from_chain import dh_from_chain
+from gelenk.errors import InvalidField
 from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.verdict.result import InverseKinematics
 from gelenk.language import language
@@ -10,6 +14,29 @@ from gelenk.language import language
 
 def worked(problem: TargetProblem, call: InverseRequest, result: InverseKinematics) -> list[list[Step]]:
     """Return the worked solution of each target, in the language of the request."""
-    methods: set[str] = set() if call.method == "auto" else {call.method}
+    arm = None if call.fixed_joints else _arm(problem)
+    directions, firsts = frozenset(problem.task.directions), result.firsts.tolist()
+    answers = []
     with language(call.language):
-        return [[solver_step(result.closed_form, methods)] for _ in range(len(problem))]
+        for i, pose in enumerate(problem.targets.matrices()):
+            rows = slice(firsts[i], firsts[i + 1])
+            steps = arm and hand_steps(arm, Sent(pose, directions, result.qs[rows]))
+            answers.append(steps or [_otherwise(result, rows)])
+    return answers
+
+
+def _otherwise(result: InverseKinematics, rows: slice) -> Step:
+    form, codes = result.form, result.codes[rows].tolist()
+    branches = [form.branch(code) if form and code >= 0 else {} for code in codes]
+    return solver_step(result.closed_form, result.method, result.qs[rows], branches)
+
+
+def _arm(problem: TargetProblem) -> HandArm | None:
+    """Return the chain as a table; None where none describes it, or a row follows another joint."""
+    chain = problem.chain
+    try:
+        table = dh_from_chain(problem.robot.description, chain, "standard").table
+    except InvalidField:
+        return None
+    plain = len(table.joints) == len(chain) and all(row.mimic is None for row in table.joints)
+    return hand_arm(table) if plain else None
