@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gelenk.contract.ik import InverseRequest
-from gelenk.course.inverse.agreement import Sent, hand_steps
+from gelenk.course.inverse.agreement import SentSolutions, hand_steps
 from gelenk.course.inverse.arm import HandArm, hand_arm
 from gelenk.course.steps import Step
 from gelenk.ik.solve import solve
@@ -68,7 +68,7 @@ def arm(*rows: tuple[float, float, float], slides: tuple[int, ...] = ()) -> Hand
 
 
 def by_hand(of: HandArm, q: list[float], directions: frozenset[str] = POSE) -> list[Step]:
-    found = hand_steps(of, Sent(of.pose(of.values(np.array(q))), directions, np.array([q])))
+    found = hand_steps(of, SentSolutions(of.pose(of.values(np.array(q))), directions, np.array([q])))
     assert found is not None
     return found
 
@@ -153,8 +153,8 @@ def test_what_is_beyond_the_limits_has_a_star() -> None:
 def test_numbers_that_do_not_agree_are_not_stated(error: float) -> None:
     q = np.array([0.3, 0.6, -0.8])
     pose = ANTHROPOMORPHIC.pose(q)
-    assert hand_steps(ANTHROPOMORPHIC, Sent(pose, POSITION, q[None])) is not None
-    assert hand_steps(ANTHROPOMORPHIC, Sent(pose, POSITION, q[None] + error)) is None
+    assert hand_steps(ANTHROPOMORPHIC, SentSolutions(pose, POSITION, q[None])) is not None
+    assert hand_steps(ANTHROPOMORPHIC, SentSolutions(pose, POSITION, q[None] + error)) is None
 
 
 def test_an_iteration_that_is_less_exact_gets_no_solution_by_hand() -> None:
@@ -223,7 +223,7 @@ def test_the_choice_of_the_tables_axes_does_not_matter(turned: int, offset: floa
     of = replace(SIX, rows=tuple(rows))
     q = np.array([0.3, 0.6, 0.7, 0.2, 0.9, -0.5])
     pose: Array = of.pose(of.values(q))
-    steps = hand_steps(of, Sent(pose, POSE, q[None]))
+    steps = hand_steps(of, SentSolutions(pose, POSE, q[None]))
     assert steps is not None
     assert len(listed(steps)) == 8
 

@@ -1,7 +1,7 @@
 """The worked solutions of an inverse kinematics answer."""
 
 from gelenk.contract.ik import InverseRequest
-from gelenk.course.inverse.agreement import Sent, hand_steps
+from gelenk.course.inverse.agreement import SentSolutions, hand_steps
 from gelenk.course.inverse.arm import HandArm, hand_arm
 from gelenk.course.inverse.solver import solver_step
 from gelenk.course.steps import Step
@@ -20,7 +20,7 @@ def worked(problem: TargetProblem, call: InverseRequest, result: InverseKinemati
     with language(call.language):
         for i, pose in enumerate(problem.targets.matrices()):
             rows = slice(firsts[i], firsts[i + 1])
-            steps = arm and hand_steps(arm, Sent(pose, directions, result.qs[rows]))
+            steps = arm and hand_steps(arm, SentSolutions(pose, directions, result.qs[rows]))
             answers.append(steps or [_otherwise(result, rows)])
     return answers
 

@@ -20,7 +20,7 @@ AGREEMENT = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Sent:
+class SentSolutions:
     """What is sent for a target.
 
     Attributes:
@@ -34,7 +34,7 @@ class Sent:
     solutions: Array
 
 
-def hand_steps(arm: HandArm, sent: Sent) -> list[Step] | None:
+def hand_steps(arm: HandArm, sent: SentSolutions) -> list[Step] | None:
     """Return the solution by hand; None if there is none, or if it does not lead to what is sent."""
     solve = solver_of(arm, sent.directions)
     if solve is None:
@@ -49,7 +49,7 @@ def hand_steps(arm: HandArm, sent: Sent) -> list[Step] | None:
     return [*_start(turned, sent.pose, pose), *found.steps, *listed]
 
 
-def _confirmed(arm: HandArm, sent: Sent, found: ByHand) -> list[Step] | None:
+def _confirmed(arm: HandArm, sent: SentSolutions, found: ByHand) -> list[Step] | None:
     """Return the step that lists the solutions; None if one does not hold, or one that is sent is not among them."""
     kept: list[tuple[HandSolution, bool]] = []
     left = [arm.values(q) for q in sent.solutions]
@@ -78,7 +78,7 @@ def _agrees(arm: HandArm, solution: HandSolution, values: Array) -> bool:
     return bool((np.abs(gap) <= AGREEMENT).all())
 
 
-def _meets(pose: Array, sent: Sent) -> bool:
+def _meets(pose: Array, sent: SentSolutions) -> bool:
     """Check whether a pose agrees with the target in the directions that count."""
     R, wanted = pose[:3, :3], sent.pose
     turn = wanted[:3, :3].T @ R
@@ -105,7 +105,7 @@ def _start(arm: HandArm, pose: Array, in_table: Array) -> list[Step]:
     return steps
 
 
-def _list_step(arm: HandArm, sent: Sent, kept: Sequence[tuple[HandSolution, bool]]) -> Step:
+def _list_step(arm: HandArm, sent: SentSolutions, kept: Sequence[tuple[HandSolution, bool]]) -> Step:
     lines = []
     for solution, is_sent in kept:
         known = ~np.isnan(solution.values)
