@@ -42,7 +42,8 @@ _BEYOND_FONT = 0x250
 # Only affects the ids of an SVG's elements, which would otherwise be random.
 mpl.rcParams["svg.hashsalt"] = "gelenk"
 
-_drawing = threading.Lock()
+drawing = threading.Lock()
+"""Held while matplotlib measures or draws text; see above."""
 
 
 def new_figure(width: float, height: float) -> Figure:
@@ -53,7 +54,7 @@ def new_figure(width: float, height: float) -> Figure:
 def as_bytes(figure: Figure, kind: PictureFormat) -> bytes:
     """Render a figure as a PNG, or as an SVG whose letters are paths, so that it looks the same without the font."""
     buffer = BytesIO()
-    with _drawing:
+    with drawing:
         if kind == "svg":
             FigureCanvasSVG(figure)
             figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": "Gelenk"})
