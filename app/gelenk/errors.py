@@ -306,6 +306,14 @@ class UnknownJob(NotFound):
     template = "there is no job {job!q}; the oldest jobs are removed when there are too many"
 
 
+class UnknownPicture(NotFound):
+    """No picture of the course has this name."""
+
+    template = "there is no picture {picture!r}; there are {pictures}"
+    picture: str
+    pictures: tuple[str, ...]
+
+
 class TooLarge(KinematicsError):
     """A call exceeds a size that the service is configured to accept."""
 

@@ -30,6 +30,7 @@ from gelenk.http.jobs.long_works import LONG_WORK
 from gelenk.http.messages import openapi, problems
 from gelenk.http.messages.payloads import Bodies
 from gelenk.http.messages.routes import Application
+from gelenk.http.pictures import pictures_router
 from gelenk.http.robots.robots import documented_routes, robots_router
 from gelenk.http.service import Readiness, service_router
 from gelenk.http.workers.pool_client import PARSED_HERE_BYTES, PoolClient
@@ -123,6 +124,7 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
             app.operations[endpoint.name] = route
     app.router.routes.extend([*documented_routes(pool_client, size), picture_route(pool_client, size)])
     app.include_router(jobs_router(runner))
+    app.include_router(pictures_router(pool_client))
     app.include_router(service_router(readiness, metrics))
     pages.install(app)
     openapi.describe(app, bool(settings.api_keys))

@@ -34,6 +34,8 @@ NAMES = {
     "forward_kinematics": "fk",
     "inverse_kinematics": "ik",
     "get_job": "job",
+    "list_pictures": "course_pictures",
+    "get_picture": "course_picture",
     "count_mobility": "mobility",
     "convert_orientation": "orientation",
     "cubic_spline": "spline",

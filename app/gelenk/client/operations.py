@@ -123,6 +123,8 @@ class Operations:
     job = Sent(stored.job)
     cancel_job = Sent(stored.cancel)
     picture = Sent(stored.picture)
+    course_pictures = Sent(stored.course_pictures)
+    course_picture = Sent(stored.course_picture)
 
     health = Sent(stored.health)
     readiness = Sent(stored.readiness)

@@ -14,7 +14,9 @@ from gelenk.contract.common import Answer, ChainEnds
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer
 from gelenk.contract.health import Health
 from gelenk.contract.jobs import Finished, JobInfo
+from gelenk.contract.pictures import CoursePictures
 from gelenk.contract.robots import RobotInfo, RobotList
+from gelenk.language import Language
 
 A = TypeVar("A", bound=Answer)
 
@@ -127,6 +129,17 @@ def picture(path: str, kind: Literal["svg", "png"], fields: Mapping[str, Any] | 
     """
     method, body = ("GET", b"") if fields is None else ("POST", encoded(fields))
     return Call(method, path, _content, body=body, accept=_PICTURES[kind])
+
+
+def course_pictures(language: Language = "en") -> Call[CoursePictures]:
+    """The course's pictures that need no request, with their titles."""
+    return Call("GET", "v1/course/pictures", reader(CoursePictures), query_of({"language": language}))
+
+
+def course_picture(picture: str, language: Language = "en") -> Call[bytes]:
+    """A picture of the course as SVG, by its name in `course_pictures`; as PNG `picture` returns it."""
+    path, query = f"v1/course/pictures/{segment(picture)}", query_of({"language": language})
+    return Call("GET", path, _content, query, accept=_PICTURES["svg"])
 
 
 def health() -> Call[Health]:

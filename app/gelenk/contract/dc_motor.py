@@ -136,7 +136,10 @@ ENDPOINT = Endpoint(
     they are equal, and two different values produce a warning.
 
     The lecture describes the motor in words; these are the equations behind it.
+
+    As a picture with `Accept: image/svg+xml` or `image/png`.
     """,
+    picture="The circuit with the values, and the torque-speed line with the operating point.",
     example={
         "resistance": 1.2,
         "inductance": 2e-3,

@@ -102,7 +102,10 @@ ENDPOINT = Endpoint(
     x4 counts each edge, x2 those of A, x1 the edge of A while B is 0; all of them come back to the same count when
     the shaft does. Required counts are rounded up before bits and lines are, so a line count times the decoding
     may be a little more than the counts required.
+
+    As a picture with `Accept: image/svg+xml` or `image/png`.
     """,
+    picture="Channels A, B and Z of an incremental encoder, of its `samples` if given; the disc of an absolute one.",
     example={
         "type": "incremental",
         "pulses_per_revolution": 1024,

@@ -96,7 +96,10 @@ ENDPOINT = Endpoint(
     M ≤ 0 is answered with that warning. Where each pair says where it is, by `point` and `axis`, `posture` has
     the mobility from the constraints that are independent there. Parts that spin between two spherical joints are
     found and subtracted in `mobility_without_idle`.
+
+    As a picture with `Accept: image/svg+xml` or `image/png`.
     """,
+    picture="Links and pairs: in their posture if each pair of a planar mechanism has a `point`, else as a graph.",
     robot_field="robot",
     example={
         "space": "planar",

@@ -76,7 +76,10 @@ ENDPOINT = Endpoint(
     Give `duty`, or a wanted `average_voltage`, or a wanted `angular_velocity` of a motor: the duty is found. A
     negative average needs an H-bridge, and `direction` is -1. The ripple V_s D (1 - D) / (L f) leaves out the
     resistance; with R and L the current's extremes are exact, in the steady state, with a constant back-EMF.
+
+    As a picture with `Accept: image/svg+xml` or `image/png`.
     """,
+    picture="Three periods of the voltage with its averages, and of the current with its ripple if R and L are given.",
     example={
         "supply_voltage": 24.0,
         "frequency": 20_000.0,

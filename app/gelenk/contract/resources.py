@@ -7,6 +7,7 @@ from gelenk.contract.endpoint import Resource, Scope
 from gelenk.contract.health import Health
 from gelenk.contract.ik import InverseAnswer
 from gelenk.contract.jobs import JobInfo
+from gelenk.contract.pictures import CoursePictures
 from gelenk.contract.robots import EXAMPLE_DH, ArchiveReplacement, NewArchive, RobotInfo, RobotList
 from gelenk.contract.trajectory_answer import TrajectoryAnswer
 from gelenk.contract.workspace import WorkspaceAnswer
@@ -162,6 +163,30 @@ RESOURCES = (
 
         SVG unless `Accept` says `image/png`. The same call with POST draws any table.
         """,
+    ),
+    Resource(
+        name="list_pictures",
+        method="GET",
+        path="v1/course/pictures",
+        tag="Course",
+        scope=Scope.READ,
+        answer=CoursePictures,
+        problems=(422,),
+        summary="The course's pictures",
+        description="Lists the pictures that need no request, with their titles. Others are answers of the "
+        "calculators, which draw them with `Accept: image/svg+xml`.",
+    ),
+    Resource(
+        name="get_picture",
+        method="GET",
+        path="v1/course/pictures/{picture}",
+        tag="Course",
+        scope=Scope.READ,
+        responses={200: {"content": {"image/svg+xml": {}, "image/png": {}}, "description": "The picture"}},
+        problems=(404, 422, *_BY_WORKER),
+        summary="A picture of the course",
+        description="Kinematic pairs, coincident joints, spaces, the spherical wrist and more, as SVG, or as PNG "
+        "with `Accept: image/png`. Texts are drawn as paths, in the language asked for.",
     ),
     Resource(
         name="get_job",

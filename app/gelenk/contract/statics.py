@@ -236,8 +236,11 @@ ENDPOINT = RobotEndpoint(
     `subspaces` (implied by any of the `test_…` vectors): range(J) ⊕ ker(Jᵀ) = Rᵐ and range(Jᵀ) ⊕ ker(J) = Rⁿ. Both
     sums are direct and orthogonal (the notes write +). They mix metres and radians: `task` selects rows of one
     unit.
+
+    With `Accept: image/svg+xml` or `image/png` the lever arms of a force on a planar arm are drawn.
     """,
     options=StaticsOptions,
+    picture="A planar arm at one configuration, the force at its tip, and its lever arm about each joint.",
     npy_answer="Torques as one array of shape (N, n), or wrenches of shape (N, m) if torques were given.",
     example={
         "joint_positions": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]],

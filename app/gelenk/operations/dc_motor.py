@@ -15,16 +15,26 @@ from gelenk.course.actuators.dc_motor import (
 )
 from gelenk.course.actuators.motor_response import step_response
 from gelenk.errors import InvalidField
-from gelenk.operations.outcome import json_only
+from gelenk.operations.outcome import Outcome, PictureFormat
 from gelenk.robot.arrays import Array
 
 _SAMPLES = 101
 _QUICK_SAMPLES = 1000
 
 
-@json_only
-def run(call: DcMotorRequest) -> dict[str, Any]:
+def run(call: DcMotorRequest) -> Outcome:
     """Compute a DC motor's steady state, torque-speed line, poles and step response."""
+    return Outcome(lambda: _content(call), picture=lambda kind: _picture(call, kind))
+
+
+def _picture(call: DcMotorRequest, kind: PictureFormat) -> bytes:
+    from gelenk.plots.course.motor import motor_figure  # noqa: PLC0415
+    from gelenk.plots.figure import as_bytes  # noqa: PLC0415
+
+    return as_bytes(motor_figure(call.motor(), call.voltage, call.load_torque), kind)
+
+
+def _content(call: DcMotorRequest) -> dict[str, Any]:
     motor, times = call.motor(), _times(call)
     if motor.inductance == 0.0 and call.initial_current != 0.0:
         raise InvalidField("initial_current", "without inductance the current follows at once and has no initial value")

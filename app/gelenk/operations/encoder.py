@@ -8,19 +8,40 @@ from gelenk.course.actuators.encoders import COUNTS_A_LINE, TURN, required, requ
 from gelenk.course.actuators.quadrature import decoded, read_samples
 from gelenk.course.steps import Step
 from gelenk.errors import InvalidField, counted
-from gelenk.operations.outcome import json_only
+from gelenk.operations.outcome import Outcome, PictureFormat
 
 _FIELDS = {
     "incremental": ("pulses_per_revolution", "samples", "counter_bits", "decoding"),
     "absolute": ("bits", "code", "readings", "values", "table"),
 }
 _QUICK_READINGS = 200
+_MOST_MARKED = 8
+"""Largest number of readings that an image of a disc shows."""
 
 
-@json_only
-def run(call: EncoderRequest) -> dict[str, Any]:
+def run(call: EncoderRequest) -> Outcome:
     """Compute the resolution that an encoder has or needs, and decode its signals."""
     _check(call)
+    return Outcome(lambda: _content(call), picture=lambda kind: _picture(call, kind))
+
+
+def _picture(call: EncoderRequest, kind: PictureFormat) -> bytes:
+    from gelenk.plots.course.encoders import MOST_TRACKS, disc_figure, tracks_figure  # noqa: PLC0415
+    from gelenk.plots.figure import as_bytes  # noqa: PLC0415
+
+    if call.type == "incremental":
+        if call.samples is None:
+            return as_bytes(tracks_figure(), kind)
+        samples = read_samples(call.samples, "samples")
+        return as_bytes(tracks_figure(samples.states, samples.index), kind)
+    bits = call.bits or 0
+    if not 1 <= bits <= MOST_TRACKS:
+        raise InvalidField("bits", f"an image shows a disc of 1 to {MOST_TRACKS} tracks; here are {bits}")
+    read = {found.value for found in _absolute(call, bits, [])["readings"]}
+    return as_bytes(disc_figure(bits, call.code, sorted(read)[:_MOST_MARKED]), kind)
+
+
+def _content(call: EncoderRequest) -> dict[str, Any]:
     counts, how = None, ""
     if call.bits is not None:
         counts, how = 1 << call.bits, rf"2^{{{call.bits}}}"

@@ -9,7 +9,8 @@ from gelenk.course.mobility.pairs import FREEDOMS
 from gelenk.course.mobility.screws import PostureMobility, posture
 from gelenk.course.mobility.spaces import tasks
 from gelenk.course.mobility.steps import steps
-from gelenk.operations.outcome import Limits, Outcome
+from gelenk.errors import InvalidField
+from gelenk.operations.outcome import Limits, Outcome, PictureFormat
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot
@@ -17,7 +18,29 @@ from gelenk.store.records import LoadedRobot
 
 def run(robot: LoadedRobot | None, call: MobilityRequest, _: Limits) -> Outcome:
     """Count the degrees of freedom of a mechanism or of a robot."""
-    return Outcome(lambda: _counted(call) if robot is None else _counted_robot(robot.robot))
+    return Outcome(
+        lambda: _counted(call) if robot is None else _counted_robot(robot.robot),
+        picture=lambda kind: _picture(call, robot, kind),
+    )
+
+
+def _picture(call: MobilityRequest, robot: LoadedRobot | None, kind: PictureFormat) -> bytes:
+    from gelenk.plots.course.mechanism import MOST_LINKS, mechanism_figure  # noqa: PLC0415
+    from gelenk.plots.figure import as_bytes  # noqa: PLC0415
+
+    if robot is None and not isinstance(call.pairs, list):
+        raise InvalidField("pairs", "an image shows pairs that name their links, not numbers of pairs")
+    found = _mechanism(call) if robot is None else mechanism_of_tree(robot.robot.description)
+    if len(found.links) > MOST_LINKS:
+        field = "links" if robot is None else "robot"
+        raise InvalidField(field, f"an image shows at most {MOST_LINKS} links; here are {len(found.links)}")
+    return as_bytes(mechanism_figure(found), kind)
+
+
+def _mechanism(call: MobilityRequest) -> Mechanism:
+    """Return the mechanism whose pairs name their links."""
+    names, ground = call.link_names()
+    return mechanism(call.space or "spatial", names, ground, call.given_pairs(), call.nodes())
 
 
 def is_heavy(call: MobilityRequest) -> bool:
@@ -33,9 +56,8 @@ def _counted_robot(robot: RobotModel) -> dict[str, Any]:
 def _counted(call: MobilityRequest) -> dict[str, Any]:
     space = call.space or "spatial"
     if isinstance(call.pairs, list):
-        names, ground = call.link_names()
-        found = mechanism(space, names, ground, call.given_pairs(), call.nodes())
-        stands = posture(found, call.output_link(names), call.rank_tolerance)
+        found = _mechanism(call)
+        stands = posture(found, call.output_link(found.links), call.rank_tolerance)
         return {**_content(tally(found), found, stands), "rank_tolerance": stands and call.rank_tolerance}
     return _content(tally_of_counts(space, call.link_count(), call.counts(), call.node_counts()), None)
 

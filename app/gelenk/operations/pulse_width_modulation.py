@@ -6,22 +6,43 @@ from gelenk.contract.pulse_width_modulation import PwmRequest
 from gelenk.course.actuators import pwm
 from gelenk.course.actuators.dc_motor import Motor
 from gelenk.errors import InvalidField
-from gelenk.operations.outcome import json_only
+from gelenk.operations.outcome import Outcome, PictureFormat
 
 _SAME_VOLTAGE = 1e-6
 """Relative difference of two back-EMFs that differ only by the digits they were written with."""
 _OF_A_SPEED = ("torque_constant", "back_emf_constant", "viscous_friction", "load_torque")
 
 
-@json_only
-def run(call: PwmRequest) -> dict[str, Any]:
+def run(call: PwmRequest) -> Outcome:
     """Compute duty, voltages, times and current ripple of pulse width modulation."""
+    return Outcome(lambda: _content(call), picture=lambda kind: _picture(call, kind))
+
+
+def _picture(call: PwmRequest, kind: PictureFormat) -> bytes:
+    from gelenk.plots.course.pulses import pulses_figure  # noqa: PLC0415
+    from gelenk.plots.figure import as_bytes  # noqa: PLC0415
+
+    pulses = _pulses(call, _motor_for_speed(call))
+    ripple, current, time_constant = _ripple(call, pulses), None, 0.0
+    if ripple is not None and call.resistance and call.inductance is not None:
+        back_emf = pulses.average_voltage - ripple.average * call.resistance
+        settled = ((pulses.high_voltage - back_emf) / call.resistance, -back_emf / call.resistance)
+        current, time_constant = (ripple.lowest, ripple.highest, *settled), call.inductance / call.resistance
+    return as_bytes(pulses_figure(pulses, current, time_constant), kind)
+
+
+def _ripple(call: PwmRequest, pulses: pwm.Pulses) -> pwm.Ripple | None:
+    """Return the exact current in the steady state, if there are R and L."""
+    back_emf = _back_emf(call, _motor_for_speed(call))
+    if call.resistance is None or call.inductance is None:
+        return None
+    return pwm.exact_ripple(pulses, call.resistance, call.inductance, back_emf)
+
+
+def _content(call: PwmRequest) -> dict[str, Any]:
     motor = _motor_for_speed(call)
     pulses = _pulses(call, motor)
-    back_emf = _back_emf(call, motor)
-    ripple = None
-    if call.resistance is not None and call.inductance is not None:
-        ripple = pwm.exact_ripple(pulses, call.resistance, call.inductance, back_emf)
+    ripple = _ripple(call, pulses)
     wanted = [] if motor is None else [pwm.speed_step(motor, call.angular_velocity or 0.0, call.load_torque or 0.0)]
     return {
         "duty": pulses.duty,

@@ -37,6 +37,7 @@ from gelenk.operations.loads import (
     wrench_rows,
 )
 from gelenk.operations.outcome import Limits, Outcome
+from gelenk.operations.statics_picture import levers_picture
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import configurations
@@ -65,7 +66,11 @@ def run(loaded: LoadedRobot, call: StaticsRequest, limits: Limits) -> Outcome:
     still = statics(robot, chain, qs, wrench_frame(call), rows=rows, gravity=gravity, load=load)
     found = _solved(still, call, wrenches, torques)
     array = found.torques if found.balance is None else found.balance.wrenches
-    return Outcome(lambda: _content(loaded, call, found), None if _wants_subspaces(call) else lambda: (array, {}))
+    return Outcome(
+        lambda: _content(loaded, call, found),
+        None if _wants_subspaces(call) else lambda: (array, {}),
+        lambda kind: levers_picture(chain, call, qs, task, found.wrenches, found.torques, kind),
+    )
 
 
 def is_heavy(call: StaticsRequest) -> bool:

@@ -10,7 +10,8 @@ from matplotlib.patches import Wedge
 from gelenk.course.actuators.gray import Code, gray
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
-from gelenk.robot.arrays import Indices
+from gelenk.plots.course.titles import TITLES
+from gelenk.robot.arrays import Flags, Indices
 
 MOST_TRACKS = 10
 MOST_SAMPLES = 48
@@ -18,7 +19,7 @@ _FORWARD = (0, 2, 3, 1)
 """States 2 A + B of the quarters of a line when the shaft turns forward."""
 
 
-def tracks_figure(states: Sequence[int] | Indices | None = None, index: Sequence[bool] | Indices | None = None) -> Figure:
+def tracks_figure(states: Sequence[int] | Indices | None = None, index: Sequence[bool] | Flags | None = None) -> Figure:
     """Draw the channels A, B and Z: of two lines turned forward, or of samples, each a state 2 A + B."""
     is_sampled = states is not None
     shown = np.array(_FORWARD * 2 if states is None else states)[:MOST_SAMPLES]
@@ -27,8 +28,7 @@ def tracks_figure(states: Sequence[int] | Indices | None = None, index: Sequence
     if pulses is not None:
         channels.append(("Z", np.asarray(pulses)[: len(shown)].astype(int), style.INK))
     figure = style.new_figure(7.4, 3.2)
-    title = _("Incremental encoder: A leads B when the shaft turns forward")
-    style.write(figure, 0.03, 0.96, [title], size=style.TITLE)
+    style.write(figure, 0.03, 0.96, [_(TITLES["quadrature"])], size=style.TITLE)
     axes = figure.add_axes((0.06, 0.2, 0.91, 0.62))
     label = _("sample") if is_sampled else _("quarters of a line: x4 counts each edge, x2 those of A, x1 one of them")
     _draw_channels(axes, channels, shown, label)
@@ -46,7 +46,9 @@ def _draw_channels(axes: Axes, channels: Sequence[tuple[str, Indices, str]], sta
     size = 8.0 if len(states) <= MOST_SAMPLES // 2 else 5.5
     for i, state in enumerate(states):
         text = f"{state // 2}{state % 2}"
-        axes.text(i + 0.5, top - 0.1, text, fontproperties=style.font(size), color=style.QUIET, ha="center", va="center")
+        axes.text(
+            i + 0.5, top - 0.1, text, fontproperties=style.font(size), color=style.QUIET, ha="center", va="center"
+        )
     axes.set_xlim(0.0, len(states))
     axes.set_ylim(-0.15, top + 0.15)
     axes.set_yticks([])

@@ -1,28 +1,25 @@
-"""The course's pictures that depend on nothing, by name."""
+"""The course's pictures that depend on nothing, by name; `titles` lists them."""
 
 from collections.abc import Callable
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from gelenk.errors import UnknownPicture
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
+from gelenk.plots.course.encoders import tracks_figure
+from gelenk.plots.course.motor import circuit_figure
 from gelenk.plots.course.pairs import pairs_figure
 from gelenk.plots.course.sketch import DASHED, Sketch, direction
-
-
-def titles() -> dict[str, str]:
-    """Return the titles of all pictures of the gallery, in the current language, by name."""
-    return {
-        "coincident-joints": _("Coincident joints: k links at a joint are k − 1 pairs"),
-        "kinematic-spaces": _("Actuator space, joint space and task space"),
-        "joint-pairs": _("Kinematic pairs with their freedoms and constraints"),
-        "spherical-wrist": _("The spherical wrist: three axes that meet at a point"),
-    }
+from gelenk.plots.course.titles import TITLES
+from gelenk.robot.arrays import Array
 
 
 def gallery_figure(name: str) -> Figure:
-    """Draw a picture of the gallery; raises KeyError for another name."""
+    """Draw a picture of the gallery; raises UnknownPicture for another name."""
+    if name not in _GALLERY:
+        raise UnknownPicture(name, tuple(TITLES))
     return _GALLERY[name]()
 
 
@@ -30,7 +27,7 @@ def coincident_figure(counts: tuple[int, ...] = (2, 3, 4)) -> Figure:
     """Draw joints at which 2 to 5 links meet, and below each the pairs that it consists of."""
     cell, height = 2.3, 3.7
     sketch = Sketch(max(cell * len(counts), 4.6), height)
-    sketch.write(_("Coincident joints: k links at a joint are k − 1 pairs"), (0.2, 3.45), size=style.TITLE, ha="left")
+    sketch.write(_(TITLES["coincident-joints"]), (0.2, 3.45), size=style.TITLE, ha="left")
     for i, count in enumerate(counts):
         middle = np.array([(i + 0.5) * cell, 2.35])
         for link in range(count):
@@ -43,7 +40,7 @@ def coincident_figure(counts: tuple[int, ...] = (2, 3, 4)) -> Figure:
     return sketch.figure()
 
 
-def _pairs_in_a_row(sketch: Sketch, middle: np.ndarray, count: int) -> None:
+def _pairs_in_a_row(sketch: Sketch, middle: Array, count: int) -> None:
     xs = middle[0] + 0.52 * (np.arange(count) - (count - 1) / 2.0)
     sketch.line([(xs[0], middle[1]), (xs[-1], middle[1])])
     for link, x in enumerate(xs):
@@ -56,7 +53,7 @@ def _pairs_in_a_row(sketch: Sketch, middle: np.ndarray, count: int) -> None:
 def spaces_figure() -> Figure:
     """Draw the three spaces of a robot, and the maps between them for positions, velocities and forces."""
     sketch = Sketch(8.4, 3.5)
-    sketch.write(_("Actuator space, joint space and task space"), (0.2, 3.25), size=style.TITLE, ha="left")
+    sketch.write(_(TITLES["kinematic-spaces"]), (0.2, 3.25), size=style.TITLE, ha="left")
     spaces = (
         (1.15, _("actuator space"), r"$\vartheta_m,\ \tau_m \in \mathrm{R}^n$", _("motors")),
         (4.2, _("joint space"), r"$q,\ \tau \in \mathrm{R}^n$", _("configurations")),
@@ -86,7 +83,7 @@ def spaces_figure() -> Figure:
 def wrist_figure() -> Figure:
     """Draw a spherical wrist: its axes, its angles, its centre, and the tool beyond it."""
     sketch = Sketch(6.6, 4.5)
-    sketch.write(_("The spherical wrist: three axes that meet at a point"), (0.2, 4.25), size=style.TITLE, ha="left")
+    sketch.write(_(TITLES["spherical-wrist"]), (0.2, 4.25), size=style.TITLE, ha="left")
     centre, tip = np.array([2.9, 1.9]), np.array([4.0, 3.15])
     approach = (tip - centre) / np.linalg.norm(tip - centre)
     up, across = direction(np.pi / 2.0), direction(np.radians(-25.0))
@@ -119,7 +116,9 @@ def wrist_figure() -> Figure:
 
 _GALLERY: dict[str, Callable[[], Figure]] = {
     "coincident-joints": coincident_figure,
-    "kinematic-spaces": spaces_figure,
+    "dc-motor": circuit_figure,
     "joint-pairs": pairs_figure,
+    "kinematic-spaces": spaces_figure,
+    "quadrature": tracks_figure,
     "spherical-wrist": wrist_figure,
 }

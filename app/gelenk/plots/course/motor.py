@@ -8,11 +8,13 @@ from gelenk.course.actuators.dc_motor import Motor, operating_point, torque_spee
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.course.sketch import Sketch, arc
+from gelenk.plots.course.titles import TITLES
 
 
 def circuit_figure() -> Figure:
     """Draw the circuit of a DC motor, V, R, L and the back-EMF, and its shaft with J, b and the load."""
-    sketch = Sketch(7.0, 2.7)
+    sketch = Sketch(7.0, 3.1)
+    sketch.write(_(TITLES["dc-motor"]), (0.2, 2.85), size=style.TITLE, ha="left")
     _draw_circuit(sketch)
     return sketch.figure()
 

@@ -9,6 +9,7 @@ from gelenk.course.mobility.pairs import KINDS, LETTERS
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.course.sketch import DASHED, Point, Sketch, arc, direction
+from gelenk.plots.course.titles import TITLES
 from gelenk.robot.arrays import Array
 
 _COLUMNS = 5
@@ -22,7 +23,7 @@ def pairs_figure() -> Figure:
     rows = -(-len(KINDS) // _COLUMNS)
     height = rows * _HEIGHT + _HEAD
     sketch = Sketch(_COLUMNS * _WIDTH, height)
-    sketch.write(_("Kinematic pairs"), (0.2, height - 0.25), size=style.TITLE, ha="left")
+    sketch.write(_(TITLES["joint-pairs"]), (0.2, height - 0.25), size=style.TITLE, ha="left")
     text = _("f freedoms are left and c = λ − f removed; λ = 3 in the plane, 6 in space")
     sketch.write(text, (0.2, height - 0.5), color=style.QUIET, ha="left")
     names = pair_names()
@@ -35,7 +36,7 @@ def pairs_figure() -> Figure:
         lines = [f"{space}: c = {c}, f = {freedoms - c}" for space, freedoms, c in where if c is not None]
         lines.append(_("lower pair") if kind.order == "low" else _("higher pair"))
         for row, line in enumerate(lines):
-            sketch.write(line, middle - (0.0, 0.84 + 0.16 * row), color=style.QUIET, size=8.0)
+            sketch.write(line, middle - (0.0, 0.85 + 0.17 * row), color=style.QUIET, size=8.0)
     return sketch.figure()
 
 

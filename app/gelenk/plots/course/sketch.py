@@ -1,11 +1,12 @@
 """A line drawing without axes, whose labels find places clear of the lines and of each other.
 
-A label names a point and the side on which it should stand. When the drawing is finished, each label tries places around
-its point, the wanted side first, and takes the first that covers neither a line nor another text.
+A label names a point and the side on which it should stand. When the drawing is finished, each label tries places
+around its point, the wanted side first, and takes the first that covers neither a line nor another text.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -132,7 +133,7 @@ class Sketch:
     def figure(self) -> Figure:
         """Place the labels and return the figure."""
         with style.drawing:
-            renderer = FigureCanvasAgg(self._figure).get_renderer()
+            renderer: Any = FigureCanvasAgg(self._figure).get_renderer()  # type: ignore[no-untyped-call]
             taken = [_extent(text, renderer) for text in self._fixed]
             ink = self._ink()
             for label in self._labels:
@@ -150,7 +151,7 @@ class Sketch:
         points = [np.zeros((0, 2))]
         for line in self._lines:
             corners = self.axes.transData.transform(line)
-            for a, b in zip(corners[:-1], corners[1:], strict=True):
+            for a, b in pairwise(corners):
                 count = max(2, int(np.linalg.norm(b - a) / _SPACING) + 1)
                 points.append(np.linspace(a, b, count))
         return np.concatenate(points)
@@ -180,8 +181,8 @@ class Sketch:
         width, height = self._figure.bbox.size
         inside = (ink[:, 0] > left) & (ink[:, 0] < right) & (ink[:, 1] > bottom) & (ink[:, 1] < top)
         texts = sum(left < b[2] and b[0] < right and bottom < b[3] and b[1] < top for b in taken)
-        beyond = left < 0.0 or bottom < 0.0 or right > width or top > height
-        return float(np.count_nonzero(inside)) + 1e3 * texts + 1e6 * beyond
+        beyond = bool(left < 0.0 or bottom < 0.0 or right > width or top > height)
+        return float(np.count_nonzero(inside) + 1e3 * texts + 1e6 * beyond)
 
 
 def _extent(text: Text, renderer: Any) -> Box:

@@ -1,0 +1,57 @@
+"""Endpoints of the course's pictures: their list, and each as SVG or PNG."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Path, Query, Request
+from starlette.datastructures import QueryParams
+from starlette.responses import Response
+
+from gelenk.errors import UnknownPicture
+from gelenk.http.messages.openapi import documentation
+from gelenk.http.messages.payloads import PNG, SVG, json_response, preferred_type
+from gelenk.http.workers.pool_client import PoolClient
+from gelenk.http.workers.task import Context, TaskRequest
+from gelenk.language import Language, language, translated
+from gelenk.plots.course.titles import TITLES
+
+PicturePath = Annotated[
+    str, Path(description="Name of a picture.", openapi_examples={"joint-pairs": {"value": "joint-pairs"}})
+]
+LanguageQuery = Annotated[
+    Language, Query(description="Of the texts: English or German.", openapi_examples={"German": {"value": "de"}})
+]
+
+
+def pictures_router(pool_client: PoolClient) -> APIRouter:
+    """Return the router of the course's pictures; a worker draws them."""
+    router = APIRouter()
+
+    @router.api_route(**documentation("list_pictures"))
+    async def list_pictures(language: LanguageQuery = "en") -> Response:
+        return json_response({"pictures": _listed(language)})
+
+    @router.api_route(**documentation("get_picture"))
+    async def get_picture(request: Request, picture: PicturePath, language: LanguageQuery = "en") -> Response:
+        if picture not in TITLES:
+            raise UnknownPicture(picture, tuple(TITLES))
+        wanted = preferred_type(",".join(request.headers.getlist("Accept")), (SVG, PNG))
+        task_request = TaskRequest(query=f"picture={picture}&language={language}", wanted=wanted)
+        return await pool_client.answer(request, _drawn, task_request)
+
+    return router
+
+
+def _listed(code: Language) -> list[dict[str, str]]:
+    with language(code):
+        return [{"name": name, "title": translated(title)} for name, title in TITLES.items()]
+
+
+def _drawn(_: Context, task_request: TaskRequest) -> Response:
+    """Draw a picture, in a worker."""
+    from gelenk.plots.course.gallery import gallery_figure  # noqa: PLC0415
+    from gelenk.plots.figure import as_bytes  # noqa: PLC0415
+
+    query, wanted = QueryParams(task_request.query), task_request.wanted
+    with language("de" if query["language"] == "de" else "en"):
+        figure = gallery_figure(query["picture"])
+    return Response(as_bytes(figure, "png" if wanted == PNG else "svg"), media_type=wanted)
