@@ -309,7 +309,7 @@ class UnknownJob(NotFound):
 class UnknownPicture(NotFound):
     """No picture of the course has this name."""
 
-    template = "there is no picture {picture!r}; there are {pictures}"
+    template = "there is no picture {picture!q}; there are {pictures!q}"
     picture: str
     pictures: tuple[str, ...]
 

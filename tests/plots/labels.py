@@ -61,7 +61,7 @@ def _boxes(figure: Figure) -> list[tuple[str, Bbox]]:
 def _overlap(one: Bbox, two: Bbox) -> bool:
     across = min(one.x1, two.x1) - max(one.x0, two.x0)
     upwards = min(one.y1, two.y1) - max(one.y0, two.y0)
-    return min(across, upwards) > _TOUCH
+    return bool(min(across, upwards) > _TOUCH)
 
 
 def _is_crossed(box: Bbox, axes: Axes) -> bool:

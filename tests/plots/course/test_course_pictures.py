@@ -6,6 +6,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
@@ -192,7 +193,7 @@ def test_neighbours_on_a_gray_disc_differ_in_one_track(code: str) -> None:
     for sector in figure.axes[0].patches:
         track = round((sector.r - 0.3) / sector.width) - 1  # type: ignore[attr-defined]
         ends = np.rint(np.array([sector.theta1, sector.theta2]) / 22.5).astype(int)  # type: ignore[attr-defined]
-        dark[np.arange(*ends) % 16, track] = sector.get_facecolor()[0] < 0.5  # type: ignore[index]
+        dark[np.arange(*ends) % 16, track] = to_rgb(sector.get_facecolor())[0] < 0.5
     changes = (dark != np.roll(dark, -1, axis=0)).sum(axis=1)
     assert set(changes) == ({1} if code == "gray" else {1, 2, 3, 4})
 
