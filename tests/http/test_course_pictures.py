@@ -85,9 +85,7 @@ def test_other_requests_are_drawn_too(client: TestClient, path: str, body: dict[
         ("robots/panda/statics", BY_NAME["statics"].example | {"gravity": False, "payload": None}, "Accept"),
     ],
 )
-def test_what_a_picture_cannot_show_is_refused(
-    client: TestClient, path: str, body: dict[str, Any], field: str
-) -> None:
+def test_what_a_picture_cannot_show_is_refused(client: TestClient, path: str, body: dict[str, Any], field: str) -> None:
     answer = client.post(f"/v1/{path}", json=body, headers=SVG)
     assert answer.status_code == 422, answer.text
     assert answer.json()["field"] == field
