@@ -143,3 +143,49 @@ def test_bad_input_names_the_field(client: TestClient, body: dict[str, Any], fie
     else:
         assert reason == ""
         assert any(place["pointer"].startswith(f"#/{field}") for place in problem["errors"])
+
+
+LINE = {"lengths": [1.0, 1.0], "start": np.radians([110.0, 140.0]).tolist(), "target": [0.816, 1.4]}
+ALONG = {"line": LINE, "duration": 1.0, "limits": {"joint_velocity": [3.0, 2.5], "joint_acceleration": [5.0, 7.0]}}
+
+
+def test_a_line_of_a_planar_arm_has_exact_peaks(client: TestClient) -> None:
+    content = good(client, ALONG)
+    assert content["k_vel"] == pytest.approx(1.918966430, rel=1e-9)
+    assert content["k_acc"] == pytest.approx(6.151971947, rel=1e-9)
+    assert content["course_factor"] == pytest.approx(2.480316904599, rel=1e-9)
+    assert abs(content["peaks"]["acceleration"][0]["value"]) == pytest.approx(5.0, rel=1e-9)
+    given = good(client, {**ALONG, "factor": 1.0})["peaks"]
+    for quantity, wanted in (("velocity", (5.756899290, 3.004575851)), ("acceleration", (30.759859736, 20.114406054))):
+        assert [abs(one["value"]) for one in given[quantity]] == pytest.approx(wanted, rel=1e-9)
+
+
+@pytest.mark.parametrize("law", ["cubic", "quintic", "septic"])
+def test_its_tip_is_on_the_line(client: TestClient, law: str) -> None:
+    content = good(client, {**ALONG, "law": law, "factor": 1.0, "samples": 41})
+    q, t = np.array(content["joint_positions"]), np.array(content["times"])
+    tip = np.column_stack((np.cos(q[:, 0]) + np.cos(q.sum(axis=1)), np.sin(q[:, 0]) + np.sin(q.sum(axis=1))))
+    s = {
+        "cubic": 3 * t**2 - 2 * t**3,
+        "quintic": 10 * t**3 - 15 * t**4 + 6 * t**5,
+        "septic": 35 * t**4 - 84 * t**5 + 70 * t**6 - 20 * t**7,
+    }[law]
+    np.testing.assert_allclose(tip, tip[0] + s[:, None] * (np.array(LINE["target"]) - tip[0]), atol=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("change", "field"),
+    [
+        ({"line": {**LINE, "target": [0.816, 2.4]}}, "line"),
+        ({"line": {**LINE, "target": [0.5, -0.5]}, "duration": None}, "duration"),
+        ({"displacement": [1.0, 1.0]}, "displacement"),
+        ({"line": {**LINE, "start": [0.3, 0.0]}}, "line.start"),
+        ({"line": {**LINE, "lengths": [1.0, 1.0], "target": [0.684040286651, 0.0]}}, "line"),
+    ],
+    ids=["out of reach", "no duration", "two motions", "stretched", "through the base"],
+)
+def test_lines_that_are_refused(client: TestClient, change: dict[str, Any], field: str) -> None:
+    body = {name: value for name, value in {**ALONG, **change}.items() if value is not None}
+    answer = client.post(PATH, json=body)
+    assert answer.status_code == 422, answer.text
+    assert field in answer.text

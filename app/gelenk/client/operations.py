@@ -27,9 +27,11 @@ from gelenk.contract import (
     gear,
     ik,
     jacobian,
+    line,
     manipulability,
     mobility,
     orientation,
+    pipeline,
     planar_workspace,
     pulse_width_modulation,
     singularities,
@@ -145,6 +147,8 @@ class Operations:
     fly_over = _calculator(fly_over.ENDPOINT)
     mobility = _calculator(mobility.ENDPOINT)
     orientation = _calculator(orientation.ENDPOINT)
+    line = _calculator(line.ENDPOINT)
+    pipeline = _calculator(pipeline.ENDPOINT)
     time_law = _calculator(time_law.ENDPOINT)
     spline = _calculator(spline.ENDPOINT)
     time_scaling = _calculator(time_scaling.ENDPOINT)

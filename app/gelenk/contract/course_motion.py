@@ -55,13 +55,18 @@ class MotionLimits(Payload):
     joint_jerk: Bounds | None = optional("|q⃛|, > 0, [rad/s³ or m/s³].")
 
 
-class SampledRequest(InLanguage):
-    """Sample times of a motion, and limits to compare it with."""
+class SampleTimesRequest(InLanguage):
+    """When a motion is sampled."""
 
     samples: SampleCount = Field(
         default=101, description="Number of samples, evenly spaced from start to end, both included; no unit."
     )
     sample_times: SampleTimes | None = optional("Instead of `samples`: the times, none outside the motion, [s].")
+
+
+class SampledRequest(SampleTimesRequest):
+    """Sample times of a motion, and limits to compare it with."""
+
     limits: MotionLimits | None = optional(
         "Limits of each joint: peaks are given as ratios to them, and pictures show them."
     )
@@ -110,3 +115,20 @@ class MotionAnswer(Answer):
     )
     joint_jerks: list[list[float]] = Field(description="One row per sample, [rad/s³ or m/s³].")
     certificate: MotionCertificate
+
+
+_Length = Annotated[float, Field(ge=1e-6, le=1e6)]
+_Angle = Annotated[float, Field(ge=-1e3, le=1e3)]
+
+
+class PlanarLinePayload(Payload):
+    """A straight line of the tip of a planar arm with two revolute joints."""
+
+    lengths: Annotated[list[_Length], Field(min_length=2, max_length=2)] = Field(description="l₁ and l₂, > 0, [m].")
+    start: Annotated[list[_Angle], Field(min_length=2, max_length=2)] = Field(
+        description="q₁ and q₂ where the line begins, neither stretched nor folded, [rad]. The sign of sin q₂ is kept: "
+        "one branch of the inverse kinematics."
+    )
+    target: Annotated[list[Coordinate], Field(min_length=2, max_length=2)] = Field(
+        description="p_f: x and y of the tip where the line ends, [m]."
+    )

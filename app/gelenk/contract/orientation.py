@@ -36,8 +36,8 @@ class ElementaryPayload(Payload):
     angle: _Angle = Field(description="Counter-clockwise about it, [rad].")
 
 
-class MotionPayload(Payload):
-    """Exactly one orientation, perhaps with a position."""
+class OrientationPayload(Payload):
+    """Exactly one orientation, in the notation of one's choice."""
 
     quaternion_xyzw: Vector4 | None = optional("Unit quaternion, scalar last.")
     quaternion_wxyz: Vector4 | None = optional("Unit quaternion, scalar first.")
@@ -49,7 +49,6 @@ class MotionPayload(Payload):
     rotation: Matrix3 | None = optional("Rotation matrix, row by row.")
     axis_angle: AxisAnglePayload | None = optional("A rotation about any axis.")
     elementary: ElementaryPayload | None = optional("A rotation about a coordinate axis.")
-    position: Vector3 | None = optional("Of the moved frame's origin, [m]; zero if left out.")
     project: bool = Field(
         default=False,
         description="Whether to project a `rotation` further than 1e-6 from a rotation matrix onto the nearest one "
@@ -57,7 +56,7 @@ class MotionPayload(Payload):
     )
 
     @model_validator(mode="after")
-    def _one_notation(self) -> "MotionPayload":
+    def _one_notation(self) -> "OrientationPayload":
         given = [name for name in _NOTATIONS if getattr(self, name) is not None]
         if len(given) != 1:
             raise ValueError(f"exactly one orientation of {', '.join(_NOTATIONS)}; {len(given)} are given")
@@ -65,8 +64,8 @@ class MotionPayload(Payload):
             raise ValueError("`project` is only allowed with `rotation`: other notations are always rotations")
         return self
 
-    def read(self, place: str = "") -> tuple[Array, Validation | None]:
-        """Return T_a_b, shape (4, 4), and how far a given `rotation` was from a rotation matrix.
+    def turned(self, place: str = "") -> tuple[Array, Validation | None]:
+        """Return R_a_b, shape (3, 3), and how far a given `rotation` was from a rotation matrix.
 
         Args:
             place: Prefix of its place in the request, with a slash at the end.
@@ -85,7 +84,7 @@ class MotionPayload(Payload):
             R = elementary(self.elementary.axis, self.elementary.angle)
         else:
             R = self._as_in_a_pose(place)
-        return transform(np.array(self.position or [0.0, 0.0, 0.0]), R), validation
+        return R, validation
 
     def _as_in_a_pose(self, place: str) -> Array:
         name = next(name for name in ORIENTATIONS if getattr(self, name) is not None)
@@ -108,6 +107,17 @@ class MotionPayload(Payload):
             f"the limit is a distance of {ROTATION_TOLERANCE:g} from SO(3), or `project` for the nearest rotation"
         )
         raise InvalidPose(reason, found.distance, f"{place}rotation")
+
+
+class MotionPayload(OrientationPayload):
+    """Exactly one orientation, perhaps with a position."""
+
+    position: Vector3 | None = optional("Of the moved frame's origin, [m]; zero if left out.")
+
+    def read(self, place: str = "") -> tuple[Array, Validation | None]:
+        """Return T_a_b, shape (4, 4), and the rest as `turned`."""
+        R, validation = self.turned(place)
+        return transform(np.array(self.position or [0.0, 0.0, 0.0]), R), validation
 
 
 class FurtherPayload(MotionPayload):

@@ -10,6 +10,7 @@ from gelenk.contract.course_motion import (
     Duration,
     MotionAnswer,
     MotionLimits,
+    PlanarLinePayload,
     SampledRequest,
     Times,
     Waypoints,
@@ -22,11 +23,16 @@ from gelenk.trajectory.motion.splines import Boundary
 
 
 class TimeScalingRequest(SampledRequest):
-    """A motion by a time law (`displacement`, `duration`), or through samples (`times`, `waypoints`); and limits."""
+    """A motion by a time law (`displacement` or `line`, `duration`), or through samples (`times`, `waypoints`)."""
 
     limits: MotionLimits = Field(description="Limits; at least one of them.")
-    law: PolynomialLaw = Field(default="cubic", description="From rest to rest; of a motion by `displacement`.")
+    law: PolynomialLaw = Field(
+        default="cubic", description="From rest to rest; of a motion by `displacement`, or of s on a `line`."
+    )
     displacement: Coordinates | None = optional("Δq of each joint, [rad or m].")
+    line: PlanarLinePayload | None = optional(
+        "A straight line of a planar arm's tip, instead of `displacement`: its joints move by q(s(t)), the law on s."
+    )
     duration: Duration | None = optional("T of this motion, [s].")
     times: Times | None = optional("Of the waypoints, increasing, [s].")
     waypoints: Waypoints | None = optional(
@@ -83,9 +89,9 @@ ENDPOINT = Endpoint(
     is just reached with it, also by speeding up. Peaks are exact, and the answer names the joint that sets k and
     when.
 
-    The motion is a law over `displacement` and `duration`, or goes through `waypoints` at `times`: as a cubic
-    spline, or with `velocities` (and `accelerations`) as sampled from any motion. The answer holds it scaled, from
-    t = 0 on.
+    The motion is a law over `displacement` and `duration`, or along a straight `line` of a planar arm's tip, or goes
+    through `waypoints` at `times`: as a cubic spline, or with `velocities` (and `accelerations`) as sampled from any
+    motion. The answer holds it scaled, from t = 0 on.
 
     As a picture of the scaled profiles with `Accept: image/svg+xml` or `image/png`.
     """,

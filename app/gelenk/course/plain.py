@@ -28,7 +28,9 @@ _FUNCTIONS = frozenset(_NAMED.split())
 _FACES = "mathrm mathsf mathbf mathbb mathcal mathit text textbf boldsymbol operatorname"
 _FONTS = frozenset(_FACES.split())
 _ACCENTS = {"dot": "\u0307", "ddot": "\u0308", "dddot": "\u20db", "hat": "\u0302", "bar": "\u0304", "tilde": "\u0303"}
-_SPACES = {",", ";", ":", " ", "!"}
+_SPACES = {",", ";", ":", "", "!"}
+_APPLIED = "\u2061"
+"""Stands behind the name of a function until it is known whether its argument needs a space."""
 _TOKEN = re.compile(r"\\(?:[A-Za-z]+\s*|.)|\s+|.", re.DOTALL)
 _SUPERSCRIPTS = str.maketrans("0123456789+-=()ni", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾ⁿⁱ")
 _RAISED = set("0123456789+-=()ni")
@@ -36,7 +38,8 @@ _RAISED = set("0123456789+-=()ni")
 
 def plain(latex: str) -> str:
     r"""Return a formula as plain text; rows of a matrix stand in brackets, separated by semicolons."""
-    text = _Reader(latex).group()
+    text = re.sub(_APPLIED + r"(?=[^\W_]|√)", " ", _Reader(latex).group()).replace(_APPLIED, "")
+    text = re.sub(r"(?<=[^\s:])(?=[=≤≥] )", " ", text)
     return re.sub(r" *\u2003 *", "  ", re.sub(r" +", " ", text)).strip()
 
 
@@ -86,7 +89,7 @@ class _Reader:
         if name in _FONTS:
             return self._argument()
         if name in _FUNCTIONS:
-            return name
+            return name + _APPLIED
         if name == "begin":
             self._environment()
             return f"[{_rows(self.group())}]"

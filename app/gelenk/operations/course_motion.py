@@ -6,7 +6,14 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from gelenk.contract.course_motion import MAX_SAMPLED_NUMBERS, SampledRequest
+from gelenk.contract.course_motion import (
+    MAX_SAMPLED_NUMBERS,
+    MotionLimits,
+    PlanarLinePayload,
+    SampledRequest,
+    SampleTimesRequest,
+)
+from gelenk.course.cartesian.planar_line import PlanarLine, planar_line
 from gelenk.course.motion.check import MotionClaims, certified
 from gelenk.course.motion.formulas import SHOWN_JOINTS
 from gelenk.errors import InvalidField, counted
@@ -15,6 +22,7 @@ from gelenk.language import translated as _
 from gelenk.operations.outcome import Outcome, PictureFormat
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.time_scaling import QUANTITIES, ScalingLimits
+from gelenk.trajectory.laws.trapezoid import PointToPoint
 from gelenk.trajectory.motion.extremes import Peaks, peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
@@ -74,19 +82,13 @@ def peaks_by_order(motion: PiecewisePolynomial) -> PeaksByOrder:
 
 
 def _answer(call: SampledRequest, planned: PlannedMotion) -> dict[str, Any]:
-    motion, times = planned.motion, _sample_times(call, planned.motion)
+    motion, times = planned.motion, sample_times(call, planned.motion)
     positions, velocities, accelerations, jerks = (motion.derivative(order).at(times) for order in range(4))
     return {
         "duration": motion.duration,
         "switching_times": motion.breaks,
-        "segments": [
-            {"start_time": start, "end_time": end, "coefficients": c.T.tolist()}
-            for start, end, c in zip(motion.breaks[:-1], motion.breaks[1:], motion.coefficients, strict=True)
-        ],
-        "peaks": {
-            quantity: _peaks_of(planned.claims.peaks[order], planned.limits.of(quantity))
-            for order, quantity in enumerate(QUANTITIES, start=1)
-        },
+        "segments": segments_info(motion),
+        "peaks": peaks_info(planned.claims.peaks, planned.limits),
         "times": times,
         "joint_positions": positions,
         "joint_velocities": velocities,
@@ -97,7 +99,23 @@ def _answer(call: SampledRequest, planned: PlannedMotion) -> dict[str, Any]:
     }
 
 
-def _sample_times(call: SampledRequest, motion: PiecewisePolynomial) -> Array:
+def segments_info(motion: PiecewisePolynomial) -> list[dict[str, Any]]:
+    """Return the pieces of a motion as JSON content."""
+    return [
+        {"start_time": start, "end_time": end, "coefficients": c.T.tolist()}
+        for start, end, c in zip(motion.breaks[:-1], motion.breaks[1:], motion.coefficients, strict=True)
+    ]
+
+
+def peaks_info(found: PeaksByOrder, limits: ScalingLimits) -> dict[str, Any]:
+    """Return the peaks of all quantities as JSON content."""
+    return {
+        quantity: _peaks_of(found[order], limits.of(quantity)) for order, quantity in enumerate(QUANTITIES, start=1)
+    }
+
+
+def sample_times(call: SampleTimesRequest, motion: PiecewisePolynomial) -> Array:
+    """Return the times at which a request samples its motion; shape (N,), [s]; raises InvalidField."""
     start, end = float(motion.breaks[0]), float(motion.breaks[-1])
     count, joints = call.samples if call.sample_times is None else len(call.sample_times), motion.coefficients.shape[2]
     if count * joints > MAX_SAMPLED_NUMBERS:
@@ -119,6 +137,21 @@ def _peaks_of(found: Peaks, limit: Array | None) -> list[dict[str, float | None]
         {"value": value, "time": time, "limit": most, "ratio": None if most is None else abs(value) / most}
         for value, time, most in zip(found.values.tolist(), found.times.tolist(), limits, strict=True)
     ]
+
+
+def profile_info(plan: PointToPoint, joint: int) -> dict[str, Any]:
+    """Return the trapezoid of one joint as JSON content."""
+    profile = plan.profiles[joint]
+    return {
+        "peak_velocity": profile.peak_velocity,
+        "acceleration": profile.acceleration,
+        "acceleration_time": profile.first,
+        "coast_time": profile.coast,
+        "deceleration_time": profile.last,
+        "own_duration": plan.own[joint].duration,
+        "factor": plan.factors[joint],
+        "reverses": profile.reverses,
+    }
 
 
 def limit_warnings(found: PeaksByOrder, limits: ScalingLimits, on_others: str = "") -> list[str]:
@@ -152,7 +185,12 @@ _BEYOND = {
 
 def limits_of(call: SampledRequest, joints: int) -> ScalingLimits:
     """Return the limits of a request, one number per joint; raises as `spread` does."""
-    given = call.limits or ()
+    return joint_limits(call.limits, joints)
+
+
+def joint_limits(limits: MotionLimits | None, joints: int) -> ScalingLimits:
+    """Return limits, one number per joint; raises as `spread` does."""
+    given = limits or ()
     return ScalingLimits(
         *(None if values is None else spread(values, joints, f"limits.{name}") for name, values in given)
     )
@@ -163,6 +201,14 @@ def spread(values: Sequence[float], count: int, field: str, of: str = "joints") 
     if len(values) not in {1, count}:
         raise InvalidField(field, f"has {counted(len(values), 'number')} where there are {count} {of}")
     return np.broadcast_to(np.array(values), (count,))
+
+
+def line_of(call: PlanarLinePayload, place: str = "") -> PlanarLine:
+    """Return the line of a planar arm's tip; raises InvalidField, whose field begins with `place`."""
+    try:
+        return planar_line((call.lengths[0], call.lengths[1]), np.array(call.start), np.array(call.target))
+    except InvalidField as error:
+        raise InvalidField(place + error.field, error.reason) from None
 
 
 def row(values: Sequence[float] | None, joints: int, field: str) -> Array:

@@ -21,6 +21,7 @@ from gelenk.operations.course_motion import (
     motion_outcome,
     needed,
     peaks_by_order,
+    profile_info,
     row,
     spread,
     table,
@@ -31,7 +32,7 @@ from gelenk.robot.arrays import Array
 from gelenk.trajectory.joints.parabolic_blends import Blends, with_accelerations, with_blend_times
 from gelenk.trajectory.laws.laws import POLYNOMIALS
 from gelenk.trajectory.laws.time_scaling import ScalingLimits
-from gelenk.trajectory.laws.trapezoid import JointMove, PointToPoint, point_to_point
+from gelenk.trajectory.laws.trapezoid import JointMove, point_to_point
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import checked_times
 from gelenk.trajectory.motion.time_laws import between, normalised, quartic_cubic_quartic
@@ -115,24 +116,10 @@ def _trapezoid(call: TimeLawRequest, start: Array, target: Array) -> PlannedMoti
     moves = np.column_stack((target - start, starts[0], ends[0], most, limits.acceleration))
     tasks = [JointMove(*numbers) for numbers in moves.tolist()]
     plan = point_to_point(start, tasks, call.duration, may_reverse=call.may_reverse)
-    profiles = [_profile(plan, j) for j in range(joints)]
+    profiles = [profile_info(plan, j) for j in range(joints)]
     motion, knots = plan.motion, np.array([start, target])
     claims = MotionClaims(motion.breaks[[0, -1]], knots, starts, ends, 1, peaks_by_order(motion))
     return _planned(call, motion, claims, "Trapezoid of velocity", trapezoid_steps(tasks, plan), {"profiles": profiles})
-
-
-def _profile(plan: PointToPoint, joint: int) -> dict[str, Any]:
-    profile = plan.profiles[joint]
-    return {
-        "peak_velocity": profile.peak_velocity,
-        "acceleration": profile.acceleration,
-        "acceleration_time": profile.first,
-        "coast_time": profile.coast,
-        "deceleration_time": profile.last,
-        "own_duration": plan.own[joint].duration,
-        "factor": plan.factors[joint],
-        "reverses": profile.reverses,
-    }
 
 
 def _blends(call: TimeLawRequest, times: Array, knots: Array) -> PlannedMotion:

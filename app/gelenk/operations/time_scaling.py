@@ -3,6 +3,8 @@
 import numpy as np
 
 from gelenk.contract.time_scaling import TimeScalingRequest
+from gelenk.course.cartesian.planar_line import PlanarLine
+from gelenk.course.cartesian.planar_motion import along_planar_line, planar_motion_steps
 from gelenk.course.motion.check import MotionClaims
 from gelenk.course.motion.time_scaling_steps import scaling_steps
 from gelenk.errors import InvalidField
@@ -12,6 +14,7 @@ from gelenk.operations.course_motion import (
     is_heavy_motion,
     limit_warnings,
     limits_of,
+    line_of,
     motion_outcome,
     needed,
     peaks_by_order,
@@ -24,7 +27,7 @@ from gelenk.trajectory.laws.laws import POLYNOMIALS
 from gelenk.trajectory.laws.time_scaling import Scaling, uniform_scaling
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline, through_samples
-from gelenk.trajectory.motion.time_laws import between
+from gelenk.trajectory.motion.time_laws import between, rest_to_rest
 
 _AT_REST = 1e-9
 
@@ -34,11 +37,14 @@ def run(call: TimeScalingRequest) -> Outcome:
     return motion_outcome(call, _plan)
 
 
-is_heavy = is_heavy_motion
+def is_heavy(call: TimeScalingRequest) -> bool:
+    """Check whether a request takes the event loop more than about a millisecond."""
+    return call.line is not None or is_heavy_motion(call)
 
 
 def _plan(call: TimeScalingRequest) -> PlannedMotion:
-    motion, times, knots, continuity = _motion(call)
+    line = None if call.line is None else line_of(call.line, "line.")
+    motion, times, knots, continuity = _motion(call) if line is None else _along(call, line)
     limits = limits_of(call, knots.shape[1])
     if limits.velocity is None and limits.acceleration is None and limits.jerk is None:
         raise InvalidField("limits", "at least one of joint_velocity, joint_acceleration and joint_jerk is needed")
@@ -47,6 +53,7 @@ def _plan(call: TimeScalingRequest) -> PlannedMotion:
     # Start at 0: at a late time no digits are left for a motion that has become short.
     scaled = PiecewisePolynomial(motion.breaks - motion.breaks[0], motion.coefficients).scaled(factor)
 
+    along = () if line is None else planar_motion_steps(line, _share(call), scaling.binding)
     peaks, ratios = peaks_by_order(scaled), {bound.quantity: bound.ratio for bound in scaling.bounds}
     further = {
         "course_factor": scaling.course_factor,
@@ -57,14 +64,29 @@ def _plan(call: TimeScalingRequest) -> PlannedMotion:
         "bounds": scaling.bounds,
         "binding": scaling.binding,
         "original_duration": motion.duration,
-        "steps": scaling_steps(scaling, motion.duration),
+        "steps": (*along, *scaling_steps(scaling, motion.duration)),
         "warnings": [*limit_warnings(peaks, limits), *_warnings(motion, scaling)],
     }
     rest = np.zeros((POLYNOMIALS[call.law] - 1 if call.waypoints is None else 0, knots.shape[1]))
     when = factor * (times - times[0])
     when[-1] = scaled.breaks[-1]
     claims = MotionClaims(when, knots, rest, rest, continuity, peaks)
-    return PlannedMotion(scaled, claims, limits, f"Scaled by k = {factor:.6g}", further)
+    passed = None if line is None else (when[[0, -1]], knots[[0, -1]])
+    return PlannedMotion(scaled, claims, limits, f"Scaled by k = {factor:.6g}", further, passed)
+
+
+def _share(call: TimeScalingRequest) -> PiecewisePolynomial:
+    return rest_to_rest(0.0, 1.0, POLYNOMIALS[call.law]).lasting(call.duration or 1.0)
+
+
+def _along(call: TimeScalingRequest, line: PlanarLine) -> tuple[PiecewisePolynomial, Array, Array, int]:
+    """Return the joints along a line like `_motion`, all breaks as knots, whose positions are inverse kinematics."""
+    others = ("displacement", "times", "waypoints", "velocities", "accelerations", "boundary")
+    unused(call, others, "give it instead of `line`, not with it")
+    needed(call, ("duration",), "with `line`")
+    law = _share(call)
+    motion = along_planar_line(line, law)
+    return motion, motion.breaks, line.configurations(law.at(motion.breaks)[:, 0]), POLYNOMIALS[call.law] - 1
 
 
 def _motion(call: TimeScalingRequest) -> tuple[PiecewisePolynomial, Array, Array, int]:

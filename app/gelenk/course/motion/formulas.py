@@ -30,6 +30,11 @@ def tex_row(values: Array) -> str:
     return shown if len(values) <= _SHOWN_NUMBERS else shown + r", \dots"
 
 
+def tex_vector(values: Array) -> str:
+    """Format the coordinates of a vector, in brackets."""
+    return "(" + r",\; ".join(map(tex, values.tolist())) + ")"
+
+
 def tex_matrix(rows: Array) -> str:
     """Format rows of numbers, or a column, as a LaTeX `bmatrix`."""
     lines = (" & ".join(map(tex, row)) for row in rows.reshape(len(rows), -1).tolist())

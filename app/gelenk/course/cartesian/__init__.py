@@ -1,0 +1,5 @@
+"""Motions along a straight line: of a point without a robot, and of a planar arm's tip.
+
+- `line`: the line and its time law, by `line_steps`; `axes`: what each axis of a PPP robot alone would need.
+- `turn`: the orientation along it, by axis and angle and by Euler angles; by `turn_steps`.
+"""

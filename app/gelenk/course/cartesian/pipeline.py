@@ -1,0 +1,159 @@
+"""The course's four steps from points to a joint trajectory: knots, path, samples with their configurations, spline.
+
+The joints pass through the samples, and the tip only there through the line: its distance from the line in between is
+what the interpolation costs. The second way: matrices of rotation and translation, and a finer grid.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.course.cartesian.planar_line import PlanarLine, tips
+from gelenk.course.motion.check import MotionCertificate, MotionClaims, certified
+from gelenk.course.orientation.rotations import elementary
+from gelenk.errors import CertificationFailed
+from gelenk.robot.arrays import Array
+from gelenk.robot.result import Result
+from gelenk.trajectory.motion.extremes import Peaks, peaks
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.splines import Spline, cubic_spline
+
+_PARTS = 24
+"""Parts of a piece of the spline that are searched for an extreme deviation."""
+_BISECTIONS = 60
+_CHECKED_PARTS = 61
+_TOLERANCE = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Deviation(Result):
+    """Largest distance of the tip from the line.
+
+    Attributes:
+        value: To the left of the line positive, to its right negative, [m].
+        time: When it is so large, [s].
+    """
+
+    value: float
+    time: float
+
+
+@dataclass(frozen=True, slots=True)
+class PipelineCertificate(Result):
+    """The four steps recomputed: tips as products of matrices, the spline from its control points.
+
+    Attributes:
+        max_position_error: Largest distance of a sample's tip from the line's point, [m].
+        max_deviation_error: Of the largest deviation, from that on a finer grid and from its value at its time, [m].
+        spline: Of the joint spline.
+    """
+
+    max_position_error: float
+    max_deviation_error: float
+    spline: MotionCertificate
+
+
+@dataclass(frozen=True, slots=True)
+class Pipeline:
+    """Samples along a line, and the spline through their configurations.
+
+    Attributes:
+        times, shares: Of the samples; shape (N,), [s], no unit.
+        configurations: Of the samples; shape (N, 2), [rad]; NaN out of reach.
+        spline: Clamped, at rest at both ends; None if a sample is out of reach.
+    """
+
+    line: PlanarLine
+    times: Array
+    shares: Array
+    configurations: Array
+    spline: Spline | None
+
+    def deviations(self, q: Array) -> Array:
+        """Return the signed distances of the tip from the line at configurations; shape (N, 2) → (N,), [m]."""
+        way = self.line.target - self.line.start
+        found: Array = ((tips(self.line.lengths, q) - self.line.start) * way.conjugate()).imag / abs(way)
+        return found
+
+    def largest_deviation(self) -> Deviation:
+        """Return the extreme of the deviation, exact to rounding: between samples its slope is bisected to zero."""
+        motion = self.motion
+        shares = np.linspace(0.0, 1.0, _PARTS + 1)[:-1]
+        times = np.append(
+            (motion.breaks[:-1, None] + np.diff(motion.breaks)[:, None] * shares).ravel(), motion.breaks[-1]
+        )
+        slopes = self._slopes(motion, times)
+        turns = np.flatnonzero(slopes[:-1] * slopes[1:] < 0.0)
+        low, high, sign = times[turns], times[turns + 1], np.sign(slopes[turns])
+        for _ in range(_BISECTIONS):
+            middle = 0.5 * (low + high)
+            is_before = self._slopes(motion, middle) * sign > 0.0
+            low, high = np.where(is_before, middle, low), np.where(is_before, high, middle)
+        found = np.concatenate((times, 0.5 * (low + high)))
+        values = self.deviations(motion.at(found))
+        i = int(np.abs(values).argmax())
+        return Deviation(float(values[i]), float(found[i]))
+
+    @property
+    def motion(self) -> PiecewisePolynomial:
+        """The joints over time; ValueError without a spline."""
+        if self.spline is None:
+            raise ValueError("a pipeline whose samples are not all reached has no spline")
+        return self.spline.motion
+
+    def _slopes(self, motion: PiecewisePolynomial, times: Array) -> Array:
+        """Return the rate of the deviation; shape (N,), [m/s]."""
+        q, rates, _ = motion.rates_at(times)
+        first = self.line.lengths[0] * np.exp(1j * q[:, 0]) * rates[:, 0]
+        velocity = 1j * (first + self.line.lengths[1] * np.exp(1j * q.sum(axis=1)) * rates.sum(axis=1))
+        way = self.line.target - self.line.start
+        found: Array = (velocity * way.conjugate()).imag / abs(way)
+        return found
+
+    def certificate(self, found: Deviation | None) -> PipelineCertificate | None:
+        """Recompute samples, deviation and spline; None without one; raises CertificationFailed beyond rounding."""
+        if self.spline is None or found is None:
+            return None
+        motion = self.spline.motion
+        wanted = self.line.points(self.shares)
+        errors = _by_matrices(self.line, self.configurations) - np.column_stack((wanted.real, wanted.imag))
+        times = np.append(np.linspace(0.0, self.times[-1], _CHECKED_PARTS * len(self.times)), found.time)
+        start, end = (np.array([p.real, p.imag]) for p in (self.line.start, self.line.target))
+        away, along = _by_matrices(self.line, motion.at(times)) - start, (end - start) / math.dist(start, end)
+        distances = along[0] * away[:, 1] - along[1] * away[:, 0]
+        position = float(np.hypot(*errors.T).max())
+        beyond = max(float(np.abs(distances).max()) - abs(found.value), abs(float(distances[-1]) - found.value))
+        size = sum(self.line.lengths)
+        for quantity, error in (("the samples' tips", position), ("the deviation from the line", beyond)):
+            if not error <= _TOLERANCE * size:
+                raise CertificationFailed(quantity, error, _TOLERANCE * size)
+        rest = np.zeros((1, 2))
+        claims = MotionClaims(self.times, self.configurations, rest, rest, 2, spline_peaks(motion))
+        return PipelineCertificate(position, beyond, certified(motion, claims))
+
+
+def spline_peaks(motion: PiecewisePolynomial) -> dict[int, Peaks]:
+    """Return the peaks of velocity, acceleration and jerk."""
+    return {order: peaks(motion, order) for order in (1, 2, 3)}
+
+
+def pipeline(line: PlanarLine, shares: Array, duration: float) -> Pipeline:
+    """Return samples at places s, (N,), evenly spaced in time, and the clamped spline through them."""
+    times, q = np.linspace(0.0, duration, len(shares)), line.configurations(shares)
+    spline = None if np.isnan(q).any() else cubic_spline(times, q, "clamped")
+    return Pipeline(line, times, shares, q, spline)
+
+
+def _by_matrices(line: PlanarLine, q: Array) -> Array:
+    """Return tips as products of rotations and translations, A_1 A_2; shape (N, 2) → (N, 2), [m]."""
+    found = []
+    for configuration in q.tolist():
+        T = np.eye(4)
+        for angle, length in zip(configuration, line.lengths, strict=True):
+            A = np.eye(4)
+            A[:3, :3] = elementary("z", angle)
+            A[:2, 3] = A[:2, 0] * length
+            T = T @ A
+        found.append(T[:2, 3])
+    return np.array(found)
