@@ -30,6 +30,11 @@ def marked(message: str) -> str:
     return message
 
 
+def current_language() -> Language:
+    """Return the language of this thread or task, for what keeps texts."""
+    return _current.get()
+
+
 @contextmanager
 def language(code: Language) -> Iterator[None]:
     """Let messages be in a language, for this thread or task."""

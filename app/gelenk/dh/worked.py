@@ -35,6 +35,8 @@ from gelenk.dh.lagrangian.texts import MotionTexts, NoMotion
 from gelenk.dh.tables.convert import BASE_FRAME, TOOL_FRAME, describe_dh
 from gelenk.errors import InvalidDhTable
 from gelenk.kinematics.judge.judge import certify_jacobians, certify_poses
+from gelenk.language import marked
+from gelenk.language import translated as _
 from gelenk.robot.arrays import Array, Configuration
 from gelenk.robot.configuration import configurations
 from gelenk.robot.dh import DhJoint, DhTable
@@ -127,11 +129,10 @@ def worked_solution(
     question = SymbolicRequest(_numbers(table), style, keeps_symbols, tuple(tuple(q) for q in samples.tolist()))
     notes: list[str] = []
     timed = _Timed(run, deadline, notes)
-    found = timed.result(formulas, question, 0.5, "the transforms and the Jacobian")
+    found = timed.result(formulas, question, 0.5, "transforms")
     motion_request = None if bodies is None or found is None else motion_question(question, table, bodies)
-    what = "the equations of motion", "they are left out"
-    moving = timed.result(motion, motion_request, 0.5, *what) if motion_request else None
-    singular = timed.result(singularities, question, 1.0, "the determinant") if found else None
+    moving = timed.result(motion, motion_request, 0.5, "motion") if motion_request else None
+    singular = timed.result(singularities, question, 1.0, "determinant") if found else None
     checks, solved = Checks(0.0, []), None
     if found is not None:
         notes = [*found.remarks, *_limits(table, found, singular), *notes]
@@ -146,7 +147,7 @@ def worked_solution(
     if isinstance(moving, NoMotion):
         notes.append(moving.reason)
     elif bodies is not None and found is None:
-        notes.append("without the transforms in symbols the equations of motion are left out too")
+        notes.append(_("without the transforms in symbols the equations of motion are left out too"))
     derivation = steps(table.convention, found, singular) if found is not None else []
     return WorkedSolution(
         tuple(row.name for row in table.joints),
@@ -160,6 +161,26 @@ def worked_solution(
         None if found is None else FormulaCertificate(len(samples), checks.worst, SEED),
         _certified(robot, qs, numeric) if numeric else None,
     )
+
+
+_OVERDUE = {
+    "transforms": marked(
+        "the transforms and the Jacobian could not be worked out in symbols in the time allowed: only numbers are given"
+    ),
+    "determinant": marked(
+        "the determinant could not be worked out in symbols in the time allowed: only numbers are given"
+    ),
+    "motion": marked(
+        "the equations of motion could not be worked out in symbols in the time allowed: they are left out"
+    ),
+}
+_FAILED = {
+    "transforms": marked(
+        "the transforms and the Jacobian in symbols failed a check of their own: only numbers are given"
+    ),
+    "determinant": marked("the determinant in symbols failed a check of its own: only numbers are given"),
+    "motion": marked("the equations of motion in symbols failed a check of their own: they are left out"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,17 +197,16 @@ class _Timed:
         question: _Question,
         share: float,
         what: str,
-        instead: str = "only numbers are given",
     ) -> _Result | None:
         """Return the function's result within its share of the time that is left; None and a note if it fails."""
         seconds = float("inf") if self.deadline is None else (self.deadline - time.monotonic()) * share
         try:
             return self.run(function, question, seconds)
         except (TimeoutError, MemoryError):
-            self.notes.append(f"{what} could not be worked out in symbols in the time allowed: {instead}")
+            self.notes.append(_(_OVERDUE[what]))
         except ArithmeticError:
             logger.exception("derived formulas left out: %s failed a check of their own", what)
-            self.notes.append(f"{what} in symbols failed a check of their own: {instead}")
+            self.notes.append(_(_FAILED[what]))
         return None
 
 
@@ -231,18 +251,24 @@ def _limits(table: DhTable, found: Formulas, singular: Singularities | None) -> 
     n = len(table.joints)
     if written < n:
         notes.append(
-            f"T_0_i is in symbols up to i = {written}: the next has an entry of more than {MAX_ENTRY_TERMS} terms, "
-            "so that from there on, and for the Jacobian, only numbers at given configurations are given"
+            _(
+                "T_0_i is in symbols up to i = {written}: the next has an entry of more than {most} terms, so that "
+                "from there on, and for the Jacobian, only numbers at given configurations are given"
+            ).format(written=written, most=MAX_ENTRY_TERMS)
         )
     elif found.jacobian is None:
-        notes.append("the pose of the tip or the Jacobian has too many terms to be written out: only numbers are given")
+        notes.append(
+            _("the pose of the tip or the Jacobian has too many terms to be written out: only numbers are given")
+        )
     if singular is None or written < n:
         return notes
     if singular.block is None:
         notes.append(
-            f"the Jacobian is 6 × {n}, and neither the rows that ever differ from zero nor the linear or angular ones "
-            f"of these are {n}: there is no determinant, and singular is where the rank drops"
+            _(
+                "the Jacobian is 6 × {n}, and neither the rows that ever differ from zero nor the linear or angular "
+                "ones of these are {n}: there is no determinant, and singular is where the rank drops"
+            ).format(n=n)
         )
     elif singular.formula is None:
-        notes.append("the determinant has too many terms to be written out: only its numbers are given")
+        notes.append(_("the determinant has too many terms to be written out: only its numbers are given"))
     return notes

@@ -61,6 +61,7 @@ from gelenk.dh.derive.typeset import (
     multiple_of_pi,
     summed,
 )
+from gelenk.language import translated as _
 
 MAX_FACTOR_TERMS = 40
 """Maximum number of terms of a factor of a determinant: a longer one is not written out."""
@@ -273,7 +274,8 @@ def _entries(atom: Atom, table: Table, notation: Notation) -> list[SymbolEntry]:
         angle, names = indexed(r"\alpha", "alpha", index), ("ca", "sa")
         if notation.style == "full":
             row = index if table.is_standard else index + 1
-            return [symbol_entry(angle, f"twist alpha of row {row}, in rad", table.as_read.rows[row - 1].alpha)]
+            words = _("twist alpha of row {row}, in rad").format(row=row)
+            return [symbol_entry(angle, words, table.as_read.rows[row - 1].alpha)]
     else:
         return [symbol_entry(notation.atom(atom), _words(atom, table), table.values.get(atom))]
     both = [atom._replace(name=name) for name in names]
@@ -284,12 +286,12 @@ def _words(atom: Atom, table: Table) -> str:
     index = atom.indices[0]
     row = index if table.is_standard or atom.name != "a" else index + 1
     named = {
-        "a": f"length a of row {row}, in m",
-        "d": f"length d of row {row}, in m",
-        "q": f"variable of the prismatic joint {index}, in m",
-        "pb": "position of frame 0 in the base, in m",
-        "pt": "position of the tool in the last frame, in m",
-        "rb": "entry of the base's rotation matrix",
-        "rt": "entry of the tool's rotation matrix",
+        "a": _("length a of row {row}, in m"),
+        "d": _("length d of row {row}, in m"),
+        "q": _("variable of the prismatic joint {row}, in m"),
+        "pb": _("position of frame 0 in the base, in m"),
+        "pt": _("position of the tool in the last frame, in m"),
+        "rb": _("entry of the base's rotation matrix"),
+        "rt": _("entry of the tool's rotation matrix"),
     }
-    return named[atom.name]
+    return named[atom.name].format(row=row)

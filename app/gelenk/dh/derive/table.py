@@ -21,6 +21,7 @@ from gelenk.dh.derive.algebra import (
     number,
     symbol,
 )
+from gelenk.language import translated as _
 
 Numbers4: TypeAlias = tuple[tuple[float, ...], ...]
 
@@ -173,7 +174,8 @@ class _TableReader:
     def length(self, name: str, index: int, value: float, row: int) -> tuple[Polynomial, float]:
         if abs(value) <= LENGTH_TOLERANCE:
             if value:
-                self.remarks.append(f"row {row}: {name} = {value:.3g} m is read as 0")
+                text = _("row {row}: {name} = {value:.3g} m is read as 0")
+                self.remarks.append(text.format(row=row, name=name, value=value))
             return ZERO, 0.0
         return self.symbol(Atom(LENGTH, (index,), name), value), value
 
@@ -222,9 +224,8 @@ class _TableReader:
 
     def _say_angle(self, name: str, value: float, exact: float, row: int) -> None:
         if abs(value - exact) > 1e-12:
-            self.remarks.append(
-                f"row {row}: {name} = {value!r} rad is read as {exact!r}, {abs(value - exact):.2g} rad away"
-            )
+            text = _("row {row}: {name} = {value!r} rad is read as {exact!r}, {away:.2g} rad away")
+            self.remarks.append(text.format(row=row, name=name, value=value, exact=exact, away=abs(value - exact)))
 
 
 def exact_number(value: float) -> Polynomial | None:

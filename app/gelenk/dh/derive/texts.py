@@ -1,12 +1,13 @@
 """Input and output of the symbolic part of a worked solution: plain data, fit for a cache and for an answer."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 from gelenk.dh.derive.jacobian import Block, Setting
 from gelenk.dh.derive.table import TableNumbers
 from gelenk.dh.derive.typeset import Formula, MatrixFormula, Style
+from gelenk.language import Language, current_language
 from gelenk.robot.result import Result
 
 Configuration: TypeAlias = tuple[float, ...]
@@ -17,13 +18,15 @@ Grid: TypeAlias = list[list[float]]
 class SymbolicRequest:
     """The request as plain data, with style and symbols as for `worked_solution`.
 
-    The formulas are also evaluated at the samples, configurations in [rad or m].
+    The formulas are also evaluated at the samples, configurations in [rad or m]. The language is that of the texts
+    beside them, which a cache keeps too.
     """
 
     table: TableNumbers
     style: Style
     keeps_symbols: bool
     samples: tuple[Configuration, ...]
+    language: Language = field(default_factory=current_language)
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,6 +28,7 @@ from gelenk.dh.derive.algebra import (
 from gelenk.dh.derive.table import LENGTH_TOLERANCE, Table, Transform
 from gelenk.dh.derive.transforms import frames_from
 from gelenk.dh.lagrangian.bodies import Line, LinkBody, Point, line_of
+from gelenk.language import translated as _
 
 
 class NotPlanar(Exception):
@@ -103,12 +104,12 @@ def _senses(table: Table, axes: list[Vector]) -> tuple[int, ...]:
     for row, axis in zip(table.rows, axes, strict=True):
         senses.append((axis == normal) - (tuple(-x for x in axis) == normal) if row.is_revolute else 0)
         if row.is_revolute and not senses[-1]:
-            what = f"the axis of joint {row.index} is not parallel to those of the revolute joints before it"
-            raise NotPlanar(what)
+            what = _("the axis of joint {joint} is not parallel to those of the revolute joints before it")
+            raise NotPlanar(what.format(joint=row.index))
     for row, axis in zip(table.rows, axes, strict=True):
         if normal is not None and not row.is_revolute and reduced(dot(normal, axis), one_group):
-            what = f"the axis of the prismatic joint {row.index} is not across those of the revolute joints"
-            raise NotPlanar(what)
+            what = _("the axis of the prismatic joint {joint} is not across those of the revolute joints")
+            raise NotPlanar(what.format(joint=row.index))
     if normal is None and len(axes) == 3 and reduced(dot(axes[0], cross(axes[1], axes[2])), one_group):
-        raise NotPlanar("its three prismatic joints slide in three independent directions")
+        raise NotPlanar(_("its three prismatic joints slide in three independent directions"))
     return tuple(senses)

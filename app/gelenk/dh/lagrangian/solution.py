@@ -14,6 +14,7 @@ from gelenk.dh.lagrangian.numeric import NumericMotion, numeric_motion
 from gelenk.dh.lagrangian.steps import motion_steps
 from gelenk.dh.lagrangian.texts import EquationsCertificate, MotionQuestion, MotionSample, MotionTexts
 from gelenk.errors import CertificationFailed, InvalidField, counted
+from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import configurations
@@ -125,9 +126,12 @@ def _notes(texts: MotionTexts, question: MotionQuestion, count: int) -> list[str
     notes = []
     if question.gravity.size and all(row == ["0"] for row in texts.gravity_vector.plain or ()):
         notes.append(
-            "gravity does no work in the plane of motion, so that g(q) = 0; for an arm in a vertical plane turn the "
-            "base, or give another direction of gravity"
+            _(
+                "gravity does no work in the plane of motion, so that g(q) = 0; for an arm in a vertical plane turn "
+                "the base, or give another direction of gravity"
+            )
         )
     if count and texts.missing:
-        notes.append(f"M, C and g in numbers need values of {', '.join(texts.missing)}: give them in `dynamics`")
+        text = _("M, C and g in numbers need values of {missing}: give them in `dynamics`")
+        notes.append(text.format(missing=", ".join(texts.missing)))
     return notes

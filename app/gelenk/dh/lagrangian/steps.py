@@ -2,6 +2,7 @@
 
 from gelenk.course.steps import Step, step
 from gelenk.dh.lagrangian.texts import MotionTexts
+from gelenk.language import translated as _
 
 
 def motion_steps(found: MotionTexts) -> list[Step]:
@@ -17,11 +18,11 @@ def _centers(found: MotionTexts) -> Step:
             rf"v_{{c{i}}} = \dot{{p}}_{{c{i}}} = {body.velocity.latex},\quad "
             rf"\omega_{{{i}}} = {body.angular_velocity.latex}"
         )
-    text = (
+    text = _(
         "The position of each link's centre of mass in frame 0, differentiated by the chain rule, and the angular "
         "velocity about the normal of the plane: the sum of the joint velocities before it."
     )
-    return step("Centres of mass and their velocities", text, *lines)
+    return step(_("Centres of mass and their velocities"), text, *lines)
 
 
 def _energies(found: MotionTexts) -> Step:
@@ -30,17 +31,17 @@ def _energies(found: MotionTexts) -> Step:
     for i, body in enumerate(found.links, start=1):
         lines += [f"T_{{{i}}} = {body.kinetic_energy.latex}", f"U_{{{i}}} = {body.potential_energy.latex}"]
     lines.append(r"L = \sum_i T_i - \sum_i U_i")
-    text = (
+    text = _(
         "A link's kinetic energy is that of its mass moving with the centre and that of its turning about it. The "
         "potential energy counts from the origin of frame 0, in whose axes gravity is written."
     )
-    return step("Kinetic and potential energy", text, *lines)
+    return step(_("Kinetic and potential energy"), text, *lines)
 
 
 def _mass_matrix(found: MotionTexts) -> Step:
     lines = [r"\sum_i T_i = \frac{1}{2} \dot{q}^{\mathsf T} M(q)\, \dot{q}", f"M(q) = {found.mass_matrix.latex}"]
-    text = "The kinetic energy is a quadratic form of the joint velocities; its symmetric matrix is the mass matrix."
-    return step("Mass matrix", text, *lines)
+    text = _("The kinetic energy is a quadratic form of the joint velocities; its symmetric matrix is the mass matrix.")
+    return step(_("Mass matrix"), text, *lines)
 
 
 def _coriolis(found: MotionTexts) -> Step:
@@ -57,23 +58,23 @@ def _coriolis(found: MotionTexts) -> Step:
         rf"C\, \dot{{q}} = {found.coriolis_vector.latex}",
         rf"\dot{{M}} - 2C = {found.skew.latex} = -\left(\dot{{M}} - 2C\right)^{{\mathsf T}}",
     ]
-    text = (
+    text = _(
         "The Christoffel symbols of the mass matrix give the centrifugal (j = k) and Coriolis terms (j ≠ k); those "
-        "that are not listed are zero."
+        "that are not listed are zero. With C built from them Ṁ - 2C is skew symmetric."
         if found.christoffel
-        else "The mass matrix is constant: all Christoffel symbols are zero, and so is C."
+        else "The mass matrix is constant: all Christoffel symbols are zero, and so is C. With C built from them "
+        "Ṁ - 2C is skew symmetric."
     )
-    text += " With C built from them Ṁ - 2C is skew symmetric."
-    return step("Christoffel symbols and Coriolis matrix", text, *lines)
+    return step(_("Christoffel symbols and Coriolis matrix"), text, *lines)
 
 
 def _gravity(found: MotionTexts) -> Step:
     line = rf"g_i(q) = \frac{{\partial}}{{\partial q_i}} \sum_j U_j:\quad g(q) = {found.gravity_vector.latex}"
-    return step("Gravity", "The torques that hold the arm at rest are the slope of the potential energy.", line)
+    return step(_("Gravity"), _("The torques that hold the arm at rest are the slope of the potential energy."), line)
 
 
 def _rows(found: MotionTexts) -> Step:
     rule = r"\frac{d}{dt} \frac{\partial L}{\partial \dot{q}} - \frac{\partial L}{\partial q} = \tau"
     lines = [rf"{rule} \;\Leftrightarrow\; M(q)\, \ddot{{q}} + C(q, \dot{{q}})\, \dot{{q}} + g(q) = \tau"]
     lines += [row.latex for row in found.equations_of_motion]
-    return step("Equations of motion", "Lagrange's equations, one row per joint.", *lines)
+    return step(_("Equations of motion"), _("Lagrange's equations, one row per joint."), *lines)

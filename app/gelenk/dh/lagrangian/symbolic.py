@@ -9,7 +9,7 @@ from dataclasses import fields, replace
 from functools import lru_cache
 from typing import Any
 
-from gelenk.dh.derive.algebra import GRAVITY, LENGTH, MASS, RATE, Atom, Polynomial, TooManyTerms
+from gelenk.dh.derive.algebra import LENGTH, MASS, RATE, Atom, Polynomial, TooManyTerms
 from gelenk.dh.derive.symbolic import legend, notation_of
 from gelenk.dh.derive.table import Table, read_table
 from gelenk.dh.derive.texts import SymbolEntry, symbol_entry
@@ -26,6 +26,8 @@ from gelenk.dh.lagrangian.texts import (
     NoMotion,
 )
 from gelenk.dh.lagrangian.writing import BY_ENERGY, BY_HEIGHT, BY_MASS, BY_WAVE, BY_WEIGHT, Manner, written
+from gelenk.language import marked
+from gelenk.language import translated as _
 
 MAX_JOINTS = 3
 """Maximum number of joints: with more, the equations are too long to write out."""
@@ -40,14 +42,15 @@ def motion(question: MotionQuestion) -> MotionTexts | NoMotion:
     request = question.formulas
     table, values = read_table(request.table), dict[Atom, float]()
     if len(table.rows) > MAX_JOINTS:
-        return NoMotion(f"the equations of motion are written out for up to {MAX_JOINTS} joints")
+        return NoMotion(_("the equations of motion are written out for up to {most} joints").format(most=MAX_JOINTS))
     try:
         arm = planar_arm(table, question.bodies, values)
         found = equations(arm, question.bodies, question.gravity, values)
     except NotPlanar as reason:
-        return NoMotion(f"the equations of motion are written out for planar arms only, and this is not one: {reason}")
+        text = _("the equations of motion are written out for planar arms only, and this is not one: {reason}")
+        return NoMotion(text.format(reason=reason))
     except TooManyTerms:
-        return NoMotion("the equations of motion have too many terms to be written out")
+        return NoMotion(_("the equations of motion have too many terms to be written out"))
     known = {**table.values, **values}
     notation = notation_of(table, one_group, request.style, {} if request.keeps_symbols else known)
     of_motion = [entry for row in (*found.mass_matrix, *found.coriolis, found.gravity_vector) for entry in row]
@@ -114,31 +117,38 @@ def _legend(found: Equations, lines: Sequence[Line], table: Table, notation: Not
         if atom.name in _MOVING and atom not in notation.numbers:
             entries.append(symbol_entry(notation.atom(atom), _words(atom, lines), table.values.get(atom)))
     for i, line in enumerate(lines, start=1):
-        words = f"torque of joint {i}, in N m" if line != "own axis" else f"force of joint {i}, in N"
-        entries.append(symbol_entry(indexed(r"\tau", "tau", i), words))
+        words = _("torque of joint {i}, in N m" if line != "own axis" else "force of joint {i}, in N")
+        entries.append(symbol_entry(indexed(r"\tau", "tau", i), words.format(i=i)))
     return entries
 
 
 def _words(atom: Atom, lines: Sequence[Line]) -> str:
+    if atom.name == "g":
+        return _("acceleration of free fall, in m/s^2")
+    if atom.name.startswith("gamma"):
+        return _("{axis} of the unit vector of gravity in frame 0").format(axis=atom.name[-1])
     i = atom.indices[0]
-    if atom.kind == MASS:
-        about = "about its centre of mass, the axis normal to the plane, in kg m^2"
-        return f"mass of link {i}, in kg" if atom.name == "m" else f"moment of inertia of link {i} {about}"
-    if atom.kind == GRAVITY:
-        return "acceleration of free fall, in m/s^2"
-    if atom.kind == LENGTH and atom.name != "lc":
-        return f"coordinate {atom.name[0]} of the centre of mass of link {i} in frame {i}, in m"
-    if atom.kind == LENGTH:
-        places = {
-            "x": f"the axis of joint {i}, along x of frame {i}",
-            "next axis": f"the axis of joint {i}, along that of joint {i + 1}",
-            "own axis": f"the origin of frame {i}, along the axis of joint {i}",
-        }
-        return f"where the centre of mass of link {i} is from {places[lines[i - 1]]}, in m"
-    if atom.kind == RATE:
-        unit = "m/s" if lines[i - 1] == "own axis" else "rad/s"
-        return f"velocity of joint {i}, in {unit}" if atom.name == "qd" else f"acceleration of joint {i}, in {unit}^2"
-    return f"{atom.name[-1]} of the unit vector of gravity in frame 0"
+    slides = lines[i - 1] == "own axis"
+    words = {
+        "m": _("mass of link {i}, in kg"),
+        "I": _("moment of inertia of link {i} about its centre of mass, the axis normal to the plane, in kg m^2"),
+        "qd": _("velocity of joint {i}, in m/s" if slides else "velocity of joint {i}, in rad/s"),
+        "qdd": _("acceleration of joint {i}, in m/s^2" if slides else "acceleration of joint {i}, in rad/s^2"),
+        "lc": _(_CENTERS[lines[i - 1]]),
+    }
+    text = words.get(atom.name) or _("coordinate {axis} of the centre of mass of link {i} in frame {i}, in m")
+    return text.format(i=i, next=i + 1, axis=atom.name[0])
+
+
+_CENTERS: dict[Line, str] = {
+    "x": marked("where the centre of mass of link {i} is from the axis of joint {i}, along x of frame {i}, in m"),
+    "next axis": marked(
+        "where the centre of mass of link {i} is from the axis of joint {i}, along that of joint {next}, in m"
+    ),
+    "own axis": marked(
+        "where the centre of mass of link {i} is from the origin of frame {i}, along the axis of joint {i}, in m"
+    ),
+}
 
 
 def _values(found: Equations, table: Table, values: dict[Atom, float], sample: MotionSample) -> dict[str, Any]:

@@ -1,0 +1,85 @@
+"""Worked solutions of all examples: formulas that read without LaTeX, and German with the same numbers."""
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+from typing import Any, cast
+
+import pytest
+from starlette.testclient import TestClient
+
+from gelenk.contract.endpoint import Endpoint, RobotEndpoint
+from gelenk.contract.endpoints import BY_NAME
+
+NUMBER = re.compile(r"\d+(?:\.\d+)?")
+IN_FORMULAS = re.compile(r"\\(?:text|mathrm)\{[^}]*\}")
+
+
+def fields(endpoint: Endpoint[Any, Any]) -> dict[str, Any]:
+    return cast(dict[str, Any], cast(Any, endpoint.request).model_fields)
+
+
+def has_steps(endpoint: Endpoint[Any, Any]) -> bool:
+    answer = cast(Any, endpoint.answer)
+    return answer is not None and "Step" in answer.model_json_schema().get("$defs", {})
+
+
+SPEAKING = [name for name, endpoint in BY_NAME.items() if "language" in fields(endpoint) and has_steps(endpoint)]
+
+
+def answered(client: TestClient, name: str, language: str) -> Any:
+    endpoint = BY_NAME[name]
+    asked = {**endpoint.example, "language": language, **({"steps": True} if "steps" in fields(endpoint) else {})}
+    path = endpoint.path.format(robot="panda") if isinstance(endpoint, RobotEndpoint) else endpoint.path
+    answer = client.post(f"/{path}", json=asked)
+    assert answer.status_code == 200, answer.text
+    return answer.json()
+
+
+def steps(content: Any) -> Iterator[dict[str, Any]]:
+    """All steps in an answer, at any depth."""
+    if isinstance(content, dict):
+        if content.keys() >= {"title", "text", "latex", "plain"}:
+            yield content
+        content = list(content.values())
+    if isinstance(content, list):
+        for item in content:
+            yield from steps(item)
+
+
+def numbers(step: dict[str, Any]) -> Counter[str]:
+    return Counter(NUMBER.findall(" ".join([step["title"], step["text"], *step["latex"]])))
+
+
+@pytest.mark.parametrize("name", SPEAKING)
+def test_a_solution_reads_without_latex_and_in_german(client: TestClient, name: str) -> None:
+    english, german = (list(steps(answered(client, name, language))) for language in ("en", "de"))
+    assert english
+    assert [len(one["latex"]) for one in english] == [len(one["latex"]) for one in german]
+    for one, other in zip(english, german, strict=True):
+        assert "\\" not in "".join((*one["plain"], *other["plain"], one["text"], other["text"]))
+        assert numbers(one) == numbers(other)
+        assert one["text"] != other["text"] or not re.search(r"[A-Za-z]{4}", one["text"]), one["text"]
+        formulas = (IN_FORMULAS.sub("", " ".join(step["latex"])) for step in (one, other))
+        assert next(formulas) == next(formulas)
+
+
+def test_warnings_speak_too_and_problems_do_not(client: TestClient) -> None:
+    asked = {**BY_NAME["pulse_width_modulation"].example, "duty": 1.0, "language": "de"}
+    for other in ("average_voltage", "angular_velocity"):
+        asked.pop(other, None)
+    answer = client.post("/v1/course/pwm", json=asked)
+    assert "Am Motor liegt die Versorgung selbst" in answer.json()["warnings"][0]
+    refused = client.post("/v1/course/pwm", json={**asked, "duty": 2.0})
+    assert "less than or equal to 1" in refused.text
+    unknown = client.post("/v1/course/pwm", json={**asked, "language": "fr"})
+    assert unknown.status_code == 422
+    assert "language" in unknown.text
+
+
+def test_a_cached_derivation_does_not_speak_the_language_of_the_last_request(client: TestClient) -> None:
+    german, english, again = (answered(client, "derive_dh", language) for language in ("de", "en", "de"))
+    assert german == again
+    assert german["legend"][0]["meaning"].startswith("Länge")
+    assert english["legend"][0]["meaning"].startswith("length")
+    assert german["determinant"]["why"] != english["determinant"]["why"]
