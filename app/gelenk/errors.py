@@ -314,6 +314,14 @@ class UnknownPicture(NotFound):
     pictures: tuple[str, ...]
 
 
+class UnknownExercise(NotFound):
+    """The course has no exercise with this id."""
+
+    exercise: str
+    known: tuple[str, ...]
+    template = "there is no exercise {exercise!q}; the exercises are {known!q}"
+
+
 class TooLarge(KinematicsError):
     """A call exceeds a size that the service is configured to accept."""
 

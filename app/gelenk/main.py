@@ -25,6 +25,7 @@ from gelenk.http.access.origins import Origins
 from gelenk.http.access.route_table import RouteTable
 from gelenk.http.access.tracing import TracedId, exporter_variables, telemetry
 from gelenk.http.dh_picture import picture_route
+from gelenk.http.exercises import exercise_routes, exercises_router
 from gelenk.http.jobs.jobs import jobs_router
 from gelenk.http.jobs.long_works import LONG_WORK
 from gelenk.http.messages import openapi, problems
@@ -123,6 +124,8 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         if isinstance(endpoint, RobotEndpoint):
             app.operations[endpoint.name] = route
     app.router.routes.extend([*documented_routes(pool_client, size), picture_route(pool_client, size)])
+    app.include_router(exercises_router())
+    app.router.routes.extend(exercise_routes(pool_client, size))
     app.include_router(jobs_router(runner))
     app.include_router(pictures_router(pool_client))
     app.include_router(service_router(readiness, metrics))

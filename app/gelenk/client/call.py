@@ -122,6 +122,7 @@ def method_of(name: str, describe: Callable[P, Call[T]], send: Callable[[Call[T]
 
 
 ROBOT = inspect.Parameter("robot", inspect.Parameter.POSITIONAL_ONLY, annotation=str)
+EXERCISE = inspect.Parameter("exercise", inspect.Parameter.POSITIONAL_OR_KEYWORD, annotation=str)
 
 
 def documented(

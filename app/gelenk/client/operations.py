@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import BaseModel
 
 from gelenk.client import stored
-from gelenk.client.call import NPY, ROBOT, Call, Sent
+from gelenk.client.call import EXERCISE, NPY, ROBOT, Call, Sent
 from gelenk.client.exchange import described_by, fits_query, json_call, packed, query_of, reader, segment
 from gelenk.contract import (
     compare_dh,
@@ -45,6 +45,13 @@ from gelenk.contract import (
 from gelenk.contract.common import Answer
 from gelenk.contract.endpoint import Endpoint, RobotEndpoint
 from gelenk.contract.endpoints import ENDPOINTS
+from gelenk.contract.exercises import (
+    ExerciseGrade,
+    ExerciseGradeRequest,
+    ExerciseRequest,
+    ExerciseSolution,
+    ExerciseVariant,
+)
 from gelenk.contract.ik import InverseAnswer
 from gelenk.contract.jobs import JobInfo
 from gelenk.contract.pose import pose_fields
@@ -81,6 +88,13 @@ def _operation(endpoint: RobotEndpoint[P, A]) -> Sent[Concatenate[str, P], A]:
         return json_call("POST", path, fields, endpoint.answer)
 
     return Sent(described_by(describe, endpoint.request, endpoint.answer, ROBOT))
+
+
+def _about_exercise(path: str, request: Callable[P, BaseModel], answer: type[A]) -> Sent[Concatenate[str, P], A]:
+    def describe(exercise: str, *_: P.args, **fields: P.kwargs) -> Call[A]:
+        return json_call("POST", path.format(exercise=segment(exercise)), fields, answer)
+
+    return Sent(described_by(describe, request, answer, EXERCISE))
 
 
 def _without_robot(path: str, request: Callable[P, BaseModel], answer: type[A]) -> Sent[P, A]:
@@ -127,6 +141,11 @@ class Operations:
     picture = Sent(stored.picture)
     course_pictures = Sent(stored.course_pictures)
     course_picture = Sent(stored.course_picture)
+
+    exercises = Sent(stored.exercises)
+    draw_exercise = _about_exercise("v1/course/exercises/{exercise}", ExerciseRequest, ExerciseVariant)
+    solve_exercise = _about_exercise("v1/course/exercises/{exercise}/solution", ExerciseRequest, ExerciseSolution)
+    grade_exercise = _about_exercise("v1/course/exercises/{exercise}/grade", ExerciseGradeRequest, ExerciseGrade)
 
     health = Sent(stored.health)
     readiness = Sent(stored.readiness)

@@ -12,6 +12,7 @@ from gelenk.client.call import Call
 from gelenk.client.exchange import encoded, query_of, reader, segment
 from gelenk.contract.common import Answer, ChainEnds
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer
+from gelenk.contract.exercises import ExerciseList
 from gelenk.contract.health import Health
 from gelenk.contract.jobs import Finished, JobInfo
 from gelenk.contract.pictures import CoursePictures
@@ -140,6 +141,15 @@ def course_picture(picture: str, language: Language = "en") -> Call[bytes]:
     """A picture of the course as SVG, by its name in `course_pictures`; as PNG `picture` returns it."""
     path, query = f"v1/course/pictures/{segment(picture)}", query_of({"language": language})
     return Call("GET", path, _content, query, accept=_PICTURES["svg"])
+
+
+def exercises(language: Literal["en", "de"] = "en") -> Call[ExerciseList]:
+    """The exercises of the course, by lectures.
+
+    Args:
+        language: Language of the titles.
+    """
+    return Call("GET", "v1/course/exercises", reader(ExerciseList), query_of({"language": language}))
 
 
 def health() -> Call[Health]:

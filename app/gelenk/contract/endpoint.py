@@ -25,6 +25,7 @@ class Scope(StrEnum):
 
     READ = "read"
     WRITE = "write"
+    TEACH = "teach"
     ADMIN = "admin"
 
 

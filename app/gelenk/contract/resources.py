@@ -4,6 +4,7 @@ from typing import Any
 
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer
 from gelenk.contract.endpoint import Resource, Scope
+from gelenk.contract.exercises import ExerciseGrade, ExerciseList, ExerciseSolution, ExerciseVariant
 from gelenk.contract.health import Health
 from gelenk.contract.ik import InverseAnswer
 from gelenk.contract.jobs import JobInfo
@@ -24,6 +25,7 @@ MESH_TYPES = {
 """Media types of the files of a robot, by the ends of their names."""
 
 _BY_WORKER = (429, 500, 503, 504)
+_EXERCISE = (400, 404, 413, 415, 422, *_BY_WORKER)
 _EVENT = {
     "type": "object",
     "properties": {
@@ -268,6 +270,63 @@ RESOURCES = (
 
         A finished job, even if it finished only now, keeps its result: 409 with its `state`. With `finished=remove` it
         is removed together with its result; the answer shows it one last time.
+        """,
+    ),
+    Resource(
+        name="list_exercises",
+        method="GET",
+        path="v1/course/exercises",
+        tag="Course",
+        scope=Scope.READ,
+        answer=ExerciseList,
+        problems=(422,),
+        summary="All exercises",
+        description="Lists the exercises by lectures, in the order of the course.",
+    ),
+    Resource(
+        name="draw_exercise",
+        path="v1/course/exercises/{exercise}",
+        tag="Course",
+        scope=Scope.READ,
+        answer=ExerciseVariant,
+        problems=_EXERCISE,
+        example={"seed": 7},
+        summary="A variant of an exercise",
+        description="""
+        Draws the numbers of an exercise: the same for the same seed and `version`, whatever else changes.
+
+        `fields` describes the answers. A field's `tolerance` is absolute, or a share of the right answer's size if it
+        `is_relative`; whole numbers have tolerance 0. Angles may differ by whole turns, solutions in a set may be in
+        any order, and a basis may be any of the same space.
+        """,
+    ),
+    Resource(
+        name="solve_exercise",
+        path="v1/course/exercises/{exercise}/solution",
+        tag="Course",
+        scope=Scope.TEACH,
+        answer=ExerciseSolution,
+        problems=_EXERCISE,
+        example={"seed": 7},
+        summary="The solution of a variant",
+        description="Returns the right answers and the worked solution. Where keys are on, it needs `teach`.",
+    ),
+    Resource(
+        name="grade_exercise",
+        path="v1/course/exercises/{exercise}/grade",
+        tag="Course",
+        scope=Scope.READ,
+        answer=ExerciseGrade,
+        problems=_EXERCISE,
+        example={"seed": 7, "answers": {"constraints": 8, "mobility": 1, "verdict": "mechanism"}},
+        summary="Grade the answers to a variant",
+        description="""
+        Grades each field, and names the mistake if a known wrong model leads to the given answer.
+
+        The right answer is recognized first, in all its forms. A wrong model is offered only for numbers with which
+        its answer differs clearly from the right one and from those of the others, so `mistake` is never ambiguous;
+        it is null if none leads to the answer. An answer of the wrong form is no error: `mistake` says what is wrong
+        with it.
         """,
     ),
     Resource(

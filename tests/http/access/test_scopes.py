@@ -19,9 +19,18 @@ WRITING = {
     ("DELETE", "/v1/jobs/{job}"),
 }
 ADMINISTERING = {("GET", "/metrics")}
+TEACHING = {("POST", "/v1/course/exercises/{exercise}/solution")}
 
-ENTRIES, KEYS = keys_for("read", "write", "admin", "read+write", "write+admin", "read+admin", "read+write+admin")
-OTHERS = {"read": "write+admin", "write": "read+admin", "admin": "read+write"}
+ENTRIES, KEYS = keys_for(
+    *("read", "write", "teach", "admin", "read+write", "write+teach+admin", "read+teach+admin", "read+write+teach"),
+    *("read+write+admin", "read+write+teach+admin"),
+)
+OTHERS = {
+    "read": "write+teach+admin",
+    "write": "read+teach+admin",
+    "teach": "read+write+admin",
+    "admin": "read+write+teach",
+}
 APP = application(api_keys=ENTRIES)
 ROUTES = [(method, route) for route in iter_route_contexts(APP.routes) for method in sorted(route.methods or {"GET"})]
 
@@ -32,6 +41,8 @@ def expected(method: str, path: str) -> str | None:
         return None
     if (method, path) in ADMINISTERING:
         return "admin"
+    if (method, path) in TEACHING:
+        return "teach"
     return "write" if (method, path) in WRITING else "read"
 
 
@@ -67,7 +78,7 @@ def test_each_route_has_its_scope(method: str, route: RouteContext) -> None:
 
 def test_there_is_something_to_walk() -> None:
     assert len(ROUTES) > 45
-    assert {expected(method, route.path or "") for method, route in ROUTES} == {None, "read", "write", "admin"}
+    assert {expected(method, route.path or "") for method, route in ROUTES} == {None, "read", "write", "teach", "admin"}
 
 
 @pytest.mark.parametrize(

@@ -63,8 +63,8 @@ _SCHEME = {
     "type": "http",
     "scheme": "bearer",
     "description": "A key of this service, if keys are switched on; create one with `gelenk.keys`. Scopes: `read` "
-    "allows queries, `write` storing and removing robots and jobs, `admin` reading the metrics. No scope includes "
-    "another.",
+    "allows queries, `write` storing and removing robots and jobs, `teach` solutions of exercises, `admin` reading the "
+    "metrics. No scope includes another.",
 }
 _COMPONENT = "#/components/schemas/{model}"
 _PROBLEM = {"$ref": _COMPONENT.format(model="Problem")}

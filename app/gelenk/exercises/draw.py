@@ -1,0 +1,39 @@
+"""Random numbers that are the same for ever: from a name, with the one method of `random` whose stream is documented.
+
+Numbers are round, so that a text states exactly what is computed with.
+"""
+
+import random
+from collections.abc import Sequence
+from typing import TypeVar
+
+T = TypeVar("T")
+_DIGITS = 10
+
+
+class Draw:
+    """A stream of random numbers that depends on nothing but a name."""
+
+    def __init__(self, name: str) -> None:
+        self._next = random.Random(name).random  # noqa: S311 - nobody gains by guessing an exercise
+
+    def integer(self, low: int, high: int) -> int:
+        """Return a whole number between two others, which may be drawn too."""
+        return low + int(self._next() * (high - low + 1))
+
+    def decimal(self, low: float, high: float, step: float) -> float:
+        """Return one of low, low + step, … high, as short a decimal number as these are."""
+        return round(low + step * self.integer(0, round((high - low) / step)), _DIGITS)
+
+    def signed(self, low: float, high: float, step: float) -> float:
+        """Return a decimal number as `decimal` does, with either sign."""
+        return self.choice((1.0, -1.0)) * self.decimal(low, high, step)
+
+    def choice(self, options: Sequence[T]) -> T:
+        """Return one of the options."""
+        return options[self.integer(0, len(options) - 1)]
+
+    def sample(self, options: Sequence[T], count: int) -> list[T]:
+        """Return different options, in random order."""
+        left = list(options)
+        return [left.pop(self.integer(0, len(left) - 1)) for _ in range(count)]

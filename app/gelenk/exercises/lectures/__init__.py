@@ -1,0 +1,1 @@
+"""The exercises of each lecture, one module each; `EXERCISES` holds them."""

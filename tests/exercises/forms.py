@@ -1,0 +1,53 @@
+"""Answers as they travel, and other forms of the same answer."""
+
+import math
+from collections.abc import Iterator
+from random import Random
+from typing import Any
+
+import numpy as np
+
+from gelenk.contract.common import as_lists
+from gelenk.exercises.fields import (
+    AnswerField,
+    BasisField,
+    ChoiceField,
+    MatrixField,
+    NumberField,
+    SetField,
+    VectorField,
+)
+
+
+def sent(answer: Any) -> Any:
+    """An answer as JSON has it."""
+    found = as_lists(answer)
+    return found.item() if isinstance(found, np.generic) else found
+
+
+def same(one: AnswerField, right: Any, random: Random) -> Iterator[Any]:
+    """The right answer in other forms."""
+    if isinstance(one, BasisField):
+        basis = np.asarray(right, float)
+        mix = np.array([[random.uniform(-1, 1) for _ in basis.T] for _ in basis.T]) + 2 * np.eye(basis.shape[1])
+        yield (basis @ mix).tolist()
+    elif isinstance(one, NumberField | VectorField | MatrixField):
+        yield from _numbers(one, right, random)
+    elif isinstance(one, ChoiceField):
+        yield f" {one.options[right]} "
+    elif isinstance(one, SetField):
+        items = [next(iter(same(one.item, item, random)), item) for item in right]
+        yield random.sample(items, len(items))
+        yield sent([*right, right[0]])
+
+
+def _numbers(one: NumberField | VectorField | MatrixField, right: Any, random: Random) -> Iterator[Any]:
+    numbers = np.asarray(right, float)
+    allowed = one.tolerance * (np.abs(numbers).max() if one.is_relative else 1.0)
+    signs = np.array([random.choice((-1, 1)) for _ in range(numbers.size)]).reshape(numbers.shape)
+    turn = 2 * math.pi if one.unit == "rad" else 360.0
+    turns = np.array([random.randint(-2, 2) for _ in range(numbers.size)]).reshape(numbers.shape)
+    moved = numbers + signs * allowed / 3 + (turn * turns if one.is_angle else 0.0)
+    yield moved.tolist()
+    if isinstance(one, NumberField):
+        yield f"{moved:.15g}".replace(".", ",")
