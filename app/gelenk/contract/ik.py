@@ -28,7 +28,10 @@ MAX_JOB_STEPWISE = 100_000
 Targets = Annotated[
     Sequence[Pose] | Array,
     OnTheWire(Annotated[list[Pose], Field(max_length=MAX_TARGETS, fail_fast=True)], pose_fields),
-    Field(description="Target poses of `tip_frame` in `base_frame`."),
+    Field(
+        description="Target poses of `tip_frame` in `base_frame`; a `position` alone suffices where `task` has none of "
+        "rx, ry, rz."
+    ),
 ]
 
 

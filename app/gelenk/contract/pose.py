@@ -16,6 +16,10 @@ PoseFormat: TypeAlias = Literal[
 ]
 AnswerFormat = Annotated[PoseFormat, Field(description="Notation of the poses in the answer.")]
 ORIENTATIONS = ("quaternion_xyzw", "quaternion_wxyz", "rpy", "zyz", "rotation_vector", "rotation")
+_NO_ORIENTATION = (
+    f"a pose has exactly one orientation of {', '.join(ORIENTATIONS)}; none is given. A `position` alone is a target "
+    "where the request leaves the orientation out: its `task` has none of rx, ry, rz"
+)
 
 MAX_MAGNITUDE = 1e6
 """Largest coordinate, [m], and angle, [rad]: beyond it a double no longer resolves a nanometre."""
@@ -30,6 +34,7 @@ Matrix4 = Annotated[list[Vector4], Field(min_length=4, max_length=4)]
 class Pose(Payload):
     """A pose: `position` with exactly one orientation, or `matrix` alone.
 
+    A target may be a `position` alone where the request's `task` has none of rx, ry, rz.
     An orientation further than 1e-6 from a rotation is refused; a nearer one is projected onto a rotation.
     """
 
@@ -57,7 +62,7 @@ class Pose(Payload):
                 raise ValueError("`matrix` must be given alone, without a position or another orientation")
         elif self.position is None:
             raise ValueError("a pose has a `position`, or a `matrix` alone")
-        elif len(given) != 1:
+        elif len(given) > 1:
             raise ValueError(f"a pose has exactly one orientation of {', '.join(ORIENTATIONS)}; {len(given)} are given")
         return self
 
@@ -69,13 +74,9 @@ class Pose(Payload):
         """Return `transform`, so that `np.array(answer.poses)` is a batch of shape (N, 4, 4)."""
         return self.transform().astype(dtype or np.float64)
 
-    def transform(self) -> Array:
-        """Return T_a_b; shape (4, 4).
-
-        Raises:
-            InvalidPose: The orientation is not a rotation, or the last row of the matrix is not 0 0 0 1.
-        """
-        return transform(np.array(self.origin()), self.orientation())
+    def transform(self, unless_given: Array | None = None) -> Array:
+        """Return T_a_b; shape (4, 4); parameter and errors as for `orientation`."""
+        return transform(np.array(self.origin()), self.orientation(unless_given))
 
     def origin(self) -> list[float]:
         """Return the position, [m]."""
@@ -83,11 +84,14 @@ class Pose(Payload):
             return [row[3] for row in self.matrix[:3]]
         return self.position or []
 
-    def orientation(self) -> Array:
+    def orientation(self, unless_given: Array | None = None) -> Array:
         """Return the rotation matrix; shape (3, 3).
 
+        Args:
+            unless_given: What it is of a position alone; None if there must be an orientation.
+
         Raises:
-            InvalidPose: It is not a rotation, or the last row of the matrix is not 0 0 0 1.
+            InvalidPose: It is not a rotation, it is missing, or the last row of the matrix is not 0 0 0 1.
         """
         if self.matrix is not None:
             if self.matrix[3] != [0.0, 0.0, 0.0, 1.0]:
@@ -110,6 +114,10 @@ class Pose(Payload):
         ):
             if angles is not None:
                 return np.asarray(rotations(np.array([angles]))[0])
+        if self.quaternion_xyzw is None and self.quaternion_wxyz is None:
+            if unless_given is None:
+                raise InvalidPose(_NO_ORIENTATION)
+            return unless_given
         quaternion = self.quaternion_xyzw or np.roll(self.quaternion_wxyz or [], -1)
         return np.asarray(rotations_from_quaternions_xyzw(unit_quaternion(np.array(quaternion))[None])[0])
 

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import cast
 
+import numpy as np
+
 from gelenk.contract.ik import MAX_TRACE, InverseRequest
 from gelenk.errors import InvalidField, TooLarge, counted, quoted
 from gelenk.ik.search.bounds import mid_range
@@ -36,7 +38,7 @@ def parse(
     _check_options(call)
     chain = robot.chain(call.base_frame, call.tip_frame)
     _check_fixed_joints(chain, call)
-    targets = poses_from(call.targets, "targets")
+    targets = poses_from(call.targets, "targets", None if task_of(call).has_rotations else np.eye(3))
     _check_size(call, len(targets), len(chain), bounds)
     return TargetProblem(robot, chain, targets, _seeds(chain, call, len(targets)), options_of(chain, call, time_limit))
 

@@ -17,8 +17,10 @@ from gelenk.robot.notations import (
 from gelenk.robot.poses import ROTATION_TOLERANCE, Poses
 
 
-def poses_from(given: Sequence[Pose] | Array, field: str) -> Poses:
+def poses_from(given: Sequence[Pose] | Array, field: str, unless_given: Array | None = None) -> Poses:
     """Return a batch of poses from payloads, or an array (N, 7), position and quaternion x y z w, or (N, 4, 4).
+
+    `unless_given` is the orientation of a position alone; if it is None, there must be one.
 
     Raises InvalidPose if an orientation is not a rotation, or the last row of a matrix is not 0 0 0 1; InvalidArray for
     another shape; InvalidField for a number that is not finite, or too large.
@@ -28,7 +30,7 @@ def poses_from(given: Sequence[Pose] | Array, field: str) -> Poses:
     positions, rotations = np.empty((len(given), 3)), np.empty((len(given), 3, 3))
     for i, pose in enumerate(given):
         try:
-            positions[i], rotations[i] = pose.origin(), pose.orientation()
+            positions[i], rotations[i] = pose.origin(), pose.orientation(unless_given)
         except InvalidPose as error:
             raise InvalidPose(error.reason, error.distance, field, i) from None
     return Poses(positions, rotations)

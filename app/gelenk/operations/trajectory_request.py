@@ -25,7 +25,7 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import check_limits, configurations, one_configuration
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.words import Law
-from gelenk.trajectory.problem.problem import Following, TrajectoryProblem
+from gelenk.trajectory.problem.problem import OPEN, Following, TrajectoryProblem
 from gelenk.trajectory.problem.problem import Segment as Part
 
 _SHORTEST = 1e-6
@@ -86,6 +86,7 @@ def _task(call: TrajectoryRequest) -> Task:
 def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedLimits) -> Part:
     segment, place = call.segments[index], f"segments.{index}"
     stated = np.array([source == "request" for source in bounds.sources["joint_jerk"]])
+    left_open = None if _task(call).has_rotations else OPEN
     part = Part(
         segment.type,
         _law(call, index),
@@ -96,24 +97,30 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedL
     match segment:
         case JointSegment():
             if isinstance(segment.target, Pose):
-                return replace(part, pose=_matrix(segment.target, f"{place}.target"))
+                anyhow = None if left_open is None else np.eye(3)
+                return replace(part, pose=_matrix(segment.target, f"{place}.target", anyhow))
             return replace(part, configuration=_within(chain, segment.target, f"{place}.target"))
         case LineSegment():
             _check_blend(call.segments, index)
             return replace(
                 part,
-                pose=_matrix(segment.target, f"{place}.target"),
+                pose=_matrix(segment.target, f"{place}.target", left_open),
                 blend_radius=segment.blend_radius or 0.0,
                 blend_acceleration=segment.blend_acceleration,
                 blend_time=segment.blend_time,
                 orientation=segment.orientation,
             )
         case CircleSegment():
-            via, end = _matrix(segment.via, f"{place}.via"), _matrix(segment.target, f"{place}.target")
-            return replace(part, via=via, pose=end, orientation=segment.orientation)
+            return replace(
+                part,
+                via=_matrix(segment.via, f"{place}.via", left_open),
+                pose=_matrix(segment.target, f"{place}.target", left_open),
+                orientation=segment.orientation,
+            )
         case SplineSegment():
             _check_blends(segment, part, place)
-            return _spline(chain, segment, replace(part, boundary=segment.boundary, blends=segment.blends), place)
+            part = replace(part, boundary=segment.boundary, blends=segment.blends)
+            return _spline(chain, segment, part, place, left_open)
 
 
 def _law(call: TrajectoryRequest, index: int) -> Law:
@@ -150,7 +157,7 @@ def _check_blends(segment: SplineSegment, part: Part, place: str) -> None:
         raise InvalidField(f"{place}.boundary", "is of a spline, and with `blends` there is none")
 
 
-def _spline(chain: Chain, segment: SplineSegment, part: Part, place: str) -> Part:
+def _spline(chain: Chain, segment: SplineSegment, part: Part, place: str, left_open: Array | None) -> Part:
     waypoints, field = segment.waypoints, f"{place}.waypoints"
     times = None if segment.times is None else _times(segment, place)
     poses = [one for one in waypoints if isinstance(one, Pose)]
@@ -170,7 +177,7 @@ def _spline(chain: Chain, segment: SplineSegment, part: Part, place: str) -> Par
             f"entry {is_pose.index(True)} is a pose and entry {is_pose.index(False)} a configuration: all are of one "
             "kind, so divide them among two segments",
         )
-    return replace(part, poses=poses_from(poses, field), times=times, orientation=segment.orientation)
+    return replace(part, poses=poses_from(poses, field, left_open), times=times, orientation=segment.orientation)
 
 
 def _times(segment: SplineSegment, place: str) -> Array:
@@ -218,9 +225,9 @@ def _within(chain: Chain, value: Configuration, field: str) -> Array:
     return configuration
 
 
-def _matrix(pose: Pose, field: str) -> Array:
+def _matrix(pose: Pose, field: str, left_open: Array | None) -> Array:
     """Return T_base_tip; shape (4, 4)."""
     try:
-        return pose.transform()
+        return pose.transform(left_open)
     except InvalidPose as error:
         raise replace(error, field=field) from None

@@ -48,6 +48,11 @@ class Task:
         """Number of position directions that count."""
         return len(self.directions) - self._rotations
 
+    @property
+    def has_rotations(self) -> bool:
+        """Whether any part of the orientation counts."""
+        return self._rotations > 0
+
     @cached_property
     def _rotations(self) -> int:
         return sum(direction in self.directions for direction in DIRECTIONS[3:])

@@ -78,13 +78,21 @@ def is_blended(segment: Segment) -> bool:
 def _single(start: Array, segment: Segment) -> tuple[Path, tuple[str, ...]]:
     if segment.poses is not None:
         boundary, notes = _tangent_boundary(segment)
-        ends = (start[None], segment.poses.matrices())
-        poses = Poses(*(np.concatenate([Ts[:, :3, part] for Ts in ends]) for part in (3, slice(3))))
+        poses = _poses(start, *segment.poses.matrices())
         return spline(poses, boundary, segment.orientation), notes
-    end = cast(Array, segment.pose)
     if segment.type == "line":
-        return line(start, end, _turns(np.array([start[:3, :3], end[:3, :3]]), [segment], 0)[0]), ()
-    return circle(start, cast(Array, segment.via), end, segment.orientation), ()
+        _, end = poses = _poses(start, cast(Array, segment.pose)).matrices()
+        return line(start, end, _turns(poses[:, :3, :3], [segment], 0)[0]), ()
+    _, via, end = _poses(start, cast(Array, segment.via), cast(Array, segment.pose)).matrices()
+    return circle(start, via, end, segment.orientation), ()
+
+
+def _poses(*Ts: Array) -> Poses:
+    """Return poses from matrices of shape (4, 4); one whose orientation is open keeps that of the one before."""
+    rotations = [Ts[0][:3, :3]]
+    for T in Ts[1:]:
+        rotations.append(rotations[-1] if np.isnan(T[0, 0]) else T[:3, :3])
+    return Poses(np.array([T[:3, 3] for T in Ts]), np.array(rotations))
 
 
 def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]]:
@@ -99,8 +107,7 @@ def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]
 
 
 def _blended(start: Array, segments: Sequence[Segment], first: int) -> SegmentsPath:
-    Ts = np.array([start, *(segment.pose for segment in segments)])
-    poses = Poses(np.ascontiguousarray(Ts[:, :3, 3]), np.ascontiguousarray(Ts[:, :3, :3]))
+    poses = _poses(start, *(cast(Array, segment.pose) for segment in segments))
     blends = _blends(np.diff(poses.positions, axis=0), segments, first)
     path = blended_lines(poses, [blend.radius for blend in blends], turns=_turns(poses.rotations, segments, first))
     spans = [span for part, span in zip(path.parts, pairwise(path.ends.tolist()), strict=True) if _is_corner(part)]

@@ -19,6 +19,9 @@ from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import Boundary
 from gelenk.trajectory.problem.result import Damping, PlanningFailure, SegmentBlend, TimingComparison
 
+OPEN = np.full((3, 3), np.nan)
+"""Orientation of a pose on a tip path that leaves it open: that of the pose before."""
+
 
 @dataclass(frozen=True, slots=True)
 class SegmentLimits:
