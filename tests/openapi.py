@@ -1,11 +1,18 @@
 """The OpenAPI document of the service as it is set by default, made once for all tests."""
 
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 from gelenk.main import create_app
 from gelenk.settings import Settings
+
+
+def example_of(content: Mapping[str, Any]) -> Any:
+    """The first example of a body, which suits those of the parameters; None if it has none."""
+    given = [one["value"] for one in content.get("examples", {}).values()]
+    return content.get("example", given[0] if given else None)
 
 
 @cache

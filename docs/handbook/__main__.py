@@ -9,6 +9,7 @@ from sphinx.cmd.build import build_main
 
 from docs.handbook import site
 from docs.handbook.committed import renew
+from docs.handbook.examples import renew_examples
 from docs.handbook.session import end_service
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -22,7 +23,8 @@ def main() -> None:
     parser.add_argument("--write", action="store_true", help="write what the calls give into the pages")
     arguments = parser.parse_args()
     pages = arguments.pages
-    found = list(renew([Path(page) for page in pages] or sorted(Path("docs").rglob("*.md")), arguments.write))
+    found = [] if pages else list(renew_examples(arguments.write))  # which the pages of the reference show
+    found += list(renew([Path(page) for page in pages] or sorted(Path("docs").rglob("*.md")), arguments.write))
     end_service()
     if found:
         sys.exit("\n".join(found))

@@ -119,8 +119,14 @@ def _bodies(entry: Entry, objects: Objects) -> Iterator[str]:
             yield fields(f"{entry.id}_form", schema, objects)
         else:
             yield f"**Takes** `{media}`: {schema['description']}"
-        if "example" in content:
-            yield f"```json\n{compact(content['example'])}\n```"
+        yield from (f"```json\n{compact(example)}\n```" for example in examples(content))
+
+
+def examples(content: Mapping[str, Any]) -> list[Any]:
+    """Those of a body, the one that runs on the robot of the path's example first."""
+    if "example" in content:
+        return [content["example"]]
+    return [example["value"] for example in content.get("examples", {}).values()]
 
 
 def compact(value: Any, indent: int = 0) -> str:

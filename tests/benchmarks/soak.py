@@ -18,6 +18,7 @@ from urllib.request import urlopen
 
 from tests.benchmarks.load import FK, memory, serving
 from tests.benchmarks.table import Row
+from tests.openapi import example_of
 
 CLIENTS = 4
 PAUSE_SECONDS = 0.02
@@ -95,8 +96,8 @@ def requests_of(url: str) -> list[Asked]:
         for method, operation in methods.items():
             content = operation.get("requestBody", {}).get("content", {}).get("application/json", {})
             robot = "my_arm" if method == "put" else ROBOT
-            if "example" in content:
-                found.append(Asked(method.upper(), path.format(robot=robot), json.dumps(content["example"]).encode()))
+            if (example := example_of(content)) is not None:
+                found.append(Asked(method.upper(), path.format(robot=robot), json.dumps(example).encode()))
             elif method == "get" and not {"{job}", "{path}"} & set(path.split("/")):
                 found.append(Asked("GET", path.format(robot=robot), None))
     return found

@@ -23,7 +23,7 @@ from gelenk.client.operations import Operations
 from gelenk.client.refusals import Refused
 from tests.cli.conftest import Shell
 from tests.client.test_operations import NAMES as METHODS
-from tests.openapi import document
+from tests.openapi import document, example_of
 from tests.test_serve import get
 
 NAMES = {**METHODS, "watch_job": "watch", "get_job_result": "workspace_result"}
@@ -67,7 +67,7 @@ def questions() -> Iterator[Question]:
                 example = next(iter(parameter["examples"].values()))["value"]
                 given[parameter["in"]][parameter["name"]] = example
             content = operation.get("requestBody", {}).get("content", {}).get("application/json", {})
-            body = content.get("example", {})
+            body = example_of(content) or {}
             yield Question(operation["operationId"], method.upper(), path, given["path"], given["query"], body)
 
 

@@ -22,6 +22,7 @@ from schemathesis.specs.openapi.checks import (
 from starlette.testclient import TestClient
 
 from tests.corpus import npy, zips
+from tests.openapi import example_of
 from tests.robots import robot
 
 _OF_ALL = (
@@ -122,7 +123,7 @@ def make_real(case: Any, data: st.DataObject) -> None:
             case.body = _near_example(case, data)
         elif "robot" in {*case.body, *case.path_parameters}:
             case.body = _real(case.body, chain, data)
-        if "job_id" in _content(case)["example"]:
+        if "job_id" in example_of(_content(case)):
             case.body |= {"samples": data.draw(st.integers(1, 500)), "job_id": NEW_JOB}
 
 
@@ -135,7 +136,7 @@ def _content(case: Any) -> dict[str, Any]:
 def _near_example(case: Any, data: st.DataObject) -> dict[str, Any]:
     """The example of an operation, with at most two fields as they were generated."""
     kept = data.draw(st.sets(st.sampled_from(sorted(case.body)), max_size=2)) if case.body else set()
-    return {**_content(case)["example"], **{name: case.body[name] for name in kept}}
+    return {**example_of(_content(case)), **{name: case.body[name] for name in kept}}
 
 
 def _real(value: Any, chain: Chain, data: st.DataObject) -> Any:

@@ -18,6 +18,7 @@ from pydantic import TypeAdapter
 from starlette.testclient import TestClient
 
 from tests.http.test_openapi import OPERATIONS
+from tests.openapi import example_of
 
 TOLERANCE = 1e-9
 """Of RᵀR - I, entry by entry, and of the length of a quaternion or an axis."""
@@ -100,7 +101,7 @@ def test_the_answers_to_all_examples(client: TestClient) -> None:
         for parameter in operation.get("parameters", []):
             example = str(next(iter(parameter["examples"].values()))["value"])
             path = path.replace(f"{{{parameter['name']}}}", example)  # noqa: PLW2901
-        body = operation.get("requestBody", {}).get("content", {}).get("application/json", {}).get("example")
+        body = example_of(operation.get("requestBody", {}).get("content", {}).get("application/json", {}))
         query = {"finished": "remove"} if operation["operationId"] == "cancel_job" else None
         answer = client.request(method, path, params=query, json=body)
         assert answer.status_code < 300, answer.text

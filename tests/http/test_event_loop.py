@@ -23,6 +23,7 @@ from gelenk.http.messages.payloads import NPY
 from gelenk.main import create_app
 from gelenk.settings import Settings
 from tests.http.test_openapi import OPERATIONS
+from tests.openapi import example_of
 from tests.test_connections import HOST, served
 
 LONGEST = 2e-3
@@ -92,7 +93,7 @@ def test_every_example(client: TestClient, longest_step: Steps) -> None:
             path = path.replace(f"{{{parameter['name']}}}", example)  # noqa: PLW2901
             if parameter["in"] == "query":
                 query[parameter["name"]] = example
-        body = operation.get("requestBody", {}).get("content", {}).get("application/json", {}).get("example")
+        body = example_of(operation.get("requestBody", {}).get("content", {}).get("application/json", {}))
         ask = lambda: client.request(method, path, params=query, json=body)  # noqa: B023, E731
         steps[f"{method} {path}"] = best(longest_step, ask)
     assert {name: seconds for name, seconds in steps.items() if seconds > LONGEST} == {}

@@ -18,9 +18,10 @@ from tests.corpus.judging import MAX_SECONDS, complaints
 from tests.corpus.npy import GOOD_NPY, REFUSED_NPY, GoodNpy, RefusedNpy
 from tests.corpus.zips import ODD_ZIPS, REFUSED_ZIPS, OddZip, RefusedZip
 from tests.http.test_openapi import OPERATIONS
+from tests.openapi import example_of
 
 JSON_OPERATIONS = [
-    (method.upper(), path, operation["requestBody"]["content"]["application/json"]["example"])
+    (method.upper(), path, example_of(operation["requestBody"]["content"]["application/json"]))
     for path, method, operation in OPERATIONS
     if "application/json" in operation.get("requestBody", {}).get("content", {})
 ]

@@ -1,5 +1,6 @@
 """The schema is complete: each operation has a summary, an id, and an example that runs; no page names another host."""
 
+import json
 import re
 from typing import Any
 
@@ -7,9 +8,13 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
+from docs.handbook.written import same
+from gelenk.contract.endpoint import Endpoint, RobotEndpoint
+from gelenk.contract.endpoints import ENDPOINTS as ALL_ENDPOINTS
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS
+from gelenk.http.messages.openapi import EXAMPLES
 from tests.corpus import npy
-from tests.openapi import document
+from tests.openapi import document, example_of
 
 Operation = tuple[str, str, dict[str, Any]]
 _ORDER = {"post": 0, "get": 1, "put": 2, "delete": 3}
@@ -22,6 +27,7 @@ def operations() -> list[Operation]:
 
 
 OPERATIONS = operations()
+ENDPOINTS = [endpoint for endpoint in ALL_ENDPOINTS if isinstance(endpoint, RobotEndpoint)]
 
 
 @pytest.mark.parametrize(("path", "method", "operation"), OPERATIONS, ids=[f"{o[1]} {o[0]}" for o in OPERATIONS])
@@ -61,9 +67,27 @@ def test_every_example_runs_as_it_stands(client: TestClient) -> None:
             if parameter["in"] == "query":
                 query[parameter["name"]] = example
         body = operation.get("requestBody", {}).get("content", {}).get("application/json", {})
-        answer = client.request(method, path, params=query, json=body.get("example"))
+        answer = client.request(method, path, params=query, json=example_of(body))
         assert answer.status_code < 300, f"{method} {path}: {answer.text}"
         assert str(answer.status_code) in operation["responses"]
+
+
+@pytest.mark.parametrize("endpoint", ENDPOINTS, ids=lambda endpoint: endpoint.name)
+def test_each_operation_on_a_robot_has_the_course_s_arm_as_an_example_with_its_answer(
+    client: TestClient, endpoint: Endpoint[Any, Any]
+) -> None:
+    path = f"/{endpoint.path}"
+    operation = document()["paths"][path]["post"]
+    content = operation["requestBody"]["content"]["application/json"]["examples"]
+    answer = client.post(path.format(robot="planar_2r"), json=content["planar_2r"]["value"])
+    assert answer.status_code == (202 if endpoint.is_job else 200), answer.text
+    if not endpoint.is_job:
+        shown = operation["responses"]["200"]["content"]["application/json"]["examples"]["planar_2r"]["value"]
+        assert same(json.dumps(shown), json.dumps(answer.json())), "./dev handbook --write"
+
+
+def test_the_examples_add_little_to_the_document() -> None:
+    assert EXAMPLES.stat().st_size < 0.05 * len(json.dumps(document()))
 
 
 def query_examples(field: dict[str, Any]) -> list[Any]:
@@ -112,7 +136,7 @@ def test_what_the_schema_has_for_a_query_beside_an_array_can_stand_there(client:
                     name
                 )
                 asked += 1
-            as_json = content["application/json"]["example"]
+            as_json = example_of(content["application/json"])
             assert client.post(address, params={name: "true"}, json=as_json).status_code == 422
     assert asked > 80
 
@@ -159,7 +183,7 @@ def test_every_operation_on_a_robot_bounds_its_configurations() -> None:
     bounds = {}
     for path, _, operation in OPERATIONS:
         body = operation.get("requestBody", {}).get("content", {}).get("application/json")
-        if "{robot}" in path and body and "joint_positions" in body["example"]:
+        if "{robot}" in path and body and "joint_positions" in example_of(body):
             request = schemas[body["schema"]["$ref"].rpartition("/")[2]]
             bounds[path] = request["properties"]["joint_positions"]["maxItems"]
     assert len(bounds) == 7

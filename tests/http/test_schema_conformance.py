@@ -18,7 +18,7 @@ from starlette.testclient import TestClient
 
 from tests.corpus import dh
 from tests.http.schema_cases import CHECKS, JOB, NEW_JOB, UPLOADED, make_real, sent
-from tests.openapi import document
+from tests.openapi import document, example_of
 
 SCHEMA = schemathesis.openapi.from_dict(document())
 OPERATIONS: list[Any] = [found.ok() for found in SCHEMA.get_all_operations()]  # type: ignore[union-attr]
@@ -81,7 +81,8 @@ def test_the_schema_allows_its_own_examples() -> None:
         content = operation.definition.raw.get("requestBody", {}).get("content", {}).get("application/json")
         if content is not None:
             schema = {**content["schema"], "components": SCHEMA.raw_schema["components"]}
-            jsonschema_rs.validator_for(schema).validate(content["example"])
+            for example in [example_of(content), *(one["value"] for one in content.get("examples", {}).values())]:
+                jsonschema_rs.validator_for(schema).validate(example)
 
 
 @pytest.mark.quick(2)

@@ -1,5 +1,7 @@
 """Parts of the OpenAPI document that FastAPI cannot read from signatures: problems, npy bodies, examples."""
 
+import json
+import pathlib
 from collections.abc import Iterable, Mapping
 from copy import deepcopy
 from http import HTTPStatus
@@ -18,7 +20,13 @@ from gelenk.contract.resources import RESOURCES
 from gelenk.http.messages.payloads import CSV, JSON, MULTIPART, NPY, PNG, SVG
 from gelenk.http.messages.problems import MEDIA_TYPE
 
-RobotPath = Annotated[str, Path(description="Name of a robot.", openapi_examples={"panda": {"value": "panda"}})]
+RobotPath = Annotated[
+    str,
+    Path(
+        description="Name of a robot.",
+        openapi_examples={"panda": {"value": "panda"}, "planar_2r": {"value": "planar_2r"}},
+    ),
+]
 UploadedRobotPath = Annotated[
     str, Path(description="Name of an uploaded robot.", openapi_examples={"my_planar_arm": {"value": "my_planar_arm"}})
 ]
@@ -59,6 +67,11 @@ _NAMED: dict[str, tuple[dict[str, Any], str]] = {
 """Schemas used in many places, each described once under its name."""
 
 _RESOURCES = {resource.name: resource for resource in RESOURCES}
+EXAMPLES = pathlib.Path(__file__).with_name("planar_2r.json")
+"""A request of each operation on a robot for the course's two-link arm, with its answer, made by `./dev handbook`."""
+_ON_PLANAR_2R = json.loads(EXAMPLES.read_text(encoding="utf-8"))
+_TITLES = {"panda": "Panda", "planar_2r": "Two-link arm (robot: planar_2r)"}
+
 _SCHEME = {
     "type": "http",
     "scheme": "bearer",
@@ -212,6 +225,7 @@ def describe(app: FastAPI, has_keys: bool) -> None:
                     for parameter in operation.get("parameters", ()):
                         _without_null(parameter["schema"])
                     _add_refusals(operation, has_keys)
+                    _add_examples(operation)
             app.openapi_schema = schema
         return app.openapi_schema
 
@@ -253,6 +267,20 @@ def _add_refusals(operation: dict[str, Any], has_keys: bool) -> None:
         statuses.append(HTTPStatus.UNAUTHORIZED)
     for status, response in problem_responses(*statuses).items():
         operation["responses"].setdefault(str(int(status)), response)
+
+
+def _add_examples(operation: dict[str, Any]) -> None:
+    """Add the examples on the two-link arm; here because FastAPI leaves out what is null in an answer."""
+    route = ROUTES[operation["operationId"]]
+    if isinstance(route, RobotEndpoint) and (small := _ON_PLANAR_2R.get(route.name)):
+        body = operation["requestBody"]["content"][JSON]
+        body["examples"] = _examples(panda=body.pop("example"), planar_2r=small["request"])
+        if "answer" in small:
+            operation["responses"]["200"]["content"][JSON]["examples"] = _examples(planar_2r=small["answer"])
+
+
+def _examples(**values: Any) -> dict[str, Any]:
+    return {name: {"summary": _TITLES[name], "value": value} for name, value in values.items()}
 
 
 def _replace_validation_error(operation: dict[str, Any]) -> None:

@@ -1,0 +1,33 @@
+"""The examples on the two-link arm in the service's schema: their requests are written there, their answers made."""
+
+import json
+from collections.abc import Iterator
+
+from docs.handbook.operations import compact
+from docs.handbook.session import service
+from docs.handbook.written import same
+from gelenk.client.call import Call
+from gelenk.contract.endpoints import BY_NAME
+from gelenk.http.messages.openapi import EXAMPLES
+
+
+def made() -> str:
+    """The file of examples with every answer made anew; a job has none."""
+    found = json.loads(EXAMPLES.read_text(encoding="utf-8"))
+    for name, example in found.items():
+        if not BY_NAME[name].is_job:
+            body = json.dumps(example["request"]).encode()
+            call = Call("POST", f"v1/robots/planar_2r/{name}", lambda response: json.loads(response.content), body=body)
+            example["answer"] = service().send(call)
+    return compact(found) + "\n"
+
+
+def renew_examples(write: bool) -> Iterator[str]:
+    """What is wrong with the file, in a sentence, unless it can be written."""
+    text = made()
+    if same(EXAMPLES.read_text(encoding="utf-8"), text):
+        return
+    if write:
+        EXAMPLES.write_text(text, encoding="utf-8")
+    else:
+        yield f"{EXAMPLES.name} is not current: ./dev handbook --write"
