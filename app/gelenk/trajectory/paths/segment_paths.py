@@ -81,8 +81,8 @@ def _single(start: Array, segment: Segment) -> tuple[Path, tuple[str, ...]]:
         poses = _poses(start, *segment.poses.matrices())
         return spline(poses, boundary, segment.orientation), notes
     if segment.type == "line":
-        _, end = poses = _poses(start, cast(Array, segment.pose)).matrices()
-        return line(start, end, _turns(poses[:, :3, :3], [segment], 0)[0]), ()
+        poses = _poses(start, cast(Array, segment.pose))
+        return line(start, poses.matrices()[1], _turns(poses.rotations, [segment], 0)[0]), ()
     _, via, end = _poses(start, cast(Array, segment.via), cast(Array, segment.pose)).matrices()
     return circle(start, via, end, segment.orientation), ()
 
