@@ -120,7 +120,8 @@ def levers_figure(points: Array, force: Sequence[float], torques: Sequence[float
         sketch.label(rf"$F$ = {size:.4g} N", head, along, color=style.FORCE)
     for i, (joint, foot) in enumerate(zip(points[:-1], feet, strict=True)):
         unit = "N" if slides[i] else "N m"
-        sketch.label(rf"$\tau_{{{i + 1}}}$ = {torques[i]:.4g} {unit}", joint, joint - points[-1])
+        torque = f"{torques[i]:.4g} {unit}".replace("-", "−")
+        sketch.label(rf"$\tau_{{{i + 1}}}$ = {torque}", joint, joint - points[-1])
         lever = float(np.linalg.norm(foot - joint))
         if not slides[i] and lever > 1e-6 * length and size > 0.0:
             sketch.line([joint, foot], color=style.VELOCITY, dashes=DASHED)
