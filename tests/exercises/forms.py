@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.common import as_lists
+from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.fields import (
-    AnswerField,
     BasisField,
     ChoiceField,
     MatrixField,

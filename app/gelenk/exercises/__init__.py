@@ -1,10 +1,11 @@
 """Exercises that grade themselves: drawn from a seed, solved by the core, wrong models computed as well.
 
 - `catalogue`: all of them. `lectures`: the exercises of each lecture. `exercise`: what one is, and its variants.
-- `draw`: random numbers that stay the same. `fields`: what is asked for, and when two answers are the same.
+- `draw`: random numbers that stay the same. `fields`: when two answers are the same; `answer_field`: their base.
 - `grading`: points, and the names of mistakes. `mistakes`: what these mean.
 
-To add an exercise, declare an `Exercise` in `lectures/<lecture>.py` and list it in `EXERCISES` there. Its functions
+To add an exercise, declare an `Exercise` in `lectures/<lecture>.py`, or in a folder of that name, and list it in
+`EXERCISES` there. Its functions
 take the numbers of a variant, most simply a `NamedTuple`; `draw` makes them with `Draw` alone, and the text shows each
 of them in full. `solve` calls the core; `wrong` has, by its code, what each mistake would answer, computed from the
 same numbers. Codes that are new get a sentence in `mistakes/<lecture>.py`. Nothing has to be said about mistakes that

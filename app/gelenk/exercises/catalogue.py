@@ -1,4 +1,4 @@
-"""All exercises: those of each module in `lectures` that there is, in the order of the course."""
+"""All exercises, in the order of the course: `EXERCISES` of each module in `lectures` and in the folders below it."""
 
 import pkgutil
 from functools import cache
@@ -27,11 +27,15 @@ LECTURES = (
 
 @cache
 def exercises() -> dict[str, Exercise[Any]]:
-    """Return all exercises by id, by lectures in the order of the course."""
-    names = [module.name for module in pkgutil.iter_modules(lectures.__path__)]
-    names.sort(key=lambda name: (LECTURES.index(name) if name in LECTURES else len(LECTURES), name))
-    modules = [import_module(f"{lectures.__name__}.{name}") for name in names]
-    return {one.id: one for module in modules for one in module.EXERCISES}
+    """Return all exercises by id, by lectures in the order of the course, the easier ones first."""
+    names = (module.name for module in pkgutil.walk_packages(lectures.__path__, f"{lectures.__name__}."))
+    found = [one for name in names for one in getattr(import_module(name), "EXERCISES", ())]
+    return {one.id: one for one in sorted(found, key=_place)}
+
+
+def _place(one: Exercise[Any]) -> tuple[int, str, int, str]:
+    known = LECTURES.index(one.lecture) if one.lecture in LECTURES else len(LECTURES)
+    return known, one.lecture, one.difficulty, one.id
 
 
 def exercise(name: str) -> Exercise[Any]:

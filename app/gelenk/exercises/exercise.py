@@ -8,8 +8,8 @@ from typing import Any, Generic, TypeAlias, TypeVar
 from matplotlib.figure import Figure
 
 from gelenk.course.steps import Step
+from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.draw import Draw
-from gelenk.exercises.fields import AnswerField
 
 N = TypeVar("N")
 Answers: TypeAlias = Mapping[str, Any]

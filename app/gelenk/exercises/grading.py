@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from gelenk.errors import InvalidField, listed, quoted
+from gelenk.exercises.answer_field import AnswerField, Unreadable
 from gelenk.exercises.exercise import Variant
-from gelenk.exercises.fields import AnswerField, SetField, Unreadable
+from gelenk.exercises.fields import SetField
 from gelenk.exercises.mistakes.catalogue import Mistake, mistake
 
 

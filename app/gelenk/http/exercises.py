@@ -9,9 +9,9 @@ from starlette.responses import Response
 
 from gelenk.contract.common import as_lists
 from gelenk.contract.exercises import ExerciseGradeRequest, ExerciseRequest
+from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.catalogue import exercise, exercises
 from gelenk.exercises.exercise import Variant
-from gelenk.exercises.fields import AnswerField
 from gelenk.exercises.grading import graded
 from gelenk.http.messages.openapi import documentation
 from gelenk.http.messages.payloads import JSON, BoundedRequest, json_response, read_json

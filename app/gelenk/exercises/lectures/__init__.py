@@ -1,1 +1,1 @@
-"""The exercises of each lecture, one module each; `EXERCISES` holds them."""
+"""The exercises of each lecture: a module, or a folder of modules if that would be long; `EXERCISES` holds them."""
