@@ -1,6 +1,6 @@
 """Calls on stored robots and jobs, and on the service itself."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, TypeVar
@@ -43,6 +43,9 @@ def table(
     base_frame: str | None = None,
     tip_frame: str | None = None,
     snap_tolerance: float | None = None,
+    steps: bool = False,
+    language: Literal["en", "de"] = "en",
+    column_order: Sequence[Literal["a", "alpha", "d", "theta"]] | None = None,
 ) -> Call[FromUrdfAnswer]:
     """A chain of a robot as a Denavit-Hartenberg table, with its certificate.
 
@@ -52,8 +55,13 @@ def table(
         base_frame: Base of the chain; the default chain's if left out.
         tip_frame: Tip of the chain; the default chain's if left out.
         snap_tolerance: Tolerance within which numbers are rounded to plain ones, [rad or m]; no rounding if left out.
+        steps: Whether to show how the frames are placed.
+        language: Language of the steps.
+        column_order: Order of the columns of the table in the steps; a, alpha, d, theta if left out.
     """
-    chosen = {"base_frame": base_frame, "tip_frame": tip_frame, "snap_tolerance": snap_tolerance}
+    chosen: dict[str, Any] = {"base_frame": base_frame, "tip_frame": tip_frame, "snap_tolerance": snap_tolerance}
+    if steps:
+        chosen |= {"steps": True, "language": language, "column_order": column_order}
     query = query_of({"convention": convention, **chosen})
     return Call("GET", f"v1/robots/{segment(robot)}/dh", reader(FromUrdfAnswer), query)
 

@@ -2,12 +2,12 @@
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload
-from gelenk.contract.dh import EXAMPLE_TABLE, Convention, DhTablePayload, TableCertificate
+from gelenk.contract.common import Answer
+from gelenk.contract.dh import EXAMPLE_TABLE, Convention, DhTablePayload, InColumns, TableCertificate, TableSteps
 from gelenk.contract.endpoint import Endpoint
 
 
-class ConvertRequest(Payload):
+class ConvertRequest(InColumns):
     """A table, and the convention to write it in."""
 
     dh: DhTablePayload
@@ -20,6 +20,7 @@ class ConvertAnswer(Answer):
     dh: DhTablePayload = Field(description="A valid request's `dh`; base and tool left out where the identity.")
     joint_names: list[str] = Field(description="The variables, base to tip: the order of a configuration.")
     certificate: TableCertificate = Field(description="Both tables, as URDF, through Pinocchio.")
+    steps: TableSteps
 
 
 ENDPOINT = Endpoint(

@@ -7,8 +7,11 @@ import numpy as np
 from pydantic import Field
 
 from gelenk.contract.common import Answer, Payload
+from gelenk.contract.options import WithSteps
 from gelenk.contract.pose import Pose
-from gelenk.errors import InvalidPose
+from gelenk.course.steps import Step
+from gelenk.dh.table_steps import COLUMNS, Column
+from gelenk.errors import InvalidField, InvalidPose
 from gelenk.robot.arrays import Array
 from gelenk.robot.description import Mimic
 from gelenk.robot.dh import MAX_JOINTS, MAX_SNAP_TOLERANCE, DhJoint, DhTable
@@ -118,6 +121,32 @@ SnapTolerance = Annotated[
         "The certificate gives the resulting error. At 0 the table is exact, except for axes that `notes` lists as "
         "taken to be parallel.",
     ),
+]
+
+
+class InColumns(WithSteps):
+    """Asks for steps, and for an order of the columns of the tables in them."""
+
+    column_order: Annotated[
+        list[Column],
+        Field(
+            min_length=len(COLUMNS),
+            max_length=len(COLUMNS),
+            json_schema_extra={"uniqueItems": True},
+            description="Order of the columns in the tables of `steps`, such as a, d, alpha, theta; each once.",
+        ),
+    ] = list(COLUMNS)  # noqa: RUF012
+
+    @property
+    def columns(self) -> list[Column]:
+        """The order; raises InvalidField if a column is there twice."""
+        if set(self.column_order) != set(COLUMNS):
+            raise InvalidField("column_order", f"each of {', '.join(COLUMNS)} must be there once")
+        return self.column_order
+
+
+TableSteps = Annotated[
+    list[Step] | None, Field(description="The way to the table, with its numbers; null unless `steps` asks for it.")
 ]
 
 

@@ -3,11 +3,19 @@
 from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, Strict
-from gelenk.contract.dh import EXAMPLE_URDF, Convention, DhTablePayload, SnapTolerance, TableCertificate
+from gelenk.contract.dh import (
+    EXAMPLE_URDF,
+    Convention,
+    DhTablePayload,
+    InColumns,
+    SnapTolerance,
+    TableCertificate,
+    TableSteps,
+)
 from gelenk.contract.endpoint import Endpoint
 
 
-class FromUrdfOptions(ChainOptions):
+class FromUrdfOptions(ChainOptions, InColumns):
     """The chain of a robot, and options of its table."""
 
     convention: Convention = "standard"
@@ -31,6 +39,7 @@ class FromUrdfAnswer(Answer):
     certificate: TableCertificate = Field(description="The table's own product against the robot through Pinocchio.")
     notes: list[str] = Field(description="What was chosen where the convention leaves a choice.")
     warnings: list[str] = Field(description="Oddities of the description that were accepted.")
+    steps: TableSteps
 
 
 ENDPOINT = Endpoint(
@@ -46,6 +55,9 @@ ENDPOINT = Endpoint(
     Axes in any direction, fixed joints between them, continuous, prismatic and mimic joints, and chains that lead
     up the tree are all supported: base and tool absorb what the rows cannot express. A table is not unique; `notes`
     lists what was chosen where the convention leaves a choice.
+
+    With `steps` the exercise of the lecture: how each Denavit-Hartenberg frame is placed, whether its axes are skew,
+    intersecting, parallel or on one line, its common normal, and how a, α, d and the offset of ϑ follow.
 
     The common normal of nearly parallel axes can be kilometres away, as where a description writes π as 3.1416.
     Where a length would be beyond ten times the reach, such axes are taken as parallel if that costs less than

@@ -5,6 +5,7 @@ from typing import Any
 
 from gelenk.contract.convert_dh import ConvertRequest
 from gelenk.contract.dh import table_content
+from gelenk.dh.table_steps import conversion_steps
 from gelenk.dh.tables.convert import converted
 from gelenk.kinematics.judge.tables import certify_conversion
 from gelenk.operations.outcome import Outcome
@@ -27,4 +28,5 @@ def _convert(call: ConvertRequest) -> dict[str, Any]:
         "dh": table_content(other),
         "joint_names": other.variables,
         "certificate": asdict(certify_conversion(table, other)),
+        "steps": conversion_steps(table, other, call.columns) if call.steps else None,
     }

@@ -6,6 +6,7 @@ from typing import Any
 from gelenk.contract.dh import table_content
 from gelenk.contract.dh_from_urdf import FromUrdfOptions, FromUrdfRequest
 from gelenk.dh.compare.of_chain import dh_of_chain
+from gelenk.dh.placing import placing_steps
 from gelenk.operations.outcome import Outcome
 from gelenk.robot.robot import RobotModel
 from gelenk.robot.urdf import read_urdf
@@ -38,4 +39,5 @@ def table_answer(robot: RobotModel, options: FromUrdfOptions, warnings: tuple[st
         "certificate": asdict(certificate),
         "notes": notes,
         "warnings": warnings,
+        "steps": placing_steps(chain, table, options.columns) if options.steps else None,
     }

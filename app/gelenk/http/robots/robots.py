@@ -13,6 +13,7 @@ from gelenk.contract.common import FrameName
 from gelenk.contract.dh import Convention, SnapTolerance
 from gelenk.contract.dh_from_urdf import FromUrdfOptions
 from gelenk.contract.robots import ArchiveReplacement, NewArchive, NewRobot, RobotReplacement
+from gelenk.dh.table_steps import COLUMNS, Column
 from gelenk.errors import InvalidArchive
 from gelenk.http.messages.openapi import RobotPath, UploadedRobotPath, documentation
 from gelenk.http.messages.payloads import JSON, MULTIPART, BoundedRequest, json_response, read_json, read_query
@@ -22,6 +23,8 @@ from gelenk.http.robots.info import info
 from gelenk.http.robots.meshes import SANDBOXED, mesh_response
 from gelenk.http.workers.pool_client import PoolClient
 from gelenk.http.workers.task import Context, TaskRequest, buffers
+from gelenk.language import Language
+from gelenk.language import language as speaking
 from gelenk.operations.dh_from_urdf import table_answer
 from gelenk.store.archive import unpacked
 from gelenk.store.folders import writing
@@ -29,6 +32,8 @@ from gelenk.store.library import Library, RobotUpload
 
 WITHOUT_KEY = "clients without a key"
 """Owner of uploads without a key: addresses change, and where no key is needed all clients share one machine."""
+_EXAMPLE_STEPS: dict[str, Any] = {"without": {"value": False}}
+_ORDER: dict[str, Any] = {"as usual": {"value": list(COLUMNS)}}
 _PIECE = 256 * 1024
 _LIST_SECONDS = 5.0
 """How long the list of robots is cached if nothing shows that it has changed, as after an edit by hand, [s]."""
@@ -100,6 +105,16 @@ def documented_routes(pool_client: PoolClient, max_body_bytes: int) -> list[Docu
         base_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link0"}})] = None,
         tip_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link8"}})] = None,
         snap_tolerance: Annotated[SnapTolerance, Query(openapi_examples={"exact": {"value": 0.0}})] = 0.0,
+        steps: Annotated[
+            bool, Query(description="Whether to show how the frames are placed.", openapi_examples=_EXAMPLE_STEPS)
+        ] = False,
+        language: Annotated[
+            Language, Query(description="Of `steps`.", openapi_examples={"en": {"value": "en"}})
+        ] = "en",
+        column_order: Annotated[
+            list[Column] | None,
+            Query(description="Of the table in `steps`; a, alpha, d, theta if left out.", openapi_examples=_ORDER),
+        ] = None,
     ) -> Any: ...
 
     async def get_table(request: BoundedRequest) -> Response:
@@ -206,4 +221,5 @@ def _urdf(context: Context, task_request: TaskRequest) -> Response:
 def _robot_table(context: Context, task_request: TaskRequest) -> Response:
     options = read_query(FromUrdfOptions, QueryParams(task_request.query))
     loaded = context.library.get(task_request.robot)
-    return json_response(table_answer(loaded.robot, options, loaded.warnings))
+    with speaking(options.language):
+        return json_response(table_answer(loaded.robot, options, loaded.warnings))

@@ -1,0 +1,84 @@
+"""DH tables in steps: the rows as the lecture writes them, columns in any order, and how a table changes convention."""
+
+import math
+from collections.abc import Sequence
+from typing import Literal, TypeAlias
+
+from gelenk.course.steps import Step, step, tex
+from gelenk.dh.derive.typeset import multiple_of_pi
+from gelenk.language import translated as _
+from gelenk.robot.arrays import Array
+from gelenk.robot.dh import DhTable
+
+Column: TypeAlias = Literal["a", "alpha", "d", "theta"]
+
+COLUMNS: tuple[Column, ...] = ("a", "alpha", "d", "theta")
+HEADS = {"a": "a", "alpha": r"\alpha", "d": "d", "theta": r"\vartheta"}
+_DECIMALS = 9
+
+
+def table_array(table: DhTable, columns: Sequence[Column] = COLUMNS) -> str:
+    """Return a table in LaTeX, columns in this order, with the variable q_i in each row."""
+    link = "i" if table.convention == "standard" else "i-1"
+    heads = [rf"{HEADS[column]}_{{{link if column in ('a', 'alpha') else 'i'}}}" for column in columns]
+    lines = []
+    for i, row in enumerate(table.joints, start=1):
+        values = {name: rounded(getattr(row, name)) for name in COLUMNS}
+        cells = {name: tex(value) if name in ("a", "d") else angle_text(value) for name, value in values.items()}
+        variable: Column = "theta" if row.type == "revolute" else "d"
+        cells[variable] = with_variable(i, values[variable], cells[variable])
+        lines.append(" & ".join((str(i), *(cells[column] for column in columns))))
+    head = " & ".join(("i", *heads))
+    return rf"\begin{{array}}{{c|cccc}} {head} \\ \hline " + r" \\ ".join(lines) + r" \end{array}"
+
+
+def conversion_steps(table: DhTable, other: DhTable, columns: Sequence[Column] = COLUMNS) -> list[Step]:
+    """Return how a table is written in the other convention; a table in its own convention only appears."""
+    steps = [step(_("The given table"), _("Each row has the variable of its joint."), table_array(table, columns))]
+    if table.convention == other.convention:
+        return steps
+    standard = r"A^{i-1}_i = R_z(\vartheta_i)\, T_z(d_i)\, T_x(a_i)\, R_x(\alpha_i)"
+    modified = r"A^{i-1}_i = R_x(\alpha_{i-1})\, T_x(a_{i-1})\, R_z(\vartheta_i)\, T_z(d_i)"
+    text = _(
+        "Both conventions multiply the same factors and only cut the product at other places: a standard row ends with "
+        "a and α of its link, a modified row begins with those of the link before. So a and α move by one row, d and ϑ "
+        "stay; what has no row at the one end goes into the base or the tool."
+    )
+    rows = other.joints if other.convention == "standard" else table.joints
+    moved = [
+        rf"a_{{{i}}} = {number(row.a)},\quad \alpha_{{{i}}} = {angle_text(rounded(row.alpha))}"
+        for i, row in enumerate(rows, start=1)
+    ]
+    shift = step(_("Where a and α belong"), text, standard, modified, *moved)
+    result = _("In the modified convention the indices of a and α are those of the link before the joint.")
+    return [*steps, shift, step(_("The table in the other convention"), result, table_array(other, columns))]
+
+
+def with_variable(i: int, value: float, text: str) -> str:
+    """Write q_i, plus a value that is not zero."""
+    if value == 0.0:
+        return rf"q_{{{i}}}"
+    return rf"q_{{{i}}} - {text[1:]}" if text.startswith("-") else rf"q_{{{i}}} + {text}"
+
+
+def rounded(value: float) -> float:
+    """Return a number without what rounding has left; never -0."""
+    return round(value, _DECIMALS) + 0.0
+
+
+def number(value: float) -> str:
+    """Write a number without what rounding has left."""
+    return tex(rounded(value))
+
+
+def vector(numbers: Array) -> str:
+    """Write a vector as a row."""
+    entries = r",\, ".join(number(float(value)) for value in numbers)
+    return rf"\left({entries}\right)"
+
+
+def angle_text(value: float) -> str:
+    """Return an angle as a multiple of π if it is one up to the shown digits, else in radians."""
+    known = multiple_of_pi(round(value * 12 / math.pi) * math.pi / 12)
+    is_known = abs(value - round(value * 12 / math.pi) * math.pi / 12) < 2.0 * 10.0**-_DECIMALS
+    return known.latex if known is not None and is_known else tex(value)
