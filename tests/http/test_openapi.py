@@ -60,10 +60,10 @@ def test_a_generated_client_finds_a_name_for_everything() -> None:
 def test_every_example_runs_as_it_stands(client: TestClient) -> None:
     """In the order of the methods, so that what POST adds is there to be replaced and removed."""
     for path, method, operation in OPERATIONS:
-        query: dict[str, str] = {}
+        query: dict[str, Any] = {}
         for parameter in operation.get("parameters", []):
-            example = str(next(iter(parameter["examples"].values()))["value"])
-            path = path.replace(f"{{{parameter['name']}}}", example)  # noqa: PLW2901
+            example = next(iter(parameter["examples"].values()))["value"]
+            path = path.replace(f"{{{parameter['name']}}}", str(example))  # noqa: PLW2901
             if parameter["in"] == "query":
                 query[parameter["name"]] = example
         body = operation.get("requestBody", {}).get("content", {}).get("application/json", {})
