@@ -19,6 +19,8 @@ from gelenk.course.plain import plain
         (r"\lVert x \rVert \le 90^\circ", "‖x ‖ ≤ 90°"),
         (r"\sigma = \cos 2 + \max(a,\ b)", "σ = cos 2 + max(a, b)"),
         (r"x^{i-1}_{i+1} \frac12", "xⁱ⁻¹_(i+1) 1/2"),
+        (r"\rho = 2, \sum_i \sigma_i", "ρ = 2, Σ_i σ_i"),
+        (r"\det J = \det(J^T), \dim = 1", "det J = det(Jᵀ), dim = 1"),
     ],
 )
 def test_a_formula_reads_the_same_without_latex(latex: str, expected: str) -> None:

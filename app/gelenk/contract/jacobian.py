@@ -7,11 +7,11 @@ from pydantic import Field, model_validator
 from gelenk.contract.common import ChainOptions
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import AboutChain, Configurations, Matrix
-from gelenk.contract.options import BatchRequest, Fraction, RespectLimits
+from gelenk.contract.options import BatchRequest, Fraction, RespectLimits, WithSteps, WorkedSolutions
 from gelenk.kinematics.judge.words import JacobianCertificate, Reference
 
 
-class JacobianOptions(ChainOptions):
+class JacobianOptions(ChainOptions, WithSteps):
     """Reference, representation and derivatives of a Jacobian."""
 
     reference: Reference = Field(
@@ -68,6 +68,7 @@ class JacobianAnswer(AboutChain):
     hessians: list[list[Matrix]] | None = Field(
         default=None, description="∂J/∂q: entry [k][i][j] is ∂J[k][i]/∂q_j, [m or rad] per [rad or m] squared."
     )
+    steps: WorkedSolutions = None
     certificate: JacobianCertificate
 
 

@@ -7,7 +7,15 @@ from pydantic import Field
 from gelenk.contract.common import Answer, ChainOptions, Payload
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import AboutChain, Configuration
-from gelenk.contract.options import BatchRequest, Directions, Fraction, Positive, RespectLimits
+from gelenk.contract.options import (
+    BatchRequest,
+    Directions,
+    Fraction,
+    Positive,
+    RespectLimits,
+    WithSteps,
+    WorkedSolutions,
+)
 from gelenk.ik.search.words import DIRECTIONS, Direction
 from gelenk.kinematics.judge.words import EllipsoidCertificate
 
@@ -20,7 +28,7 @@ MAX_DIRECTIONS = 64
 Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
 
 
-class ManipulabilityOptions(ChainOptions):
+class ManipulabilityOptions(ChainOptions, WithSteps):
     """Options of the ellipsoids and polytopes."""
 
     task: Directions = Field(
@@ -239,6 +247,7 @@ class ManipulabilityAnswer(AboutChain):
         default=None, description="If polytopes were requested: joints without an effort limit; then there is none."
     )
     results: list[ManipulabilityInfo]
+    steps: WorkedSolutions = None
     certificate: EllipsoidCertificate
 
 

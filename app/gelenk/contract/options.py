@@ -6,6 +6,7 @@ from pydantic import Field
 
 from gelenk.contract.common import Payload
 from gelenk.contract.kinematics import Configurations
+from gelenk.course.steps import Step
 from gelenk.ik.search.words import Direction
 from gelenk.language import Language
 
@@ -41,3 +42,14 @@ class WithSteps(InLanguage):
     """Asks for the worked solution beside the numbers."""
 
     steps: bool = Field(default=False, description="Whether the answer has the worked solution of each entry.")
+
+
+MAX_WORKED = 100
+"""Maximum number of configurations whose solution is worked out."""
+WorkedSolutions = Annotated[
+    list[list[Step]] | None,
+    Field(
+        description="If requested: the worked solution of each configuration, with the numbers put in; of at most "
+        f"{MAX_WORKED}."
+    ),
+]

@@ -7,7 +7,7 @@ from pydantic import Discriminator, Field, Tag
 from gelenk.contract.common import Answer, ChainOptions, FrameName, OnTheWire, Payload, Vectors
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS, AboutChain, Configurations, Matrix
-from gelenk.contract.options import BatchRequest, Directions, Fraction, RespectLimits
+from gelenk.contract.options import BatchRequest, Directions, Fraction, RespectLimits, WithSteps, WorkedSolutions
 from gelenk.ik.search.words import Direction
 from gelenk.kinematics.judge.words import Reference, StaticsCertificate
 
@@ -91,7 +91,7 @@ class WrenchRequest(WrenchOptions):
     payload: PayloadInfo | None = Field(default=None, description="A load carried by the tip.")
 
 
-class StaticsOptions(WrenchOptions):
+class StaticsOptions(WrenchOptions, WithSteps):
     """Axes, task, gravity and subspaces of a call of statics."""
 
     task: Directions | None = Field(
@@ -211,6 +211,7 @@ class StaticsAnswer(AboutChain):
     )
     subspaces: list[SubspacesInfo] | None = Field(default=None, description="If requested.")
     notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or assume.")
+    steps: WorkedSolutions = None
     certificate: StaticsCertificate
 
 

@@ -7,8 +7,17 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from gelenk.contract.common import Answer, ChainOptions, OnTheWire, Payload, Vectors
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS, AboutChain, Configuration, Configurations, Matrix
-from gelenk.contract.options import BatchRequest, Directions, Positive, RankTolerance, RespectLimits
+from gelenk.contract.options import (
+    BatchRequest,
+    Directions,
+    Positive,
+    RankTolerance,
+    RespectLimits,
+    WithSteps,
+    WorkedSolutions,
+)
 from gelenk.contract.singularities import SingularityInfo
+from gelenk.course.velocity.inverses import Derivation
 from gelenk.ik.search.words import Direction, ObjectiveName
 from gelenk.kinematics.judge.words import Reference, TipMotionCertificate
 from gelenk.kinematics.velocity.words import ExceededLimit, InverseName, InverseStatus
@@ -74,7 +83,7 @@ class NullSpace(Payload):
         return self
 
 
-class VelocityOptions(ChainOptions):
+class VelocityOptions(ChainOptions, WithSteps):
     """Options of velocity kinematics."""
 
     reference: Reference = Field(
@@ -218,6 +227,9 @@ class VelocityResult(Answer):
     )
     singularity: VelocitySingularity
     singularity_report: SingularityInfo | None = Field(default=None, description="If requested.")
+    derivation: Derivation | None = Field(
+        default=None, description="With `steps`, of an inversion: the matrices that the steps arrive at."
+    )
 
 
 _Rows = list[list[float]]
@@ -260,6 +272,7 @@ class VelocityAnswer(AboutChain):
         "rates are given or found; [m or rad] per [rad or m], and per s, s², s³.",
     )
     results: list[VelocityResult]
+    steps: WorkedSolutions = None
     certificate: TipMotionCertificate
 
 

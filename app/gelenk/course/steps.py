@@ -31,9 +31,9 @@ def step(title: str, text: str, *latex: str) -> Step:
     return Step(title, text, latex, tuple(map(plain, latex)))
 
 
-def tex(value: float, unit: str = "") -> str:
-    """Format a number, with a unit such as "kg m^2", to ten digits; very large and small ones with a power of ten."""
-    mantissa, _, exponent = f"{value:.{_SHOWN_DIGITS}g}".partition("e")
+def tex(value: float, unit: str = "", digits: int = _SHOWN_DIGITS) -> str:
+    """Format a number, with a unit such as "kg m^2"; very large and small ones with a power of ten."""
+    mantissa, _, exponent = f"{value:.{digits}g}".partition("e")
     number = rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
     return number + r"\,\mathrm{" + unit.replace(" ", r"\,") + "}" if unit else number
 

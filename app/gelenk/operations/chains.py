@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
+from gelenk.contract.options import MAX_WORKED, WithSteps
 from gelenk.errors import InvalidField, TooLarge, counted
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import DIRECTIONS, Direction
@@ -35,6 +36,12 @@ def check_numbers(numbers: int, limits: Limits) -> None:
     """Refuse an answer with more numbers than the operator allows; raises TooLarge."""
     if numbers > limits.answer_numbers:
         raise TooLarge("numbers in the answer", numbers, limits.answer_numbers)
+
+
+def check_worked(call: WithSteps, count: int) -> None:
+    """Refuse to work out too many solutions; raises TooLarge."""
+    if call.steps and count > MAX_WORKED:
+        raise TooLarge("configurations with `steps`", count, MAX_WORKED)
 
 
 def check_count(rows: int, count: int, field: str, hint: str = "") -> None:

@@ -10,6 +10,7 @@ from gelenk.errors import InvalidField
 from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.verdict.result import InverseKinematics
 from gelenk.language import language
+from gelenk.operations.trace_steps import worked_trace
 
 
 def worked(problem: TargetProblem, call: InverseRequest, result: InverseKinematics) -> list[list[Step]]:
@@ -22,6 +23,8 @@ def worked(problem: TargetProblem, call: InverseRequest, result: InverseKinemati
             rows = slice(firsts[i], firsts[i + 1])
             steps = arm and hand_steps(arm, SentSolutions(pose, directions, result.qs[rows]))
             answers.append(steps or [_otherwise(result, rows)])
+        for i, path in enumerate(result.paths or ()):
+            answers[i] += worked_trace(problem, i, path, given_step_size=call.step_size is not None)
     return answers
 
 

@@ -95,13 +95,14 @@ def unused_frame(call: WrenchRequest) -> str | None:
     return next((field for field in fields if getattr(call, field) is not None), None)
 
 
-def wrench_rows(wrenches: Vectors, count: int, components: Sequence[str]) -> Array:
-    """Return one wrench per configuration; shape (N, m), [N] and [N m]; raises InvalidField if numbers do not fit."""
+def wrench_rows(wrenches: Vectors, count: int, components: Sequence[str], hint: str = "") -> Array:
+    """Return one wrench per configuration; shape (N, m), [N] and [N m]; raises InvalidField, with a hint."""
     for i, wrench in enumerate(wrenches):
         if len(wrench) != len(components):
             raise InvalidField(
                 "wrenches",
-                f"entry {i} has {counted(len(wrench), 'number')}; there is one for each of {', '.join(components)}",
+                f"entry {i} has {counted(len(wrench), 'number')}; there is one for each of {', '.join(components)}"
+                + hint,
             )
     return one_each(np.array(wrenches, dtype=float).reshape(len(wrenches), len(components)), count, "wrenches")
 

@@ -16,8 +16,9 @@ from gelenk.kinematics.ellipsoids.manipulability import (
     manipulability,
     transmission_ratios,
 )
-from gelenk.operations.chains import chain_and_positions, check_numbers, head
+from gelenk.operations.chains import chain_and_positions, check_numbers, check_worked, head
 from gelenk.operations.outcome import Limits, Outcome, PictureFormat
+from gelenk.operations.velocity_steps import worked_ellipsoids
 from gelenk.robot.arrays import Array, Configuration
 from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import one_configuration
@@ -37,6 +38,7 @@ def run(loaded: LoadedRobot, call: ManipulabilityRequest, limits: Limits) -> Out
     directions = _directions(call)
     bounds = _bounds(loaded, chain, call)
     _check_size(chain, call, len(qs), limits)
+    check_worked(call, len(qs))
 
     def result() -> Manipulability:
         return manipulability(
@@ -67,14 +69,14 @@ def run(loaded: LoadedRobot, call: ManipulabilityRequest, limits: Limits) -> Out
             raise InvalidField("reference", "an image is drawn in the base's axes, `local_world_aligned`")
         return _picture(loaded, chain, qs[0], result(), call, bounds, kind)
 
-    fits = not (call.gradient or call.polytopes or call.directions)
+    fits = not (call.gradient or call.polytopes or call.directions or call.steps)
     return Outcome(content, array if fits else None, picture)
 
 
 def is_heavy(call: ManipulabilityRequest) -> bool:
     """Check whether a request takes the event loop more than about a millisecond."""
     many = len(call.joint_positions) > _QUICK or len(call.directions or ()) > _QUICK_DIRECTIONS
-    return many or call.gradient or call.polytopes
+    return many or call.gradient or call.polytopes or call.steps
 
 
 def _directions(call: ManipulabilityRequest) -> Array | None:
@@ -154,6 +156,8 @@ def _content(
     answer["results"] = [
         {part: columns[part][row] if part in columns else None for part in parts} for row in range(len(result.Js))
     ]
+    if call.steps:
+        answer["steps"] = worked_ellipsoids(result, call.characteristic_length, directions if call.directions else None)
     answer["certificate"] = result.certificate
     return answer
 

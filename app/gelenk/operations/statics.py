@@ -7,6 +7,7 @@ import numpy as np
 
 from gelenk.contract.common import Vectors
 from gelenk.contract.statics import StaticsRequest
+from gelenk.course.steps import Step
 from gelenk.errors import InvalidField, TooLarge, counted
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import DIRECTIONS
@@ -22,7 +23,7 @@ from gelenk.kinematics.force.statics import (
 )
 from gelenk.kinematics.judge.words import StaticsCertificate
 from gelenk.kinematics.velocity.subspaces import Subspaces
-from gelenk.operations.chains import check_numbers, head, positions, task_of
+from gelenk.operations.chains import check_numbers, check_worked, head, positions, task_of
 from gelenk.operations.loads import (
     MECHANISM,
     chain_of,
@@ -38,6 +39,7 @@ from gelenk.operations.loads import (
 )
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.statics_picture import levers_picture
+from gelenk.operations.velocity_steps import worked_statics
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import configurations
@@ -58,24 +60,26 @@ def run(loaded: LoadedRobot, call: StaticsRequest, limits: Limits) -> Outcome:
     _check_options(call, task, chain, weighs=gravity is not None)
     qs = positions(chain, call)
     _check_size(call, len(qs), len(task), len(chain), limits)
-    wrenches = None if call.wrenches is None else wrench_rows(call.wrenches, len(qs), task.directions)
+    check_worked(call, len(qs))
+    wrenches = None if call.wrenches is None else wrench_rows(call.wrenches, len(qs), task.directions, _hint(call))
     torques = None
     if call.torques is not None:
         torques = one_each(configurations(chain, call.torques, "torques"), len(qs), "torques")
     rows = np.array([DIRECTIONS.index(direction) for direction in task.directions])
     still = statics(robot, chain, qs, wrench_frame(call), rows=rows, gravity=gravity, load=load)
     found = _solved(still, call, wrenches, torques)
+    detailed = _wants_subspaces(call) or call.steps
     array = found.torques if found.balance is None else found.balance.wrenches
     return Outcome(
         lambda: _content(loaded, call, found),
-        None if _wants_subspaces(call) else lambda: (array, {}),
+        None if detailed else lambda: (array, {}),
         lambda kind: levers_picture(chain, call, qs, task, found.wrenches, found.torques, kind),
     )
 
 
 def is_heavy(call: StaticsRequest) -> bool:
     """Check whether a request takes the event loop more than about a millisecond."""
-    return not is_quick(call) or _wants_subspaces(call)
+    return not is_quick(call) or _wants_subspaces(call) or call.steps
 
 
 def attempt(loaded: LoadedRobot, call: StaticsRequest, limits: Limits) -> Outcome | None:
@@ -131,6 +135,10 @@ def _check_options(call: StaticsRequest, task: Task, chain: Chain, *, weighs: bo
                 raise InvalidField(f"test_{name}", f"entry {i} has {counted(len(vector), 'number')}, not {size}")
 
 
+def _hint(call: StaticsRequest) -> str:
+    return ", in the order of `task`" if call.task else "; `task` can name fewer"
+
+
 def _check_size(call: StaticsRequest, count: int, m: int, n: int, limits: Limits) -> None:
     splits = _wants_subspaces(call) or call.torques is not None
     numbers = count * (12 + 10 * n + m)
@@ -174,8 +182,14 @@ def _content(loaded: LoadedRobot, call: StaticsRequest, found: _Results) -> dict
         "overloaded_joints": overloaded_joints(robot, chain, found.torques),
         "subspaces": [_subspaces_content(call, split) for split in splits] if _wants_subspaces(call) else None,
         "notes": weight_notes(loaded, mechanism(robot, chain), still.load) if weighs else [],
+        "steps": _worked(call, found) if call.steps else None,
         "certificate": found.certificate,
     }
+
+
+def _worked(call: StaticsRequest, found: _Results) -> list[list[Step]]:
+    solved = found.balance is not None
+    return worked_statics(found.still, found.wrenches, found.torques, call.rank_tolerance, solved=solved)
 
 
 def _balance_content(call: StaticsRequest, found: _Results, of_torques: NearestWrench) -> dict[str, Any]:

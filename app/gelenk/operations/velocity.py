@@ -14,7 +14,7 @@ from gelenk.kinematics.velocity.linear_inverse import Decomposition, InverseRule
 from gelenk.kinematics.velocity.subspaces import rounding
 from gelenk.kinematics.velocity.task_space import TaskSpace, jacobians_with_terms, structure
 from gelenk.kinematics.velocity.velocity import TipMotion, tip_motion
-from gelenk.operations.chains import check_numbers, head, task_of
+from gelenk.operations.chains import check_numbers, check_worked, head, task_of
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.singularities import singularity_info
 from gelenk.operations.velocity_call import (
@@ -26,6 +26,7 @@ from gelenk.operations.velocity_call import (
     rule_of_call,
     targets_of_call,
 )
+from gelenk.operations.velocity_steps import worked_inversions, worked_motions
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import check_limits
@@ -62,6 +63,7 @@ def run(loaded: LoadedRobot, call: VelocityRequest, limits: Limits) -> Outcome:
         check_limits(chain, qs)
     space = TaskSpace(task_of(call.task), call.characteristic_length, call.reference)
     _check_size(call, len(qs), len(chain), limits)
+    check_worked(call, len(qs))
     question = _Question(robot, chain, call, qs, rates, space)
     if field is None:
         return _forward_outcome(question, tip_motion(robot, chain, qs, rates, call.reference))
@@ -75,7 +77,8 @@ def run(loaded: LoadedRobot, call: VelocityRequest, limits: Limits) -> Outcome:
 def is_heavy(call: VelocityRequest) -> bool:
     """Check whether a request takes the event loop more than about a millisecond."""
     slow = (call.joint_snaps, call.tip_accelerations, call.tip_jerks, call.null_space)
-    return call.singularity_reports or any(part is not None for part in slow) or len(call.joint_positions) > _QUICK
+    detailed = call.steps or call.singularity_reports
+    return detailed or any(part is not None for part in slow) or len(call.joint_positions) > _QUICK
 
 
 def _check_size(call: VelocityRequest, count: int, joints: int, limits: Limits) -> None:
@@ -95,12 +98,13 @@ def _forward_outcome(question: _Question, motion: TipMotion) -> Outcome:
         Js, terms = jacobians_with_terms(chain, question.qs, call.reference)
         rule = InverseRule(rank_tolerance=call.rank_tolerance)
         parts = decompose(Js[:, space.rows], rule, space.scales, rounding(terms))
-        return _answer(question, moved, _results(question, question.rates[0], parts), motion)
+        answer = _answer(question, moved, _results(question, question.rates[0], parts), motion)
+        return answer | worked_motions(call, space, question.rates, motion) if call.steps else answer
 
     def array() -> tuple[Array, dict[str, str]]:
         return (derivatives[0] if len(derivatives) == 1 else np.stack(derivatives, axis=1)), {}
 
-    return Outcome(content, None if call.jacobian_derivatives else array)
+    return Outcome(content, None if call.jacobian_derivatives or call.steps else array)
 
 
 def _inverse_outcome(question: _Question, field: str, found: InverseMotion) -> Outcome:
@@ -115,13 +119,25 @@ def _inverse_outcome(question: _Question, field: str, found: InverseMotion) -> O
         results = _results(question, speeds, inversion.decomposition)
         for row, result in enumerate(results):
             result.update(_verdict(question, found, row))
-        return _answer(question, {RATES[TIP[field]]: solutions}, results, found.motion)
+        steps = _worked(question, field, found, results) if question.call.steps else {}
+        return steps | _answer(question, {RATES[TIP[field]]: solutions}, results, found.motion)
 
     def array() -> tuple[Array, dict[str, str]]:
         named = ",".join(map(str, unsolved[:_ROWS_NAMED]))
         return inversion.xs, {"Gelenk-Unsolved": str(len(unsolved)), "Gelenk-Unsolved-Rows": named}
 
-    return Outcome(content, None if question.call.jacobian_derivatives else array)
+    return Outcome(content, None if question.call.jacobian_derivatives or question.call.steps else array)
+
+
+def _worked(question: _Question, field: str, found: InverseMotion, results: list[dict[str, Any]]) -> dict[str, Any]:
+    """Add the matrices of each inversion to its result, and return the steps."""
+    call, space, qs = question.call, question.space, question.qs
+    wanted = targets_of_call(call, field, space, len(qs))
+    null_motion = null_motion_of_call(question.chain, call, qs, field, space)
+    solved = worked_inversions(question.chain, call, space, qs, question.rates, wanted, null_motion, found)
+    for result, (matrices, _) in zip(results, solved, strict=True):
+        result["derivation"] = matrices
+    return {"steps": [steps for _, steps in solved]}
 
 
 def _answer(
@@ -181,11 +197,20 @@ def _verdict(question: _Question, found: InverseMotion, row: int) -> dict[str, A
         entry["reason"] = f"damping by {damping:.3g} keeps the joints slow at the price of this residual"
     elif status == "approximate":
         entry["reason"] = (
-            "the tip cannot move like this: the residual is what no motion of the joints gives"
+            "the tip cannot move like this: the residual is what no motion of the joints gives" + _fewer(question)
             if inversion.decomposition.ranks[row] < len(rows)
             else "the Jacobian is so nearly singular here that rounding of the fast joints is the residual"
         )
     return entry
+
+
+def _fewer(question: _Question) -> str:
+    """Say what an arm with fewer joints than directions can be asked instead."""
+    joints, directions = len(question.chain), len(question.space)
+    if joints >= directions:
+        return ""
+    few, many = counted(joints, "joint"), counted(directions, "direction")
+    return f"; {few} cannot serve {many}: name those that count in `task`"
 
 
 def _no_inverse(call: VelocityRequest, inversion: Inversion, row: int) -> str:

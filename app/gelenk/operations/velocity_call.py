@@ -22,7 +22,7 @@ TIP = {"twists": 0, "tip_accelerations": 1, "tip_jerks": 2}
 """Fields that can be inverted, and how many of the rates each needs."""
 
 _INVERSE_ALONE = ("inverse", "damping", "damping_threshold", "weights", "null_space")
-_THRESHOLD = 0.05
+DAMPING_THRESHOLD = 0.05
 """σ₀ of the adaptive damping if none is given."""
 _LEAST_WEIGHT, _LARGEST_WEIGHT = 1e-6, 1e6
 
@@ -105,7 +105,7 @@ def rule_of_call(chain: Chain, call: VelocityRequest, quantity: str, directions:
         call.inverse,
         call.rank_tolerance,
         damping,
-        _THRESHOLD if call.damping_threshold is None else call.damping_threshold,
+        DAMPING_THRESHOLD if call.damping_threshold is None else call.damping_threshold,
         _weights(chain, call),
     )
 
@@ -130,7 +130,9 @@ def targets_of_call(call: VelocityRequest, quantity: str, space: TaskSpace, coun
     targets = np.empty((count, len(space)))
     for i, entry in enumerate(given):
         if len(entry) not in {6, len(space)}:
-            allowed = "6" if len(space) == 6 else f"6, or {len(space)} for the directions that count"
+            allowed = f"6, or {len(space)} for the directions that count"
+            if call.task is None:
+                allowed = "6, or as many as there are directions in `task`"
             raise InvalidField(f"{quantity}/{i}", f"{counted(len(entry), 'number')}; allowed: {allowed}")
         # Six numbers for six directions are in the order of the directions too.
         targets[i] = entry if len(entry) == len(space) else [entry[row] for row in space.rows]

@@ -103,12 +103,17 @@ def descent(chain: Chain, qs: Array, objective: Objective, gain: float, space: T
         return gain * climb
     # The other objectives depend on the joints alone. The limit objective is unbounded near the limits.
     if objective.name == "limits":
-        edges = _EDGE * (chain.upper - chain.lower)
-        limited = np.isfinite(edges)
-        low, high = np.where(limited, chain.lower + edges, -np.inf), np.where(limited, chain.upper - edges, np.inf)
-        qs = np.clip(qs, low, high)
+        qs = kept_from_limits(chain, qs)
     nowhere = Poses(np.zeros((len(qs), 3)), np.broadcast_to(np.eye(3), (len(qs), 3, 3)))
     return -gain * objective_gradients(chain, nowhere, qs, objective, space.task)
+
+
+def kept_from_limits(chain: Chain, qs: Array) -> Array:
+    """Move configurations away from limits, to where the objective `limits` takes its gradient; shape (N, n)."""
+    edges = _EDGE * (chain.upper - chain.lower)
+    limited = np.isfinite(edges)
+    low, high = np.where(limited, chain.lower + edges, -np.inf), np.where(limited, chain.upper - edges, np.inf)
+    return np.asarray(np.clip(qs, low, high))
 
 
 def velocity_limits(robot: RobotModel, chain: Chain) -> Array:
