@@ -32,6 +32,7 @@ MOTOR = Motor(1.2, 2e-3, 0.05, 0.05, 1e-4, 2e-4)
 ARM = [PlanarJoint("R", 0.6, 0.5), PlanarJoint("R", 0.9, 0.4), PlanarJoint("R", -0.7, 0.3)]
 FOUR_BAR = (("frame", "crank"), ("crank", "coupler"), ("coupler", "rocker"), ("rocker", "frame"))
 POINTS = ((0.0, 0.0), (0.2, 0.3), (0.85, 0.5), (0.8, 0.0))
+STAR = tuple(map(str, range(12)))
 
 
 def four_bar(*, stands: bool) -> Mechanism:
@@ -85,6 +86,29 @@ PICTURES: dict[str, tuple[Callable[[], Figure], tuple[str, ...]]] = {
         (r"$d_{2}$ = 0.4 m", "= 120.3°"),
     ),
     "elbows": (lambda: elbows_figure((0.5, 0.4), (0.6, 0.35)), ("elbow up", "elbow down", r"$\alpha$", "$r$")),
+    "star": (
+        lambda: mechanism_figure(
+            mechanism("spatial", STAR, 0, [GivenPair(x, STAR[0], x, "revolute") for x in STAR[1:]])
+        ),
+        ("12  11", "n = 12"),
+    ),
+    "long names": (lambda: mechanism_figure(mechanism("planar", [f"$x${i}" * 15 for i in range(6)], 0, [])), ("…",)),
+    "parallel pairs": (
+        lambda: mechanism_figure(mechanism("planar", "ab", 0, [GivenPair(x, "a", "b", "gear") for x in "123"])),
+        ("gear teeth",),
+    ),
+    "one place": (
+        lambda: mechanism_figure(
+            mechanism("planar", "ab", 0, [GivenPair("1", "a", "b", "cam", None, PairGeometry((0.0, 0.0, 0.0)))])
+        ),
+        ("cam",),
+    ),
+    "one sample": (lambda: tracks_figure([0]), ("B",)),
+    "fine disc": (lambda: disc_figure(10, marked=(0, 1, 2, 1023)), ("1024 positions",)),
+    "no voltage": (lambda: motor_figure(Motor(1.2, 0.0, 0.05, 0.05, 0.0, 2e-4), 0.0, 0.0), ("no load: 0 rad/s",)),
+    "no pulses": (lambda: pulses_figure(Pulses(24.0, 0.0, 1e12)), ("0 V",)),
+    "no force": (lambda: levers_figure(np.zeros((3, 2)), (0.0, 0.0), (0.0, 0.0), (False, True)), ("0 N",)),
+    "no arm": (lambda: planar_arm_figure([PlanarJoint("R", 0.0), PlanarJoint("P", 0.0)]), ("$P$",)),
     "levers": (
         lambda: levers_figure(arm_points(ARM)[0], (0.0, -10.0), (1.0, 2.0, 3.0), (False,) * 3),
         ("$F$ = 10 N", r"$\tau_{3}$ = 3 N m", r"$h_{1}$"),

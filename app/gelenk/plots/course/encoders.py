@@ -1,6 +1,7 @@
 """Encoders: the channels of an incremental one over the angle or its samples, and the disc of an absolute one."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,11 +11,14 @@ from matplotlib.patches import Wedge
 from gelenk.course.actuators.gray import Code, gray
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
+from gelenk.plots.course.sketch import direction
 from gelenk.plots.course.titles import TITLES
 from gelenk.robot.arrays import Flags, Indices
 
 MOST_TRACKS = 10
 MOST_SAMPLES = 48
+_APART = 0.2
+"""Smallest angle between codes written around a disc, [rad]; of those closer together the first is written."""
 _FORWARD = (0, 2, 3, 1)
 """States 2 A + B of the quarters of a line when the shaft turns forward."""
 
@@ -42,7 +46,8 @@ def _draw_channels(axes: Axes, channels: Sequence[tuple[str, Indices, str]], sta
     for row, (name, levels, color) in enumerate(channels):
         base = top - 1.4 * (row + 1)
         axes.step(edges, base + np.append(levels, levels[-1]), where="post", color=color, linewidth=1.8)
-        axes.text(-0.15, base + 0.5, name, fontproperties=style.font(bold=True), color=color, ha="right", va="center")
+        look: dict[str, Any] = {"color": color, "ha": "right", "va": "center", "transform": axes.get_yaxis_transform()}
+        axes.text(-0.015, base + 0.5, name, fontproperties=style.font(bold=True), **look)
     size = 8.0 if len(states) <= MOST_SAMPLES // 2 else 5.5
     for i, state in enumerate(states):
         text = f"{state // 2}{state % 2}"
@@ -68,22 +73,27 @@ def disc_figure(bits: int, code: Code = "gray", marked: Sequence[int] = ()) -> F
     axes = figure.add_axes((0.02, 0.02, 0.96, 0.86))
     axes.set_axis_off()
     axes.set_aspect("equal")
-    style.look_at(axes, np.zeros(2), np.full(2, 1.35))
+    style.look_at(axes, np.zeros(2), np.full(2, 1.25 + 0.04 * max(bits, 3)))
     codes = [gray(value) if code == "gray" else value for value in range(count)]
     width = 0.7 / bits
     for track in range(bits):
         digits = [(value >> (bits - 1 - track)) & 1 for value in codes]
         _draw_track(axes, digits, 0.3 + width * (track + 1), width)
+    first, last = np.inf, -np.inf
     for value in sorted({*(range(count) if bits <= 4 else ()), *marked}):
-        _write_code(axes, f"{codes[value]:0{bits}b}", 2.0 * np.pi * (value + 0.5) / count, value in marked)
+        angle = 2.0 * np.pi * (value + 0.5) / count
+        color = style.FORCE if value in marked else style.QUIET
+        axes.plot(*(1.02 * direction(angle)), marker="o", markersize=2.5, color=color)
+        if angle - last >= _APART and angle - first <= 2.0 * np.pi - _APART:
+            _write_code(axes, f"{codes[value]:0{bits}b}", angle, color)
+            first, last = min(first, angle), angle
     return figure
 
 
-def _write_code(axes: Axes, code: str, angle: float, is_marked: bool) -> None:
-    x, y = float(np.cos(angle)), float(np.sin(angle))
+def _write_code(axes: Axes, code: str, angle: float, color: str) -> None:
+    x, y = (1.07 * direction(angle)).tolist()
     ha = "center" if abs(x) < 0.3 else "left" if x > 0.0 else "right"
-    font, color = style.font(8.0, bold=is_marked), style.FORCE if is_marked else style.QUIET
-    axes.text(1.06 * x, 1.06 * y, code, fontproperties=font, color=color, ha=ha, va="center")
+    axes.text(x, y, code, fontproperties=style.font(8.0), color=color, ha=ha, va="center")
 
 
 def _draw_track(axes: Axes, digits: Sequence[int], outer: float, width: float) -> None:

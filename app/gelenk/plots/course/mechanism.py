@@ -18,6 +18,10 @@ MOST_LINKS = 40
 
 _WIDTH, _AREA, _HEAD = 7.2, 4.2, 0.75
 _COLUMNS = 3
+_ROW = 0.44
+"""Height for a link of a graph, [inch]."""
+_MOST_TEXT = 24
+"""Number of characters of a name that fit into a column."""
 _SAME = 1e-9
 
 
@@ -27,8 +31,12 @@ def mechanism_figure(found: Mechanism) -> Figure:
     bottom = 0.3 + style.LINE * rows
     points = _points(found)
     if points is None:
-        sketch = Sketch(_WIDTH, bottom + _AREA + _HEAD)
-        _draw_graph(sketch, found, np.array([_WIDTH / 2.0, bottom + _AREA / 2.0]))
+        places = _in_a_ring(found) if found.topology.loops else _as_a_tree(found)
+        height = max(_AREA, _ROW * len(set(places[:, 1].tolist())))
+        half = np.array([_WIDTH / 2.0 - 0.5, height / 2.0 - 0.35])
+        sketch = Sketch(_WIDTH, bottom + height + _HEAD)
+        middle = np.array([_WIDTH / 2.0, bottom + height / 2.0])
+        _draw_graph(sketch, found, middle, places * (half.min() if found.topology.loops else half))
     else:
         sketch = _around(points, bottom)
         _draw_posture(sketch, found, points)
@@ -57,7 +65,9 @@ def _write_legend(sketch: Sketch, found: Mechanism, bottom: float) -> None:
     y = low + (bottom - 0.15) * sketch.unit
     for i, name in enumerate(found.links):
         row, column = divmod(i, _COLUMNS)
-        text = f"{i + 1}  {style.plain(name)}" + (f" ({_('ground')})" if i == found.ground else "")
+        more = f" ({_('ground')})" if i == found.ground else ""
+        most = _MOST_TEXT - len(more)
+        text = f"{i + 1}  {style.plain(name if len(name) <= most else name[: most - 1] + '…')}{more}"
         write(text, 0.2 + 2.3 * column, y - row * style.LINE * sketch.unit)
     y -= -(-len(found.links) // _COLUMNS) * style.LINE * sketch.unit
     for row, split in enumerate(found.splits):
@@ -74,22 +84,23 @@ def _letter(pair: Pair) -> str:
     return next((letter for letter, kind in LETTERS.items() if kind == pair.type), pair_names().get(pair.type, ""))
 
 
-def _draw_graph(sketch: Sketch, found: Mechanism, middle: Array) -> None:
-    places = _in_a_ring(found) if found.topology.loops else _as_a_tree(found)
-    half = np.array([_WIDTH / 2.0 - 0.5, _AREA / 2.0 - 0.35])
-    nodes = middle + places * (half if not found.topology.loops else np.full(2, half.min()))
+def _draw_graph(sketch: Sketch, found: Mechanism, middle: Array, places: Array) -> None:
+    """Draw the links as discs at places around the middle, shape (n, 2), [inch], and the pairs as lines."""
+    nodes = middle + places
     totals, seen = Counter(frozenset(ends) for ends in found.ends), Counter[frozenset[int]]()
     for pair, ends in zip(found.pairs, found.ends, strict=True):
         a, b = nodes[list(ends)]
         key = frozenset(ends)
-        bow = 0.45 * (seen[key] - (totals[key] - 1) / 2.0) * (1.0 if ends[0] < ends[1] else -1.0)
+        bow = 0.9 * (seen[key] - (totals[key] - 1) / 2.0) * (1.0 if ends[0] < ends[1] else -1.0)
         seen[key] += 1
         s = np.linspace(0.0, 1.0, 2 if bow == 0.0 else 24)[:, None]
         normal = np.array([a[1] - b[1], b[0] - a[0]]) / np.linalg.norm(b - a)
         curve = a + s * (b - a) + 4.0 * bow * s * (1.0 - s) * normal
         sketch.line(curve, color=_color(found, pair), dashes=DASHED if pair.added else SOLID)
         toward = normal if bow > 0.0 or (bow == 0.0 and normal @ ((a + b) / 2.0 - middle) >= 0.0) else -normal
-        sketch.label(_letter(pair), (a + b) / 2.0 + bow * normal, toward, color=style.VELOCITY, math=False)
+        # In a tree the lines are further apart at the far end.
+        along = 0.5 if found.topology.loops else 0.8 if b[0] > a[0] else 0.2
+        sketch.label(_letter(pair), a + along * (b - a) + bow * normal, toward, color=style.VELOCITY, math=False)
     for i, node in enumerate(nodes):
         is_ground = i == found.ground
         sketch.disc(node, 0.15, face=style.INK if is_ground else "white")

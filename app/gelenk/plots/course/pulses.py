@@ -26,11 +26,11 @@ def pulses_figure(pulses: Pulses, current: Sequence[float] | None = None, time_c
     period = 1.0 / pulses.frequency
     scale, unit = next((one for one in _UNITS if period >= one[0]), _UNITS[-1])
     bottom = 0.14 if current is None else 0.43
-    above = figure.add_axes((0.12, bottom, 0.62, 0.82 - bottom))
+    above = figure.add_axes((0.15, bottom, 0.6, 0.82 - bottom))
     _draw_voltage(above, figure, pulses, period / scale, None if current is not None else _time(unit))
     _write_head(figure, pulses, scale, unit)
     if current is not None:
-        below = figure.add_axes((0.12, 0.1, 0.62, 0.26))
+        below = figure.add_axes((0.15, 0.1, 0.6, 0.26))
         style.light_axes(below, _time(unit), "i / A")
         times, currents = _currents(pulses, current, time_constant)
         below.plot(times / scale, currents, color=style.FORCE, linewidth=1.6)
@@ -53,8 +53,8 @@ def _draw_voltage(axes: Axes, figure: Figure, pulses: Pulses, period: float, lab
     corners = np.concatenate([[[k, 0], [k, 1], [k + pulses.duty, 1], [k + pulses.duty, 0]] for k in range(_PERIODS)])
     times = np.append(corners[:, 0], _PERIODS) * period
     axes.plot(times, np.append(corners[:, 1], 0.0) * pulses.high_voltage, color=style.INK, linewidth=1.6)
-    rms = pulses.direction * pulses.rms_voltage
-    for value, color, dashes in ((pulses.average_voltage, style.VELOCITY, "-"), (rms, style.FORCE, "--")):
+    means = ((pulses.average_voltage, style.VELOCITY, "-"), (pulses.rms_voltage, style.FORCE, "--"))
+    for value, color, dashes in means:
         axes.axhline(value, color=color, linewidth=1.2, linestyle=dashes)
     axes.set_xlim(0.0, _PERIODS * period)
     axes.margins(y=0.15)

@@ -26,7 +26,7 @@ SOLID, DASHED, DOTTED = (0.0, ()), (0.0, (5.0, 3.0)), (0.0, (1.0, 2.0))
 
 _SPACING = 1.5
 """Distance of the points that stand for a line, [pixel]."""
-_PAD = 3.0
+_PAD = 2.0
 _TURNS = np.radians([0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180])
 _DISTANCES = (7.0, 10.0, 15.0, 22.0, 30.0, 42.0)
 """Distances of a label from its point that are tried in turn, [pixel]."""
