@@ -40,6 +40,7 @@ from gelenk.contract import (
     time_law,
     time_scaling,
     trajectory,
+    triangle,
     velocity,
 )
 from gelenk.contract.common import Answer
@@ -171,6 +172,7 @@ class Operations:
     time_law = _calculator(time_law.ENDPOINT)
     spline = _calculator(spline.ENDPOINT)
     time_scaling = _calculator(time_scaling.ENDPOINT)
+    triangle = _calculator(triangle.ENDPOINT)
 
 
 # The lines above only give methods their types: an operation without one becomes a method all the same.
