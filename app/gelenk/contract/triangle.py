@@ -27,7 +27,7 @@ class TriangleRequest(InLanguage):
 
 
 class TriangleInfo(Answer):
-    """A triangle."""
+    """All six parts of a triangle, and where it may lie in the plane."""
 
     a: float = Field(description="The side from B to C, [m].")
     b: float = Field(description="The side from A to C, [m].")

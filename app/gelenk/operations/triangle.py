@@ -18,7 +18,7 @@ def _parts(call: TriangleRequest) -> dict[str, float]:
 
 
 def _picture(call: TriangleRequest, kind: PictureFormat) -> bytes:
-    from gelenk.plots.triangle import triangle_picture  # noqa: PLC0415
+    from gelenk.plots.course.triangle import triangle_picture  # noqa: PLC0415
 
     return triangle_picture(solved_triangle(_parts(call)), kind)
 

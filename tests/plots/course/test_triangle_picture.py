@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
 from gelenk.course.triangle.triangle import solved_triangle
+from gelenk.plots.course.triangle import triangle_picture
 from gelenk.plots.figure import PictureFormat
-from gelenk.plots.triangle import triangle_picture
 
 
 def test_both_triangles_are_drawn_with_their_corners(monkeypatch: pytest.MonkeyPatch) -> None:
