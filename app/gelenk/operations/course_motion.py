@@ -29,7 +29,7 @@ from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 _QUICK_NUMBERS = 300
 _QUICK_KNOTS = 24
 _ROUNDING = 1e-9
-_UNITS = ("rad or m", "(rad or m)/s", "(rad or m)/s²", "(rad or m)/s³")
+_UNITS = (marked("rad or m"), marked("(rad or m)/s"), marked("(rad or m)/s²"), marked("(rad or m)/s³"))
 
 _Request = TypeVar("_Request", bound=SampledRequest)
 PeaksByOrder = dict[int, Peaks]
@@ -70,7 +70,7 @@ def _picture(planned: PlannedMotion, kind: PictureFormat) -> bytes:
 
     claims, limits = planned.claims, planned.limits
     certified(planned.motion, claims)
-    names = [f"joint {j + 1}" for j in range(claims.points.shape[1])]
+    names = [_("joint {number}").format(number=j + 1) for j in range(claims.points.shape[1])]
     marked = planned.passed or (claims.times, claims.points)
     lines = ProfileLines(names, _UNITS, (limits.velocity, limits.acceleration, limits.jerk), marked)
     return profiles_picture(planned.title, planned.motion, lines, kind)

@@ -9,6 +9,7 @@ from gelenk.course.motion.check import MotionClaims
 from gelenk.course.motion.spline_steps import spline_steps
 from gelenk.course.motion.time_law_steps import peak_step
 from gelenk.language import marked
+from gelenk.language import translated as _
 from gelenk.operations.course_motion import (
     PlannedMotion,
     is_heavy_motion,
@@ -21,10 +22,17 @@ from gelenk.operations.course_motion import (
     unused,
 )
 from gelenk.operations.outcome import Outcome
-from gelenk.trajectory.motion.splines import EndRates, Spline, cubic_spline
+from gelenk.trajectory.motion.splines import Boundary, EndRates, Spline, cubic_spline
 
 _SHOWN_UNKNOWNS = 32
 _OTHERS = marked("The worked solution shows {shown} of {joints} joints; A is the same for all.")
+_TITLES: dict[Boundary, str] = {
+    "clamped": marked("Cubic spline, clamped"),
+    "natural": marked("Cubic spline, natural"),
+    "not_a_knot": marked("Cubic spline, not a knot"),
+    "periodic": marked("Cubic spline, periodic"),
+    "assigned": marked("Cubic spline, assigned"),
+}
 _VELOCITIES = ("start_velocity", "end_velocity")
 _ACCELERATIONS = ("start_acceleration", "end_acceleration")
 
@@ -57,7 +65,7 @@ def _plan(call: SplineRequest) -> PlannedMotion:
         "steps": (*spline_steps(found, call.boundary), peak_step(peaks[1], peaks[2])),
         "warnings": limit_warnings(peaks, limits, _OTHERS),
     }
-    title = f"Cubic spline, {call.boundary.replace('_', ' ')}"
+    title = _(_TITLES[call.boundary])
     return PlannedMotion(found.motion, MotionClaims(times, knots, starts, ends, 2, peaks), limits, title, further)
 
 

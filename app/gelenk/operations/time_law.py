@@ -13,6 +13,7 @@ from gelenk.course.motion.trapezoid_steps import blend_steps, trapezoid_steps
 from gelenk.course.steps import Step
 from gelenk.errors import InvalidField, counted
 from gelenk.language import marked
+from gelenk.language import translated as _
 from gelenk.operations.course_motion import (
     PlannedMotion,
     is_heavy_motion,
@@ -45,6 +46,11 @@ _GIVEN_RATES: dict[str, int] = {
     "parabolic_blends": 0,
 }
 _OTHERS = marked("The worked solution shows {shown} of {joints} joints; the others go the same way.")
+_TITLES = {
+    "cubic": marked("Cubic time law"),
+    "quintic": marked("Quintic time law"),
+    "septic": marked("Septic time law"),
+}
 _KNOTS = {"4-3-4", "parabolic_blends"}
 
 
@@ -92,7 +98,7 @@ def _two_points(call: TimeLawRequest, start: Array, target: Array) -> PlannedMot
     peaks = peaks_by_order(motion)
     claims = MotionClaims(motion.breaks, np.array([start, target]), starts[1:], ends[1:], len(starts) - 1, peaks)
     steps = (*two_point_steps(motion, starts, ends, forms), peak_step(peaks[1], peaks[2]))
-    return _planned(call, motion, claims, f"{call.law.capitalize()} time law", steps, {"normalised": forms})
+    return _planned(call, motion, claims, _(_TITLES[call.law]), steps, {"normalised": forms})
 
 
 def _lift(call: TimeLawRequest, times: Array, knots: Array) -> PlannedMotion:
@@ -103,7 +109,9 @@ def _lift(call: TimeLawRequest, times: Array, knots: Array) -> PlannedMotion:
     motion = quartic_cubic_quartic(times, knots, starts, ends)
     peaks = peaks_by_order(motion)
     claims = MotionClaims(times, knots, starts, ends, 2, peaks)
-    return _planned(call, motion, claims, "4-3-4 time law", (*lift_steps(motion, knots), peak_step(peaks[1], peaks[2])))
+    return _planned(
+        call, motion, claims, _("4-3-4 time law"), (*lift_steps(motion, knots), peak_step(peaks[1], peaks[2]))
+    )
 
 
 def _trapezoid(call: TimeLawRequest, start: Array, target: Array) -> PlannedMotion:
@@ -119,7 +127,9 @@ def _trapezoid(call: TimeLawRequest, start: Array, target: Array) -> PlannedMoti
     profiles = [profile_info(plan, j) for j in range(joints)]
     motion, knots = plan.motion, np.array([start, target])
     claims = MotionClaims(motion.breaks[[0, -1]], knots, starts, ends, 1, peaks_by_order(motion))
-    return _planned(call, motion, claims, "Trapezoid of velocity", trapezoid_steps(tasks, plan), {"profiles": profiles})
+    return _planned(
+        call, motion, claims, _("Trapezoid of velocity"), trapezoid_steps(tasks, plan), {"profiles": profiles}
+    )
 
 
 def _blends(call: TimeLawRequest, times: Array, knots: Array) -> PlannedMotion:
@@ -132,7 +142,7 @@ def _blends(call: TimeLawRequest, times: Array, knots: Array) -> PlannedMotion:
         "blend_times": found.durations.T.tolist(),
         "deviations": found.deviations.T.tolist(),
     }
-    title = "Straight segments, parabolic blends"
+    title = _("Straight segments, parabolic blends")
     return _planned(call, found.motion, claims, title, blend_steps(found), {"blends": blends}, (times, knots))
 
 

@@ -72,7 +72,7 @@ def _plan(call: TimeScalingRequest) -> PlannedMotion:
     when[-1] = scaled.breaks[-1]
     claims = MotionClaims(when, knots, rest, rest, continuity, peaks)
     passed = None if line is None else (when[[0, -1]], knots[[0, -1]])
-    return PlannedMotion(scaled, claims, limits, f"Scaled by k = {factor:.6g}", further, passed)
+    return PlannedMotion(scaled, claims, limits, _("Scaled by k = {factor:.6g}").format(factor=factor), further, passed)
 
 
 def _share(call: TimeScalingRequest) -> PiecewisePolynomial:

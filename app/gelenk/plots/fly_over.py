@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from gelenk.course.motion.fly_over import Blend
+from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.profiles import curve, time_axes
 from gelenk.robot.arrays import Array
@@ -20,13 +21,14 @@ _LEAST = 0.25
 def fly_over_picture(blend: Blend, motion: PiecewisePolynomial | None, kind: style.PictureFormat) -> bytes:
     """Draw a fly-over; `motion` is the whole one, or that of the blend, in [m], or None if it takes no time."""
     figure = style.new_figure(6.4, 8.0)
-    title = f"Fly-over in {blend.time:.4g} s: d₁ = {blend.distance_before:.4g} m, d₂ = {blend.distance_after:.4g} m"
+    title = _("Fly-over in {time:.4g} s: d₁ = {before:.4g} m, d₂ = {after:.4g} m")
+    title = title.format(time=blend.time, before=blend.distance_before, after=blend.distance_after)
     style.write(figure, 0.06, 0.98, [title], size=style.TITLE)
     axes = figure.add_axes((0.13, 0.45, 0.83, 0.48))
     _draw_way(axes, blend)
     for bottom, order, label, color in (
-        (0.25, 1, "speed / (m/s)", style.VELOCITY),
-        (0.07, 2, "acceleration / (m/s²)", style.FORCE),
+        (0.25, 1, _("speed / (m/s)"), style.VELOCITY),
+        (0.07, 2, _("acceleration / (m/s²)"), style.FORCE),
     ):
         part = figure.add_axes((0.13, bottom, 0.83, 0.13))
         time_axes(part, label, is_last=order == 2)
@@ -45,7 +47,7 @@ def _draw_way(axes: Axes, blend: Blend) -> None:
         plane(point[None])[0] for point in (corner.start, corner.corner, corner.end, blend.entry, blend.exit)
     )
     is_flat = len(corner.start) == 2
-    style.metric_axes(axes, "x / m" if is_flat else "along AB / m", "y / m" if is_flat else "across / m")
+    style.metric_axes(axes, "x / m" if is_flat else _("along AB / m"), "y / m" if is_flat else _("across / m"))
     legs = np.array([A, B, C])
     axes.plot(*legs.T, color=style.LINK, linewidth=1.2, linestyle=(0.0, (4.0, 3.0)))
     times = np.linspace(0.0, blend.time, _POINTS)

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.profiles import curve, time_axes
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
@@ -21,7 +22,7 @@ _ROOM = 0.09
 def line_picture(length: float, law: PiecewisePolynomial, limits: Sequence[float], kind: style.PictureFormat) -> bytes:
     """Draw σ(t), [m], and two derivatives; limits of velocity and acceleration may be infinite."""
     figure = style.new_figure(6.4, 6.4)
-    title = f"Along a line: L = {length:.4g} m in {law.duration:.4g} s"
+    title = _("Along a line: L = {length:.4g} m in {duration:.4g} s").format(length=length, duration=law.duration)
     style.write(figure, 0.06, 0.975, [title], size=style.TITLE)
     for order, (label, color) in enumerate(zip(_LABELS, _COLORS, strict=True)):
         axes = figure.add_axes((0.14, 0.66 - 0.285 * order, 0.82, 0.25))

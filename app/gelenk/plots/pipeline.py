@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Ellipse
 
 from gelenk.course.cartesian.pipeline import Pipeline
+from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.robot.arrays import Array
 
@@ -28,12 +29,14 @@ def pipeline_picture(found: Pipeline, kind: style.PictureFormat) -> bytes:
     chosen = rows[np.unique(np.linspace(0, len(rows) - 1, min(len(rows), _MOST_POSTURES)).round().astype(int))]
     _draw_postures(axes, found, found.configurations[chosen])
     _draw_path(axes, found)
-    title = f"N = {len(found.times)}, along {found.line.length:.4g} m"
     if found.spline is not None:
-        title += f": at most {abs(found.largest_deviation().value):.4g} m off the line"
+        title = _("N = {count}, along {length:.4g} m: at most {off:.4g} m off the line")
         _draw_profiles(figure, found)
     else:
-        title += f": {int((~is_reached).sum())} out of reach"
+        title = _("N = {count}, along {length:.4g} m: {missing} out of reach")
+    off = 0.0 if found.spline is None else abs(found.largest_deviation().value)
+    count, missing = len(found.times), int((~is_reached).sum())
+    title = title.format(count=count, length=found.line.length, off=off, missing=missing)
     style.write(figure, 0.04, 0.975, [title], size=style.TITLE)
     return style.as_bytes(figure, kind)
 
@@ -49,7 +52,7 @@ def _draw_postures(axes: Axes, found: Pipeline, qs: Array) -> None:
         tip = elbow + l2 * np.array([np.cos(q.sum()), np.sin(q.sum())])
         axes.plot(*np.array([np.zeros(2), elbow, tip]).T, color=style.LINK, linewidth=2.4, alpha=0.7, zorder=2, **caps)
         axes.plot(*elbow, "o", markersize=5.0, color="white", markeredgecolor=style.LINK, zorder=2.5)
-        U, sigma, _ = np.linalg.svd(J)
+        U, sigma = np.linalg.svd(J)[:2]
         angle = np.degrees(np.arctan2(U[1, 0], U[0, 0]))
         look: dict[str, Any] = {"facecolor": (style.VELOCITY, 0.12), "edgecolor": style.VELOCITY, "linewidth": 1.0}
         axes.add_patch(Ellipse((tip[0], tip[1]), *(2.0 * scale * sigma), angle=float(angle), zorder=3, **look))
@@ -85,7 +88,9 @@ def _draw_profiles(figure: Any, found: Pipeline) -> None:
     times = np.linspace(0.0, found.times[-1], _POINTS)
     q = found.motion.at(times)
     rows = (("q₁ / rad", q[:, 0], style.VELOCITY), ("q₂ / rad", q[:, 1], style.VELOCITY))
-    for k, (label, values, color) in enumerate((*rows, ("off the line / mm", 1e3 * found.deviations(q), style.FORCE))):
+    for k, (label, values, color) in enumerate(
+        (*rows, (_("off the line / mm"), 1e3 * found.deviations(q), style.FORCE))
+    ):
         axes = figure.add_axes((0.67, 0.64 - 0.27 * k, 0.31, 0.24))
         style.light_axes(axes, "t / s" if k == 2 else None, label, size=8.0)
         axes.yaxis.set_label_coords(-0.16, 0.5)

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Circle, Patch, Rectangle
 
 from gelenk.course.planar import Interval, PlanarWorkspace, orientations, posture, share
+from gelenk.language import translated as _
 from gelenk.plots import figure as style
 
 _PRIMARY, _SECONDARY = style.VELOCITY, style.FORCE
@@ -32,7 +33,9 @@ def planar_workspace_picture(arm: PlanarWorkspace, point: Sequence[float] | None
     if point is not None:
         _draw_arm(axes, arm, point)
     lengths = ", ".join(f"{length:.4g}" for length in arm.links)
-    style.write(figure, 0.06, 0.975, [f"Planar arm with links of {lengths} m"], size=style.TITLE)
+    style.write(
+        figure, 0.06, 0.975, [_("Planar arm with links of {lengths} m").format(lengths=lengths)], size=style.TITLE
+    )
     _write_legend(figure, arm, point)
     return style.as_bytes(figure, kind)
 
@@ -67,29 +70,31 @@ def _write_legend(figure: Figure, arm: PlanarWorkspace, point: Sequence[float] |
     line, left, top = style.LINE / figure.get_figheight(), 0.13, 0.115
     swatch = 0.3 / figure.get_figwidth()
     for name, rings, color, strength in (
-        ("WS₁, at least one orientation", arm.primary, _PRIMARY, 0.12),
-        ("WS₂, all orientations", arm.secondary, _SECONDARY, 0.28),
+        (_("WS₁, at least one orientation"), arm.primary, _PRIMARY, 0.12),
+        (_("WS₂, all orientations"), arm.secondary, _SECONDARY, 0.28),
     ):
         patch: Patch = Rectangle((left, top - 0.75 * line), swatch, 0.6 * line, facecolor=(color, strength))
         patch.set(edgecolor=color, linewidth=1.2, transform=figure.transFigure)
         figure.add_artist(patch)
-        style.write(figure, left + 1.4 * swatch, top, [f"{name}: {' and '.join(map(_words, rings)) or 'nowhere'}"])
+        where = _(" and ").join(map(_words, rings)) or _("nowhere")
+        style.write(figure, left + 1.4 * swatch, top, [f"{name}: {where}"])
         top -= 1.15 * line
     if point is not None:
-        style.write(
-            figure, left + 1.4 * swatch, top, [f"At ({point[0]:.4g}, {point[1]:.4g}) m: {_reached(arm, point)}"]
-        )
+        text = _("At ({x:.4g}, {y:.4g}) m: {reached}").format(x=point[0], y=point[1], reached=_reached(arm, point))
+        style.write(figure, left + 1.4 * swatch, top, [text])
 
 
 def _reached(arm: PlanarWorkspace, point: Sequence[float]) -> str:
     found = orientations(arm, *point)
     if part := share(found):
-        return f"{100.0 * part:.4g} % of all orientations"
-    return {0: "not reached", 1: "one orientation"}.get(len(found), f"{len(found)} orientations")
+        return _("{percent:.4g} % of all orientations").format(percent=100.0 * part)
+    words = {0: _("not reached"), 1: _("one orientation")}
+    return words.get(len(found), _("{count} orientations")).format(count=len(found))
 
 
 def _words(ring: Interval) -> str:
     inner, outer = ring
     if outer == 0.0:
-        return "the base alone"
-    return f"a circle at {outer:.4g} m" if outer - inner <= _LINE * outer else f"{inner:.4g} to {outer:.4g} m"
+        return _("the base alone")
+    text = _("a circle at {outer:.4g} m" if outer - inner <= _LINE * outer else "{inner:.4g} to {outer:.4g} m")
+    return text.format(inner=inner, outer=outer)

@@ -9,6 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from gelenk.language import marked
+from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
@@ -19,6 +21,7 @@ _DASHES: Final[tuple[tuple[float, ...], ...]] = ((), (4.0, 1.5), (1.2, 1.2), (6.
 _POINTS = 600
 _A_ROW = 4
 _MARGIN = 0.06
+_QUANTITIES: Final = (marked("position"), marked("velocity"), marked("acceleration"), marked("jerk"))
 _FEW_PIECES = 30
 _LIMIT_DASHES: Final = (0.0, (5.0, 3.0))
 _ROOM = 0.012
@@ -62,9 +65,9 @@ def profiles_picture(title: str, motion: PiecewisePolynomial, lines: ProfileLine
     style.write(figure, 0.03, 1.0 - 0.14 / height, [style.plain(title)], size=style.TITLE)
     top, bottom = 1.0 - (0.55 + rows * style.LINE) / height, 0.5 / height
     step = (top - bottom) / 4.0
-    for order, name in enumerate(("position", "velocity", "acceleration", "jerk")):
+    for order, name in enumerate(_QUANTITIES):
         axes = figure.add_axes((0.14, top - (order + 1) * step + 0.012, 0.825, step - 0.024))
-        time_axes(axes, f"{name}\n{lines.units[order]}", is_last=order == 3)
+        time_axes(axes, f"{_(name)}\n{_(lines.units[order])}", is_last=order == 3)
         _draw(axes, motion.derivative(order))
         if order > 0:
             _limit(axes, lines, order - 1)
@@ -162,7 +165,7 @@ def _trimmed(motion: PiecewisePolynomial) -> PiecewisePolynomial:
 
 def _mark(axes: Axes, times: Array, positions: Array) -> None:
     for j in range(positions.shape[1]):
-        color, _ = _look(j)
+        color = _look(j)[0]
         edge: dict[str, Any] = {"markerfacecolor": "white", "markeredgecolor": color, "markeredgewidth": 1.2}
         axes.plot(times, positions[:, j], "o", markersize=4.5, zorder=4, clip_on=False, **edge)
 
