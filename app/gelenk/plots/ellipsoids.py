@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from gelenk.kinematics.ellipsoids.limited_motion import LimitedMotion
 from gelenk.kinematics.ellipsoids.manipulability import Ellipsoids, is_within_task, space_of, transmission_ratios
+from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.arm import arm_line
 from gelenk.plots.legend import LegendRow, configuration_lines, legend, legend_height, write_head, write_legend
@@ -118,7 +119,7 @@ def _units(chain: Chain) -> tuple[str, str]:
     """Return the units of joint velocities and joint forces, or plain names if joints of both kinds are mixed."""
     kinds = frozenset(chain.flat.joints[:, 0].tolist())
     named = {frozenset({0}): ("rad/s", "N m"), frozenset({1}): ("m/s", "N")}
-    return named.get(kinds, ("joint velocity", "joint effort"))
+    return named.get(kinds, (_("joint velocity"), _("joint effort")))
 
 
 def _quantities(chain: Chain, translation: Ellipsoids, extent: float) -> tuple[Quantity, ...]:
@@ -130,18 +131,48 @@ def _quantities(chain: Chain, translation: Ellipsoids, extent: float) -> tuple[Q
     velocity, force = _units(chain)
     inverses = np.divide(1.0, sigmas, out=np.full_like(sigmas, np.inf), where=sigmas > 0.0)
     return (
-        Quantity("Velocity", f"m/s per {velocity}", style.VELOCITY, SOLID, axes, sigmas, _scale(sigmas, extent)),
-        Quantity("Force", f"N per {force}", style.FORCE, DASHED, axes, inverses, _scale(inverses, extent)),
+        Quantity(
+            _("Velocity"),
+            _("m/s per {unit}").format(unit=velocity),
+            style.VELOCITY,
+            SOLID,
+            axes,
+            sigmas,
+            _scale(sigmas, extent),
+        ),
+        Quantity(
+            _("Force"),
+            _("N per {unit}").format(unit=force),
+            style.FORCE,
+            DASHED,
+            axes,
+            inverses,
+            _scale(inverses, extent),
+        ),
     )
 
 
 def _outlines(translation: Ellipsoids, limited: LimitedMotion, extent: float) -> tuple[Outline, ...]:
     found = []
-    for name, unit, color, limit, numbers, vertices in (
-        ("Velocity", "m/s", style.VELOCITY, "a velocity", limited.velocities, limited.velocity_vertices),
-        ("Force", "N", style.FORCE, "an effort", limited.forces, limited.force_vertices),
+    for name, unit, color, unlimited, numbers, vertices in (
+        (
+            _("Velocity"),
+            "m/s",
+            style.VELOCITY,
+            _("not every joint has a velocity limit"),
+            limited.velocities,
+            limited.velocity_vertices,
+        ),
+        (
+            _("Force"),
+            "N",
+            style.FORCE,
+            _("not every joint has an effort limit"),
+            limited.forces,
+            limited.force_vertices,
+        ),
     ):
-        missing = f"not every joint has {limit} limit" if numbers is None else "unbounded"
+        missing = unlimited if numbers is None else _("unbounded")
         scale = 1.0 if vertices is None else _scale(np.linalg.norm(vertices, axis=1), extent)
         corners = None if vertices is None else translation.space.spread(vertices)
         found.append(Outline(name, unit, color, corners, scale, missing))
@@ -159,10 +190,10 @@ def _arrows(translation: Ellipsoids | None, quantities: Sequence[Quantity], over
     for i, direction in enumerate(directions):
         words = f"({', '.join(f'{component + 0.0:.3g}' for component in np.round(direction, 9))}): "
         if not inside[i]:
-            arrows.append(Arrow(i + 1, direction, (), words + "not in the task"))
+            arrows.append(Arrow(i + 1, direction, (), words + _("not in the task")))
             continue
         values = ratios[:, i].tolist()
-        texts = [f"{value:.4g}" if np.isfinite(value) else "unbounded" for value in values]
+        texts = [f"{value:.4g}" if np.isfinite(value) else _("unbounded") for value in values]
         reached = zip(quantities, values, strict=True)
         ends = tuple((one.color, value * one.scale) for one, value in reached if np.isfinite(value))
         arrows.append(Arrow(i + 1, direction, ends, f"{words}v {texts[0]}, F {texts[1]}"))

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from gelenk.kinematics.ellipsoids.manipulability import Ellipsoids
+from gelenk.language import translated as _
 from gelenk.plots.figure import INK, LINE, QUIET, TITLE, write
 from gelenk.plots.shadows import DOTTED, THIN, Arrow, Outline, Quantity
 from gelenk.robot.arrays import Array
@@ -44,40 +45,44 @@ def legend(
     entries = [_entry(quantity) for quantity in quantities]
     entries += [_outline_entry(outline) for outline in outlines]
     if translation is None:
-        entries.append(LegendRow(("The task has no translation, and only translation is drawn here.",), color=QUIET))
+        entries.append(LegendRow((_("The task has no translation, and only translation is drawn here."),), color=QUIET))
     elif not quantities:
-        entries.append(LegendRow(("No joint moves the tip in the directions of the task.",), color=QUIET))
+        entries.append(LegendRow((_("No joint moves the tip in the directions of the task."),), color=QUIET))
     else:
         sigmas = translation.sigmas[0]
         isotropy = sigmas[-1] / sigmas[0] if sigmas[0] > 0.0 else 0.0
         rank, d = translation.ranks[0], translation.space.dimension
-        singular = ": singular" if rank < d else ""
-        measure = f"Yoshikawa's measure {translation.measures[0]:.4g}, isotropy {isotropy:.3g}"
-        entries.append(LegendRow((measure, f"Rank {rank} of {d}{singular}")))
+        measure = _("Yoshikawa's measure {measure:.4g}, isotropy {isotropy:.3g}")
+        found = _("Rank {rank} of {d}: singular" if rank < d else "Rank {rank} of {d}").format(rank=rank, d=d)
+        entries.append(LegendRow((measure.format(measure=translation.measures[0], isotropy=isotropy), found)))
     if arrows:
         words = [f"{arrow.number}  {arrow.words}" for arrow in arrows[:_MOST_NAMED]]
         more = len(arrows) - len(words)
-        words.insert(0, "Along each direction alone, velocity v and force F:")
-        entries.append(LegendRow((*words, *([f"and {more} more directions"] if more else []))))
+        words.insert(0, _("Along each direction alone, velocity v and force F:"))
+        entries.append(LegendRow((*words, *([_("and {more} more directions").format(more=more)] if more else []))))
     return entries
 
 
 def _entry(quantity: Quantity) -> LegendRow:
     d = len(quantity.sizes)
-    ends = ", ".join("unbounded" if np.isinf(size) else f"{size:.{_DIGITS[d]}g}" for size in quantity.sizes)
-    lines = (
-        f"{quantity.name} {quantity.shape}, semi-{'axis' if d == 1 else 'axes'} {ends}",
-        f"1 {quantity.unit} is drawn as {quantity.scale:g} m",
-    )
+    ends = ", ".join(_("unbounded") if np.isinf(size) else f"{size:.{_DIGITS[d]}g}" for size in quantity.sizes)
+    text = _("{name} {shape}, semi-axis {ends}" if d == 1 else "{name} {shape}, semi-axes {ends}")
+    shape = text.format(name=quantity.name, shape=_(quantity.shape), ends=ends)
+    lines = (shape, _scale(quantity.unit, quantity.scale))
     return LegendRow(lines, Line2D([], [], color=quantity.color, linewidth=THIN, linestyle=quantity.dashes))
 
 
 def _outline_entry(outline: Outline) -> LegendRow:
-    name = f"{outline.name} polytope"
     if outline.vertices is None:
-        return LegendRow((f"{name}: {outline.missing}",), color=QUIET)
-    lines = (f"{name}, within the limits of the joints", f"1 {outline.unit} is drawn as {outline.scale:g} m")
+        text = _("{name} polytope: {missing}").format(name=outline.name, missing=outline.missing)
+        return LegendRow((text,), color=QUIET)
+    text = _("{name} polytope, within the limits of the joints").format(name=outline.name)
+    lines = (text, _scale(outline.unit, outline.scale))
     return LegendRow(lines, Line2D([], [], color=outline.color, linewidth=THIN, linestyle=DOTTED))
+
+
+def _scale(unit: str, metres: float) -> str:
+    return _("1 {unit} is drawn as {metres:g} m").format(unit=unit, metres=metres)
 
 
 def legend_height(entries: Sequence[LegendRow]) -> float:

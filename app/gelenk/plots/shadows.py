@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Ellipse, Polygon
 from matplotlib.typing import LineStyleType
 
+from gelenk.language import marked
 from gelenk.plots.figure import INK, font
 from gelenk.robot.arrays import Array
 
@@ -30,8 +31,15 @@ _TICK = 0.018
 """Half the length of the marks at the ends of a segment, as a fraction of the extent."""
 _FAR = 1e3
 """Distance at which an endless strip is cut off, in extents: far outside the picture."""
-_FINITE = {0: "point", 1: "segment", 2: "ellipse", 3: "ellipsoid"}
-_ENDLESS = {(1, 1): "line", (2, 1): "strip", (2, 2): "plane", (3, 1): "cylinder", (3, 2): "slab", (3, 3): "space"}
+_FINITE = {0: marked("point"), 1: marked("segment"), 2: marked("ellipse"), 3: marked("ellipsoid")}
+_ENDLESS = {
+    (1, 1): marked("line"),
+    (2, 1): marked("strip"),
+    (2, 2): marked("plane"),
+    (3, 1): marked("cylinder"),
+    (3, 2): marked("slab"),
+    (3, 3): marked("space"),
+}
 
 
 @dataclass(frozen=True, slots=True)
