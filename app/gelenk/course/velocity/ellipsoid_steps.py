@@ -126,19 +126,19 @@ def _transmission(question: EllipsoidQuestion, u: Array) -> Step:
     if reached:
         inner = float((np.square(shares[values > 0.0]) / values[values > 0.0]).sum())
         lines.append(
-            rf"u^{{\mathsf T}} (J J^{{\mathsf T}})^{{\#}} u = {number(inner)},\quad \alpha = \left( u^{{\mathsf T}} "
+            rf"u^{{\mathsf T}} (J J^{{\mathsf T}})^{{\#}} u = {number(inner)},\quad \beta_v = \left( u^{{\mathsf T}} "
             rf"(J J^{{\mathsf T}})^{{\#}} u \right)^{{-\frac{{1}}{{2}}}} = {number(inner**-0.5)}"
         )
     else:
-        lines.append(r"\alpha = 0")
+        lines.append(r"\beta_v = 0")
     if needed > 1e-28 * float(values[0]):
         lines.append(
-            rf"u^{{\mathsf T}} J J^{{\mathsf T}} u = {number(needed)},\quad \beta = \left( u^{{\mathsf T}} "
+            rf"u^{{\mathsf T}} J J^{{\mathsf T}} u = {number(needed)},\quad \beta_F = \left( u^{{\mathsf T}} "
             rf"J J^{{\mathsf T}} u \right)^{{-\frac{{1}}{{2}}}} = {number(needed**-0.5)}"
         )
     else:
-        lines.append(r"\beta = \infty")
-    text = _("How far the velocity ellipsoid (α) and the force ellipsoid (β) reach along u.")
+        lines.append(r"\beta_F = \infty")
+    text = _("How far the velocity ellipsoid (β_v) and the force ellipsoid (β_F) reach along u.")
     if not reached:
         text += " " + _("The tip cannot move along u alone.")
     return step(_("Transmission ratios"), text, *lines)

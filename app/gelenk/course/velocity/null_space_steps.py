@@ -59,7 +59,8 @@ class NullSpaceWish:
         if self.objective == "manipulability":
             sigmas = np.linalg.svd(J, compute_uv=False)
             return -float(np.log(sigmas).sum()) if len(sigmas) and sigmas[-1] > 0.0 else None
-        limited = np.isfinite(self.upper - self.lower)
+        spans = self.upper - self.lower
+        limited = np.isfinite(spans) & (spans > 0.0)
         q, lower, upper = self.q[limited], self.lower[limited], self.upper[limited]
         if self.objective == "mid_range":
             return 0.5 * float(np.square((q - 0.5 * (lower + upper)) / (upper - lower)).sum())
