@@ -1,6 +1,7 @@
 """Answers of inverse kinematics, as JSON content and as tables."""
 
 from collections.abc import Sequence
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 
+_COLUMNS = attrgetter(*COLUMNS)
 _ROWS_NAMED = 200
 """Maximum number of unsolved rows in a header: proxies allow headers of a few kilobytes."""
 
@@ -58,10 +60,12 @@ def results_to_json(problem: TargetProblem, call: InverseRequest, result: Invers
         {"status": status, "solutions": solutions[firsts[i] : firsts[i + 1]], "reason": result.doubts.get(i)}
         for i, status in enumerate(result.statuses)
     ]
-    for i, complete in enumerate(result.complete or ()):
-        entries[i].update(complete=complete, families=result.families.get(i, ()))
-    for i, path in enumerate(result.paths or ()):
-        entries[i].update(_path(path))
+    if (proofs := result.complete) is not None:
+        for i, complete in enumerate(proofs):
+            entries[i].update(complete=complete, families=result.families.get(i, ()))
+    if result.paths is not None:
+        for i, path in enumerate(result.paths):
+            entries[i].update(_path(path))
     for i, failure in result.failures.items():
         entries[i].update(_failure(problem.chain, call.pose_format, failure))
     if call.steps:
@@ -73,7 +77,7 @@ def results_to_json(problem: TargetProblem, call: InverseRequest, result: Invers
 def _solutions(result: InverseKinematics) -> list[dict[str, Any]]:
     """Return each solution with its method, its branch, and the joints that a singularity leaves free."""
     form, solutions = result.form, []
-    rows = zip(*[getattr(result, name).tolist() for name in COLUMNS], strict=True)
+    rows = zip(*[column.tolist() for column in _COLUMNS(result)], strict=True)
     for q, position_error, orientation_error, iterations, restarts, code, free in rows:
         is_named = form is not None and code >= 0
         solution = {
