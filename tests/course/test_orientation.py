@@ -1,16 +1,22 @@
 """Orientations against the lecture's numbers and against SciPy's, near what degenerates and at it."""
 
+import json
+import re
 from math import copysign, cos, pi, sin
+from typing import Any
 
 import numpy as np
 import pytest
 from scipy.linalg import polar
 from scipy.spatial.transform import Rotation
 
+from gelenk.contract.orientation import OrientationRequest
 from gelenk.course.orientation.composition import About, composed
 from gelenk.course.orientation.orientation import Notations, notations, wrapped
 from gelenk.course.orientation.rotations import DEGENERATE, AxisName, about_axis, elementary, validated
+from gelenk.course.orientation.symbols import product
 from gelenk.errors import CertificationFailed
+from gelenk.operations.orientation import run
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import transform
 
@@ -354,3 +360,85 @@ def test_nothing_is_near_the_zero_matrix() -> None:
     found, _ = validated(np.zeros((3, 3)))
     assert (found.determinant, found.is_unique, found.is_reflection) == (0.0, False, False)
     assert found.distance == pytest.approx(np.sqrt(3))
+
+
+# The worked solution
+
+
+def shown(**body: Any) -> str:
+    """All titles, texts and formulas for a request, whose numbers and certificate are checked elsewhere."""
+    request = OrientationRequest.model_validate_json(json.dumps(body))
+    steps = run(request).content()["steps"]
+    return "\n".join(part for one in steps for part in (one.title, one.text, *one.plain))
+
+
+def test_steps_of_a_composition() -> None:
+    """The lecture's R⁰₂ = R⁰₁ R¹₂, in symbols and with numbers, and its point."""
+    text = shown(
+        elementary={"axis": "z", "angle": 0.3}, then=[{"elementary": {"axis": "x", "angle": 0.4}}], points=[[1, 2, 3]]
+    )
+    assert "R⁰_2 = R_1 R_2 = R⁰_1 R¹_2" in text
+    assert "[c_1, -s_1 c_2, s_1 s_2; s_1, c_1 c_2, -c_1 s_2; 0, s_2, c_2]" in text
+    assert "p_0 = (0.7561951855, 0.9392899034, 3.54201966" in text
+
+
+def test_a_motion_about_fixed_axes_stands_first() -> None:
+    text = shown(
+        elementary={"axis": "z", "angle": 0.3}, then=[{"elementary": {"axis": "x", "angle": 0.4}, "about": "fixed"}]
+    )
+    assert "R⁰_2 = R_2 R_1" in text
+    assert "R⁰_1 R¹_2" not in text
+
+
+@pytest.mark.parametrize(
+    ("body", "lines"),
+    [
+        ({"zyz": [0.3, 0.7, -1.1]}, ["(φ, ϑ, ψ) = (0.3, 0.7, -1.1)", "(-2.841592654, -0.7, 2.041592654)"]),
+        ({"zyz": [0.4, 0.0, 0.5]}, ["φ+ ψ", "= 0.9", "sin ϑ = 0"]),
+        ({"zyz": [0.4, pi, 0.5]}, ["φ- ψ", "atan2(-r_21, -r_11) = -0.1"]),
+        ({"rpy": [-0.2, 0.5, 0.9]}, ["(ϕ, ϑ, ψ) = (-0.2, 0.5, 0.9)", "(2.941592654, 2.641592654, -2.241592654)"]),
+        ({"rpy": [0.2, pi / 2, 0.9]}, ["atan2(-r_12, r_22) = 0.7", "cos(pitch) = 0"]),
+        ({"rpy": [0.2, -pi / 2, 0.9]}, ["atan2(-r_12, r_22) = 1.1"]),
+        ({"axis_angle": {"axis": [1, 2, 2], "angle": 1.2}}, ["0.4332068929, -0.4796611139, 0.7630576674"]),
+        (
+            {"axis_angle": {"axis": [1, 2, 2], "angle": pi}},
+            ["Half a turn", "(0.3333333333, 0.6666666667, 0.6666666667)"],
+        ),
+        ({"quaternion_xyzw": [0, 0, 0, 1]}, ["there is none"]),
+        ({"rotation": [[2, 0, 0], [0, 1, 0], [0, 0, 1]], "project": True}, ["det R = 2", "distance = 1"]),
+    ],
+)
+def test_steps_name_the_branch_and_what_degenerates(body: dict[str, Any], lines: list[str]) -> None:
+    text = shown(**body).replace("φ +", "φ+").replace("φ -", "φ-")
+    for line in lines:
+        assert line in text
+
+
+def test_steps_of_an_inverse() -> None:
+    text = shown(
+        elementary={"axis": "z", "angle": 0.3}, position=[1, 2, 3], then=[{"elementary": {"axis": "x", "angle": 0.2}}]
+    )
+    assert "(-1.546376902, -2.178965242, -2.619318413)" in text
+
+
+@pytest.mark.parametrize("turns", ["zyz", "xyz", "zyx", "xx", "y"])
+def test_products_in_symbols_are_those_of_the_numbers(turns: str) -> None:
+    angles = dict(zip("abc", (0.3, -0.7, 1.1), strict=True))
+    names = tuple(zip(turns, angles, strict=False))
+    values = {
+        f"{function.__name__[0]}_{{{name}}}": function(x) for name, x in angles.items() for function in (cos, sin)
+    }
+    rows = product(names).removeprefix(r"\begin{bmatrix} ").removesuffix(r" \end{bmatrix}").split(r" \\ ")
+    found = [[evaluated(entry, values) for entry in row.split(" & ")] for row in rows]
+    wanted = np.linalg.multi_dot([np.eye(3), *(elementary(axis, angles[name]) for axis, name in names)])  # type: ignore[arg-type]
+    assert np.array(found) == pytest.approx(wanted, abs=1e-15)
+
+
+def evaluated(entry: str, values: dict[str, float]) -> float:
+    """The value of a sum of products such as c_{a} s_{b} - s_{a}."""
+    total = 0.0
+    for sign, term in re.findall(r"(^-?|[+-] )((?:[cs]_\{\w\} ?|\d ?)+)", entry):
+        factors = [values.get(factor) for factor in term.split()]
+        size = float(np.prod([float(f) if v is None else v for f, v in zip(term.split(), factors, strict=True)]))
+        total += -size if sign.strip() == "-" else size
+    return total

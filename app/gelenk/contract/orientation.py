@@ -7,7 +7,9 @@ from pydantic import Field, model_validator
 
 from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.endpoint import Endpoint
+from gelenk.contract.options import InLanguage
 from gelenk.contract.pose import MAX_MAGNITUDE, ORIENTATIONS, Matrix3, Pose, Vector3, Vector4
+from gelenk.contract.quantities import Steps
 from gelenk.course.orientation.composition import FrameMotion
 from gelenk.course.orientation.orientation import Degeneracy
 from gelenk.course.orientation.rotations import DEGENERATE, Validation, about_axis, elementary, unit_axis, validated
@@ -86,6 +88,15 @@ class OrientationPayload(Payload):
             R = self._as_in_a_pose(place)
         return R, validation
 
+    def written(self) -> tuple[str, list[float], str]:
+        """Return the name of the notation, its numbers, and the axis of an elementary rotation, else ""."""
+        name = next(name for name in _NOTATIONS if getattr(self, name) is not None)
+        if self.axis_angle is not None:
+            return name, [*unit_axis(self.axis_angle.axis, "axis_angle/axis").tolist(), self.axis_angle.angle], ""
+        if self.elementary is not None:
+            return name, [self.elementary.angle], self.elementary.axis
+        return name, [] if self.rotation is not None else list(getattr(self, name)), ""
+
     def _as_in_a_pose(self, place: str) -> Array:
         name = next(name for name in ORIENTATIONS if getattr(self, name) is not None)
         try:
@@ -130,7 +141,7 @@ class FurtherPayload(MotionPayload):
     )
 
 
-class OrientationRequest(MotionPayload):
+class OrientationRequest(MotionPayload, InLanguage):
     """An orientation, with optional motions to compose it with and points to move."""
 
     then: Annotated[list[FurtherPayload], Field(max_length=MAX_MOTIONS)] = Field(
@@ -214,6 +225,7 @@ class OrientationAnswer(Answer):
     validations: list[Validation | None] = Field(
         description="Of each motion in order: how far its `rotation` is from one; null for another notation."
     )
+    steps: Steps
     warnings: list[str] = Field(description="Near degeneracies, and choices made.")
     certificate: OrientationCertificate
 

@@ -6,6 +6,7 @@ example finds it.
 
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 
 _LETTERS = (
     "alpha beta gamma delta varepsilon epsilon eta vartheta theta kappa lambda mu nu xi pi rho sigma tau varphi phi "
@@ -36,6 +37,7 @@ _SUPERSCRIPTS = str.maketrans("0123456789+-=()ni", "⁰¹²³⁴⁵⁶⁷⁸⁹�
 _RAISED = set("0123456789+-=()ni")
 
 
+@lru_cache(maxsize=1024)  # the formulas without numbers come again and again
 def plain(latex: str) -> str:
     r"""Return a formula as plain text; rows of a matrix stand in brackets, separated by semicolons."""
     text = re.sub(_APPLIED + r"(?=[^\W_]|√)", " ", _Reader(latex).group()).replace(_APPLIED, "")

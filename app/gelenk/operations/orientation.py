@@ -6,13 +6,14 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.orientation import OrientationRequest
-from gelenk.course.orientation.composition import composed
+from gelenk.course.orientation.composition import FrameMotion, composed
 from gelenk.course.orientation.orientation import NEARLY_DEGENERATE, Notations, notations
+from gelenk.course.orientation.orientation_steps import GivenMotion, orientation_steps
 from gelenk.course.orientation.rotations import DEGENERATE, Validation
 from gelenk.operations.outcome import json_only
 from gelenk.robot.arrays import Array
 
-_INLINE_MOTIONS = 8
+_INLINE_MOTIONS = 2
 
 
 @json_only
@@ -29,6 +30,7 @@ def run(call: OrientationRequest) -> dict[str, Any]:
         "points": path.points.tolist(),
         "frames": [_frame(one) for one in path.transforms],
         "validations": validations,
+        "steps": orientation_steps(_given(call, first, further, validations), path, found),
         "warnings": [*_projections(validations), *_nearly(found)],
         "certificate": {
             "max_rotation_error": found.error,
@@ -36,6 +38,17 @@ def run(call: OrientationRequest) -> dict[str, Any]:
             "max_point_error": path.point_error,
         },
     }
+
+
+def _given(
+    call: OrientationRequest, first: Array, further: Sequence[FrameMotion], validations: Sequence[Validation | None]
+) -> list[GivenMotion]:
+    transforms: list[FrameMotion] = [(first, "moving"), *further]
+    written = [motion.written() for motion in (call, *call.then)]
+    return [
+        GivenMotion(name, np.array(numbers), axis, T, about, validation)
+        for (name, numbers, axis), (T, about), validation in zip(written, transforms, validations, strict=True)
+    ]
 
 
 def is_heavy(call: OrientationRequest) -> bool:

@@ -9,8 +9,8 @@ import numpy as np
 from gelenk.course.inverse.arm import HandArm
 from gelenk.course.inverse.by_hand import prepared, solver_of
 from gelenk.course.inverse.solution import ByHand, HandSolution, HandTarget
-from gelenk.course.inverse.writing import ROUNDING, difference, matrix, vector, wrapped
 from gelenk.course.steps import Step, step
+from gelenk.course.writing import ROUNDING, difference, matrix, vector, wrapped
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import inverse

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gelenk.course.inverse.writing import theta
+from gelenk.course.writing import theta
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable, about_x, about_z
 

@@ -11,8 +11,8 @@ from gelenk.course.inverse.planar import by_planar, fits_planar
 from gelenk.course.inverse.shoulder import placed
 from gelenk.course.inverse.solution import ByHand, HandSolution, HandTarget
 from gelenk.course.inverse.wrist import centre_step, wrist_formulas, wrist_numbers, wrist_text, zyz_angles
-from gelenk.course.inverse.writing import matrix, number
 from gelenk.course.steps import Step, step
+from gelenk.course.writing import matrix, number
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 

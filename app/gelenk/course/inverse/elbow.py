@@ -4,8 +4,8 @@ import math
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from gelenk.course.inverse.writing import ROUNDING, atan2, number, term, theta, wrapped
 from gelenk.course.steps import Step, step
+from gelenk.course.writing import ROUNDING, atan2, number, term, theta, wrapped
 from gelenk.language import translated as _
 
 Reach: TypeAlias = Literal["two", "one", "all", "none"]

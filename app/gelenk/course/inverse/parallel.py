@@ -13,8 +13,8 @@ from gelenk.course.inverse.elbow import Links, bends, elbow_step
 from gelenk.course.inverse.shoulder import first_step, upright
 from gelenk.course.inverse.solution import ByHand, HandSolution, HandTarget
 from gelenk.course.inverse.wrist import centre_step, zyz_angles, zyz_formulas
-from gelenk.course.inverse.writing import matrix, number, theta, vector, wrapped
 from gelenk.course.steps import Step, step
+from gelenk.course.writing import matrix, number, theta, vector, wrapped
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import about_x

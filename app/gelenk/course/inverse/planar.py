@@ -7,8 +7,8 @@ import numpy as np
 from gelenk.course.inverse.arm import HandArm
 from gelenk.course.inverse.elbow import Links, bends, elbow_step
 from gelenk.course.inverse.solution import ByHand, HandSolution, HandTarget
-from gelenk.course.inverse.writing import ROUNDING, number, term, theta, vector, wrapped
 from gelenk.course.steps import Step, step
+from gelenk.course.writing import ROUNDING, number, term, theta, vector, wrapped
 from gelenk.language import translated as _
 from gelenk.robot.dh import about_x
 

@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
-from gelenk.course.inverse.writing import vector
 from gelenk.course.steps import Step, step
+from gelenk.course.writing import vector
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from gelenk.course.inverse.writing import ROUNDING, atan2, matrix, number, theta, vector, wrapped
 from gelenk.course.steps import Step, step
+from gelenk.course.writing import ROUNDING, atan2, matrix, number, theta, vector, wrapped
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 

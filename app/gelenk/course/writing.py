@@ -1,4 +1,4 @@
-"""Numbers in the formulas of inverse kinematics, without what rounding leaves of a zero."""
+"""Numbers, vectors and matrices in formulas, without what rounding leaves of a zero."""
 
 import math
 from collections.abc import Iterable
