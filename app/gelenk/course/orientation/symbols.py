@@ -1,4 +1,4 @@
-r"""Products of elementary rotations in symbols: entries such as c_\varphi c_\vartheta of R_z(\varphi) R_y(\vartheta)."""
+r"""Products of elementary rotations in symbols: entries such as c_1 s_2 of R_z(\vartheta_1) R_y(\vartheta_2)."""
 
 from functools import lru_cache
 from typing import TypeAlias
