@@ -1,5 +1,7 @@
 """Every message for people stands in every language, and the compiled catalogues are those of the sources."""
 
+import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -98,3 +100,18 @@ def test_an_outcome_speaks_though_it_is_made_late() -> None:
     with language("de"):
         assert translated("Links") == "Glieder"
     assert translated("Links") == "Links"
+
+
+def unmarked(path: Path) -> list[str]:
+    """Words in titles and texts of steps that stand in the source, and are not the translation of a message."""
+    calls = [node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.Call)]
+    steps = [call for call in calls if isinstance(call.func, ast.Name) and call.func.id == "step"]
+    given = [one for call in steps for one in call.args[:2] if not isinstance(one, ast.Call)]
+    words = [str(part.value) for one in given for part in ast.walk(one) if isinstance(part, ast.Constant)]
+    return [text for text in words if re.search(r"[a-z]{3}", text)]
+
+
+def test_the_words_of_every_step_are_translated(tmp_path: Path) -> None:
+    (tmp_path / "page.py").write_text('step("Links", _("All of them."), "n = 4")')
+    assert unmarked(tmp_path / "page.py") == ["Links"]
+    assert {path.name: found for path in texts.PACKAGE.rglob("*.py") if (found := unmarked(path))} == {}

@@ -19,19 +19,15 @@ NO_NOUNS = {
     *("vanishes", "bytes", "seconds", "counts"),
 }
 NEVER_ONE = {
-    *("len(keys) keys", "count coordinates", "joints joints", "pieces pieces", "count samples", "waypoints waypoints"),
-    *("len(links) links", "len(links) - 1 pairs", "split.links links", "split.pairs pairs", "links links"),
-    *("links - 1 pairs", "meeting links", "FREEDOMS[found.space] freedoms", "freedoms freedoms", "len(lost) parts"),
-    *("counted.couplings joints", "counted.constraints constraints", "total constraints", "placed joints"),
+    *("len(keys) keys", "count coordinates", "pieces pieces", "count samples", "waypoints waypoints"),
+    *("len(links) links", "len(links) - 1 pairs", "meeting links", "placed joints"),
     *("self._lost lines", "len(self.joints) joints", "len(joints) joints", "self.representation angles"),
     *("self.unfinished jobs", "self.allowed requests"),
     *("depth[deepest] joints", "len(found) elements", "len(name) characters", "len(attributes) attributes"),
-    *("len(value) characters", "len(found) orientations", "len(grounds) links", "peak.ratio times", "count waypoints"),
-    *("factor times", "bound.ratio times", "jerk.ratio times", "ratios[k, j] times", "len(spline.times) knots"),
-    *("4 * (N - 1) coefficients", "2 * (N - 1) positions", "2 * (N - 2) continuities", "2 * len(starts) conditions"),
+    *("len(value) characters", "len(grounds) links", "peak.ratio times", "count waypoints"),
+    *("factor times", "bound.ratio times", "jerk.ratio times", "ratios[k, j] times"),
     *("len(names) meshes", "len(parts) - 1 folders", "len(path.trace) configurations", "voxels voxels"),
     *("rotations orientations", "hard files", "10.0 ** abs(power) times"),
-    *("degree + 1 coefficients", "moves + turns independent"),
 }
 """Numbers that are two or more, or a limit, or zero; and those whose sentence has a form for one."""
 
