@@ -17,6 +17,7 @@ from gelenk.course.plain import plain
         (r"t = \sqrt{\frac{L}{a}} = 3\,\mathrm{m/s}", "t = √(L/a) = 3 m/s"),
         (r"q_\mathrm{max}\left(a\right) \in \{1, 2\}", "q_max(a) ∈ {1, 2}"),
         (r"\lVert x \rVert \le 90^\circ", "‖x ‖ ≤ 90°"),
+        (r"\sqrt[3]{\frac{q}{j}} + \sqrt2", "∛(q/j) + √(2)"),
         (r"\sigma = \cos 2 + \max(a,\ b)", "σ = cos 2 + max(a, b)"),
         (r"x^{i-1}_{i+1} \frac12", "xⁱ⁻¹_(i+1) 1/2"),
         (r"\rho = 2, \sum_i \sigma_i", "ρ = 2, Σ_i σ_i"),

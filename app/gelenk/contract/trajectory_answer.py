@@ -6,6 +6,7 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer
 from gelenk.contract.pose import Pose
+from gelenk.course.steps import Step
 from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.trajectory.audit.result import Audit
 from gelenk.trajectory.audit.words import Law, SegmentType
@@ -90,6 +91,9 @@ class TrajectoryAnswer(Answer):
     timing: list[TimingComparison] | None = Field(default=None, description="If `compare_timing` was requested.")
     limits: MotionLimitsInfo = Field(description="Of the trajectory; each segment has its own.")
     limit_sources: LimitSourcesInfo
+    steps: list[Step] | None = Field(
+        default=None, description="If requested: path, time law and corners of each segment, with their numbers."
+    )
     notes: list[str] = Field(description="What was assumed.")
     certificate: PoseCertificate | None = Field(
         description="Of `tip_poses`, a sample of them recomputed through Pinocchio; null without them."

@@ -8,7 +8,7 @@ from pydantic import Discriminator, Field, Tag
 from gelenk.contract.common import ChainOptions, OnTheWire, Payload
 from gelenk.contract.course_motion import Duration
 from gelenk.contract.kinematics import ByName, ByOrder, Configuration
-from gelenk.contract.options import Directions
+from gelenk.contract.options import Directions, WithSteps
 from gelenk.contract.pose import ORIENTATIONS, AnswerFormat, Pose
 from gelenk.robot.arrays import Array
 from gelenk.robot.arrays import Configuration as GivenConfiguration
@@ -222,7 +222,7 @@ Segment = Annotated[
 ]
 
 
-class TrajectoryRequest(ChainOptions, MotionOptions):
+class TrajectoryRequest(ChainOptions, MotionOptions, WithSteps):
     """A motion from rest to rest through segments, one after the other."""
 
     start: Configuration = Field(

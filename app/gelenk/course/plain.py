@@ -30,6 +30,7 @@ _FACES = "mathrm mathsf mathbf mathbb mathcal mathit text textbf boldsymbol oper
 _FONTS = frozenset(_FACES.split())
 _ACCENTS = {"dot": "\u0307", "ddot": "\u0308", "dddot": "\u20db", "hat": "\u0302", "bar": "\u0304", "tilde": "\u0303"}
 _SPACES = {",", ";", ":", "", "!"}
+_ROOTS = {"3": "∛", "4": "∜"}
 _APPLIED = "\u2061"
 """Stands behind the name of a function until it is known whether its argument needs a space."""
 _TOKEN = re.compile(r"\\(?:[A-Za-z]+\s*|.)|\s+|.", re.DOTALL)
@@ -84,7 +85,7 @@ class _Reader:
         if name in ("frac", "tfrac", "dfrac"):
             return f"{_factor(self._argument())}/{_factor(self._argument())}"
         if name == "sqrt":
-            return f"√({self._argument()})"
+            return self._root()
         if name in _ACCENTS:
             inner = self._argument()
             return inner[:1] + _ACCENTS[name] + inner[1:] if len(inner) <= 2 else f"d/dt({inner})"
@@ -100,6 +101,13 @@ class _Reader:
         if not name.isalpha():
             return "; " if name == "\\" else name
         return f" {_SIGNS[name]} " if name in _BINARY else _SIGNS[name]
+
+    def _root(self) -> str:
+        part = next(self._tokens)
+        if part != "[":
+            return f"√({self.group() if part == '{' else self._read(part)})"
+        root = "".join(iter(lambda: next(self._tokens), "]"))
+        return f"{_ROOTS.get(root, root + '√')}({self._argument()})"
 
     def _environment(self) -> None:
         if "array" in self._argument():

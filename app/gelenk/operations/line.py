@@ -38,11 +38,8 @@ def is_heavy(call: LineRequest) -> bool:
 
 def _law(call: LineRequest, displacement: Array) -> tuple[LineLaw, AxisLimits | None]:
     """Return the law along the line, and the limits of the axes that give its own, if they are given."""
-    speeds: dict[str, Any] = {
-        "start_velocity": call.start_velocity,
-        "end_velocity": call.end_velocity,
-        "duration": call.duration,
-    }
+    names = ("start_velocity", "end_velocity", "duration")
+    speeds: dict[str, Any] = {name: getattr(call, name) for name in names}
     limits = ("velocity", "acceleration", "axis_velocity", "axis_acceleration", "may_reverse")
     if call.law != "trapezoidal":
         for field in limits:

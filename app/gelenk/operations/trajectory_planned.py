@@ -18,6 +18,7 @@ from gelenk.operations.pose_arrays import pose_list
 from gelenk.operations.rows import json_list, json_rows
 from gelenk.operations.trajectory_limits import limit_notes
 from gelenk.operations.trajectory_request import SourcedProblem, parse, shortest_duration
+from gelenk.operations.trajectory_steps import trajectory_steps
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
@@ -174,6 +175,8 @@ class PlannedTrajectory:
             "notes": limit_notes(self.chain, self.question.own, self.question.segment_bounds),
             "certificate": certificate,
         }
+        if self.call.steps:
+            answer["steps"] = trajectory_steps(self.chain, self.question.problem.segments, found)
         return answer | ({"timing": found.timing} if self.call.compare_timing else {})
 
     def _segments_json(self) -> list[dict[str, Any]]:

@@ -67,6 +67,7 @@ def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Traject
         None if failure is None else replace(failure, time=motion.duration),
         judgement,
         tuple(part.timing for part in parts if part.timing is not None),
+        tuple((part.reports[0].index, part.law) for part in parts if part.law is not None),
     )
 
 

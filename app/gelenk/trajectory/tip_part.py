@@ -51,7 +51,8 @@ def tip_part(
         return PlannedPart(standing(start), (), Demands(), *part.failure())
     timing = part.timed()
     comparison = part.comparison() if problem.compares_timing else None
-    return PlannedPart(timing.motion, part.reports(timing), part.demands(timing), *part.failure(), comparison)
+    demands = part.demands(timing)
+    return PlannedPart(timing.motion, part.reports(timing), demands, *part.failure(), comparison, timing.law)
 
 
 @dataclass(frozen=True)

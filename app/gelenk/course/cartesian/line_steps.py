@@ -10,6 +10,7 @@ from gelenk.course.steps import Step, step, tex, tex_factor
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.extremes import peaks
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 
 def line_steps(found: LineMotion, law: LineLaw) -> tuple[Step, ...]:
@@ -21,7 +22,8 @@ def line_steps(found: LineMotion, law: LineLaw) -> tuple[Step, ...]:
         laws = (_polynomial(found, law),)
     if found.length == 0.0:
         return (length, *laws[:1]) if found.planned is not None else (length,)
-    return (length, *laws, _pieces(found), _derivatives(found), _largest(found))
+    pieces = step(_("σ(t) in numbers"), _("τ is the time since the piece begins."), *sigma_pieces(found.law))
+    return (length, *laws, pieces, line_derivatives(found.start, found.end), _largest(found))
 
 
 def _length(found: LineMotion) -> Step:
@@ -51,24 +53,25 @@ def _polynomial(found: LineMotion, law: LineLaw) -> Step:
     )
 
 
-def _pieces(found: LineMotion) -> Step:
+def sigma_pieces(law: PiecewisePolynomial) -> list[str]:
+    """Return σ(t) piece by piece, each in the time τ since it begins."""
     formulas = []
-    rows = zip(found.law.breaks[:-1].tolist(), found.law.breaks[1:].tolist(), found.law.coefficients, strict=True)
+    rows = zip(law.breaks[:-1].tolist(), law.breaks[1:].tolist(), law.coefficients, strict=True)
     for begin, end, c in rows:
         shifted = tex_polynomial(c[::-1, 0].tolist()).replace(r"\,t", r"\,\tau")
         since = r"\tau = t" if begin == 0.0 else rf"\tau = t - {tex(begin)}"
         formulas.append(rf"\sigma = {shifted},\quad {since},\quad {tex(begin)} \le t \le {tex(end)}")
-    return step(_("σ(t) in numbers"), _("τ is the time since the piece begins."), *formulas)
+    return formulas
 
 
-def _derivatives(found: LineMotion) -> Step:
-    direction = tex_vector(found.direction if found.direction is not None else found.start)
-    delta = tex_vector(found.end - found.start)
+def line_derivatives(start: Array, end: Array) -> Step:
+    """Return p(s), ṗ and p̈ of a line that has a length."""
+    direction = tex_vector((end - start) / np.linalg.norm(end - start))
     return step(
         _("Along the line"),
         _("s = σ/L runs from 0 to 1. The line has no curvature, so of p̈ only the part along it is left."),
         r"s = \frac{\sigma}{L},\quad \dot s = \frac{\dot\sigma}{L},\quad \ddot s = \frac{\ddot\sigma}{L}",
-        rf"p(s) = p_i + s\,(p_f - p_i) = {tex_vector(found.start)} + s\,{delta}",
+        rf"p(s) = p_i + s\,(p_f - p_i) = {tex_vector(start)} + s\,{tex_vector(end - start)}",
         rf"\dot p = \frac{{dp}}{{ds}}\,\dot s = \frac{{p_f - p_i}}{{L}}\,\dot\sigma = {direction}\,\dot\sigma",
         r"\ddot p = \frac{d^2 p}{ds^2}\,\dot s^2 + \frac{dp}{ds}\,\ddot s,\quad \frac{d^2 p}{ds^2} = 0",
         rf"\ddot p = \frac{{p_f - p_i}}{{L}}\,\ddot\sigma = {direction}\,\ddot\sigma",

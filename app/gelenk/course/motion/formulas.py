@@ -32,7 +32,7 @@ def tex_row(values: Array) -> str:
 
 def tex_vector(values: Array) -> str:
     """Format the coordinates of a vector, in brackets."""
-    return "(" + r",\; ".join(map(tex, values.tolist())) + ")"
+    return "(" + r",\; ".join(map(tex, (values + 0.0).tolist())) + ")"
 
 
 def tex_matrix(rows: Array) -> str:

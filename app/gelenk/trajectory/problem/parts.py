@@ -22,6 +22,7 @@ class PlannedPart:
         motion: Joint motion, starting at 0 s; one piece of zero duration if nothing moves.
         reports: Of the segments that were started; their times count from the start of the part.
         share: Completed fraction of its last segment, from 0 to 1.
+        law: s(t) along a path of the tip, [m or rad], from its start; None of a motion of the joints.
     """
 
     motion: PiecewisePolynomial
@@ -30,6 +31,7 @@ class PlannedPart:
     failure: PlanningFailure | None = None
     share: float = 1.0
     timing: TimingComparison | None = None
+    law: PiecewisePolynomial | None = None
 
     def slowed(self, factor: float) -> "PlannedPart":
         """Return the part slowed down to `factor` times its duration."""
@@ -43,6 +45,7 @@ class PlannedPart:
             motion=self.motion.scaled(factor),
             reports=tuple(report.retimed(factor) for report in self.reports),
             demands=replace(self.demands, path=slower, zones=zones),
+            law=None if self.law is None else self.law.scaled(factor),
         )
 
     def noted(self, notes: tuple[str, ...]) -> "PlannedPart":

@@ -164,6 +164,7 @@ class Trajectory:
         segments: Those that were completed wholly or in part.
         completed_fraction: Completed fraction; segments count equally, an incomplete one by its completed length.
         failure: Why the trajectory ends early; None if it is complete.
+        laws: s(t) of each path of the tip, [m or rad], from its start, with the index of its first segment.
     """
 
     motion: PiecewisePolynomial
@@ -172,3 +173,4 @@ class Trajectory:
     failure: PlanningFailure | None
     audit: Audit
     timing: tuple[TimingComparison, ...] = ()
+    laws: tuple[tuple[int, PiecewisePolynomial], ...] = ()
