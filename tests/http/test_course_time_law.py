@@ -1,5 +1,6 @@
 """Time laws over HTTP."""
 
+import re
 from typing import Any
 
 import numpy as np
@@ -237,3 +238,32 @@ def test_numbers_that_are_none(client: TestClient, number: str) -> None:
     body = f'{{"law": "cubic", "start": 0, "target": {number}, "duration": 1}}'
     answer = client.post(PATH, content=body, headers={"Content-Type": "application/json"})
     assert answer.status_code == 422
+
+
+@pytest.mark.parametrize("law", ["cubic", "quintic", "septic"])
+@pytest.mark.parametrize("target", [1.4, 0.2], ids=["moved", "back at the start"])
+def test_the_steps_derive_each_coefficient(client: TestClient, law: str, target: float) -> None:
+    rates = {"start_velocity": 0.5, "end_velocity": -0.3}
+    rates |= {} if law == "cubic" else {"start_acceleration": 0.1, "end_acceleration": 0.2}
+    rates |= {"start_jerk": -0.4, "end_jerk": 0.7} if law == "septic" else {}
+    content = good(client, {"law": law, "start": 0.2, "target": target, "duration": 2.0, **rates})
+    text = "\n".join(line for step in content["steps"] for line in step["plain"])
+    coefficients = content["segments"][0]["coefficients"][0]
+    if law == "cubic" and target != 0.2:
+        return
+    for k, value in enumerate(coefficients):
+        found = re.search(rf"\nc_{k} = .* = (\S+)", text)
+        assert found is not None, text
+        assert float(found[1].replace("·", "")) == pytest.approx(value * 2.0**k, rel=1e-9, abs=1e-9)
+
+
+def test_the_steps_solve_for_the_velocities_of_a_lift(client: TestClient) -> None:
+    body = {"law": "4-3-4", "waypoints": [0, 0.3, 1.2, 1.5], "times": [0, 0.5, 1.5, 2], "start_velocity": 0.1}
+    content = good(client, body)
+    text = "\n".join(line for step in content["steps"] for line in step["plain"])
+    found = re.search(r"\[(\S+), (\S+); (\S+), (\S+)\] \[v_1; v_2\] = \[(\S+); (\S+)\]", text)
+    assert found is not None
+    numbers = [float(one) for one in found.groups()]
+    velocities = np.linalg.solve(np.reshape(numbers[:4], (2, 2)), numbers[4:])
+    inner = [segment["coefficients"][0][1] for segment in content["segments"][1:]]
+    np.testing.assert_allclose(velocities, inner, atol=1e-9)

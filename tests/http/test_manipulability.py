@@ -301,12 +301,18 @@ def test_pictures(client: TestClient, robot: str, q: list[float], kind: str, sta
     assert npy_call.content == answer.content
 
 
-@pytest.mark.parametrize("qs", [[], [[0.3, 0.8], [0.3, 0.9]]])
-def test_a_picture_shows_one_configuration(client: TestClient, qs: list[list[float]]) -> None:
-    answer = client.post(PATH.format("planar_2r"), json={"joint_positions": qs}, headers={"accept": SVG})
+@pytest.mark.parametrize(("robot", "qs"), [("planar_2r", []), ("panda", [READY, READY])])
+def test_a_picture_in_space_shows_one_configuration(client: TestClient, robot: str, qs: list[list[float]]) -> None:
+    answer = client.post(PATH.format(robot), json={"joint_positions": qs}, headers={"accept": SVG})
     assert answer.status_code == 422
     assert answer.headers["content-type"] == "application/problem+json"
     assert "one configuration" in answer.json()["detail"]
+
+
+def test_postures_of_a_planar_arm_are_drawn(client: TestClient) -> None:
+    body = {"joint_positions": [[0.3, 0.8], [0.3, 0.9], [0.5, 1.2]]}
+    answer = client.post(PATH.format("planar_2r"), json=body, headers={"accept": PNG})
+    assert answer.content.startswith(b"\x89PNG")
 
 
 def test_a_robot_with_names_that_are_no_latin_can_be_drawn(client: TestClient) -> None:

@@ -63,10 +63,10 @@ def run(loaded: LoadedRobot, call: ManipulabilityRequest, limits: Limits) -> Out
         return np.concatenate([part.sigmas for part in result().parts.values()], axis=1), {}
 
     def picture(kind: PictureFormat) -> bytes:
-        if len(qs) != 1:
-            raise InvalidField("joint_positions", f"an image shows one configuration; these are {len(qs)}")
         if call.reference != "local_world_aligned":
             raise InvalidField("reference", "an image is drawn in the base's axes, `local_world_aligned`")
+        if len(qs) != 1:
+            return _postures(loaded, chain, qs, result().parts.get("translation"), kind)
         return _picture(loaded, chain, qs[0], result(), call, bounds, kind)
 
     fits = not (call.gradient or call.polytopes or call.directions or call.steps)
@@ -256,6 +256,18 @@ def _add_polytopes(
     for entry, motion in zip(entries, motions, strict=True):
         entry["velocity_polytope"] = polytope(motion.velocities, motion.velocity_vertices)
         entry["force_polytope"] = polytope(motion.forces, motion.force_vertices)
+
+
+def _postures(
+    loaded: LoadedRobot, chain: Chain, qs: Array, translation: Ellipsoids | None, kind: PictureFormat
+) -> bytes:
+    from gelenk.plots.ellipsoids import plane_of  # noqa: PLC0415
+    from gelenk.plots.postures import postures_picture  # noqa: PLC0415
+
+    if translation is None or len(qs) == 0 or plane_of(chain, translation) is None:
+        reason = f"an image of an arm that moves in space shows one configuration; these are {len(qs)}"
+        raise InvalidField("joint_positions", reason)
+    return postures_picture(loaded.record.name, chain, qs, translation, kind)
 
 
 def _picture(

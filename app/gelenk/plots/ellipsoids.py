@@ -99,7 +99,7 @@ def manipulability_picture(
     extent = max(float(np.ptp(points, axis=0).max()), float(np.linalg.norm(points[-1])), 1e-3)
     quantities = () if translation is None else _quantities(chain, translation, extent)
     outlines = () if translation is None or overlay.limited is None else _outlines(translation, overlay.limited, extent)
-    plane = _plane(chain, translation)
+    plane = plane_of(chain, translation)
     arrows = _arrows(translation, quantities, overlay)
     scene = Scene(points, slides, extent, quantities, outlines, arrows)
     entries = legend(quantities, outlines, arrows, translation)
@@ -109,7 +109,7 @@ def manipulability_picture(
     return style.as_bytes(figure, kind)
 
 
-def _plane(chain: Chain, translation: Ellipsoids | None) -> Array | None:
+def plane_of(chain: Chain, translation: Ellipsoids | None) -> Array | None:
     """Return two unit vectors of the picture's plane, that of all motion or else of the task; shape (2, 3), or None."""
     spaces = [space_of(chain, (0, 1, 2)), *([] if translation is None else [translation.space])]
     return next((space.spread(space.basis.T) for space in spaces if space.is_plane), None)
@@ -138,7 +138,7 @@ def _quantities(chain: Chain, translation: Ellipsoids, extent: float) -> tuple[Q
             SOLID,
             axes,
             sigmas,
-            _scale(sigmas, extent),
+            drawn_scale(sigmas, extent),
         ),
         Quantity(
             _("Force"),
@@ -147,7 +147,7 @@ def _quantities(chain: Chain, translation: Ellipsoids, extent: float) -> tuple[Q
             DASHED,
             axes,
             inverses,
-            _scale(inverses, extent),
+            drawn_scale(inverses, extent),
         ),
     )
 
@@ -173,7 +173,7 @@ def _outlines(translation: Ellipsoids, limited: LimitedMotion, extent: float) ->
         ),
     ):
         missing = unlimited if numbers is None else _("unbounded")
-        scale = 1.0 if vertices is None else _scale(np.linalg.norm(vertices, axis=1), extent)
+        scale = 1.0 if vertices is None else drawn_scale(np.linalg.norm(vertices, axis=1), extent)
         corners = None if vertices is None else translation.space.spread(vertices)
         found.append(Outline(name, unit, color, corners, scale, missing))
     return tuple(found)
@@ -200,7 +200,7 @@ def _arrows(translation: Ellipsoids | None, quantities: Sequence[Quantity], over
     return tuple(arrows)
 
 
-def _scale(sizes: Array, extent: float) -> float:
+def drawn_scale(sizes: Array, extent: float) -> float:
     """Return the metres as drawn per unit, a power of ten times 1, 2 or 5, that fit the largest size in the picture."""
     largest = float(sizes[np.isfinite(sizes)].max(initial=0.0))
     if not largest > 0.0:

@@ -85,7 +85,7 @@ def _largest(found: LineMotion) -> Step:
         value, time = abs(float(peak.values[0])), float(peak.times[0])
         formulas.append(
             rf"\max \lVert {dots} p \rVert = \max |{dots}\sigma| = {tex(value, unit)} "
-            rf"\text{{ at }} t = {tex(time, 's')}"
+            rf",\quad t = {tex(time, 's')}"
         )
     return step(_("Largest speed and acceleration"), _("K is a unit vector: those of p are those of σ."), *formulas)
 

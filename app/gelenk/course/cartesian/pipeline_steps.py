@@ -106,6 +106,6 @@ def _missed(line: PlanarLine, deviation: Deviation) -> Step:
         _("Between the samples"),
         _("The tip passes through the samples, and beside the line between them: more samples, less deviation."),
         r"e(t) = \frac{(p_f - p_i) \times (F(q(t)) - p_i)}{L}",
-        rf"\max |e| = {tex(abs(deviation.value), 'm')} \text{{ at }} t = {tex(deviation.time, 's')},\quad "
+        rf"\max |e| = {tex(abs(deviation.value), 'm')},\quad t = {tex(deviation.time, 's')},\quad "
         rf"\frac{{\max |e|}}{{L}} = {tex(abs(deviation.value) / line.length)}",
     )

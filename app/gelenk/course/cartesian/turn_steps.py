@@ -35,7 +35,7 @@ def turn_steps(turn: Turn, share: PiecewisePolynomial) -> tuple[Step, ...]:
         r"R(t) = R_i\,\mathrm{Rot}(r, \theta(t)),\quad \theta(t) = s(t)\,\theta",
         rf"\omega = R_i\,r\,\dot\theta = {tex_vector(turn.base_axis)}\,\dot\theta",
         rf"\max \dot\theta = {tex(path.angle)} \cdot {tex(fastest)} = {tex(path.angle * fastest, 'rad/s')} "
-        rf"\text{{ at }} t = {tex(float(peak.times[0]), 's')}",
+        rf",\quad t = {tex(float(peak.times[0]), 's')}",
         rf"\omega_{{\max}} = {tex_vector(turn.base_axis * path.angle * fastest)}",
     )
     first, last = turn.by_angles.triple_at(0.0), turn.by_angles.triple_at(1.0)
@@ -51,6 +51,6 @@ def turn_steps(turn: Turn, share: PiecewisePolynomial) -> tuple[Step, ...]:
         _("Both ways have the same ends, and other orientations between them."),
         rf"R_{{\mathrm{{axis}}}} = {tex_matrix(one)}",
         rf"R_{{\mathrm{{zyz}}}} = {tex_matrix(other)}",
-        rf"\text{{angle between them}} = {tex(turn.apart, 'rad')}",
+        rf"\angle(R_{{\mathrm{{axis}}}}, R_{{\mathrm{{zyz}}}}) = {tex(turn.apart, 'rad')}",
     )
     return axis, about, angles, halfway

@@ -1,10 +1,12 @@
 """Worked solutions of the polynomial time laws, in the notation of the lecture."""
 
 from collections.abc import Sequence
+from fractions import Fraction
+from math import factorial, perm
 
 import numpy as np
 
-from gelenk.course.motion.formulas import SHOWN_JOINTS, of_joint, tex_polynomial, tex_row
+from gelenk.course.motion.formulas import SHOWN_JOINTS, of_joint, tex_matrix, tex_polynomial, tex_row
 from gelenk.course.steps import Step, step, tex, tex_factor
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
@@ -12,6 +14,23 @@ from gelenk.trajectory.motion.extremes import Peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _LETTERS = "abcdefgh"
+_RATES = "qvaj"
+_UPPER: dict[int, tuple[tuple[int | str, ...], ...]] = {
+    2: ((3, -1), (-2, 1)),
+    3: ((10, -4, "1/2"), (-15, 7, -1), (6, -3, "1/2")),
+    4: ((35, -15, "5/2", "-1/6"), (-84, 39, -7, "1/2"), (70, -34, "13/2", "-1/2"), (-20, 10, -2, "1/6")),
+}
+"""For each m, the upper coefficients by the remainders r of the m conditions at λ = 1."""
+_SAME_ACCELERATIONS = (
+    (
+        r"\left(\frac{6}{h_1} + \frac{4}{h_2}\right) v_1 + \frac{2}{h_2} v_2 = "
+        r"\frac{12 (q_1 - q_0)}{h_1^2} + \frac{6 (q_2 - q_1)}{h_2^2} - \frac{6 v_0}{h_1} - a_0"
+    ),
+    (
+        r"\frac{2}{h_2} v_1 + \left(\frac{4}{h_2} + \frac{6}{h_3}\right) v_2 = "
+        r"\frac{6 (q_2 - q_1)}{h_2^2} + \frac{12 (q_3 - q_2)}{h_3^2} - \frac{6 v_3}{h_3} + a_3"
+    ),
+)
 _CONDITIONS = {
     3: (r"q(0) = q_0", r"\dot q(0) = v_0", r"q(T) = q_1", r"\dot q(T) = v_1"),
     5: (r"q,\ \dot q,\ \ddot q,\quad t \in \{0, T\}",),
@@ -44,16 +63,50 @@ def two_point_steps(
     for j, own in enumerate(normalised[:SHOWN_JOINTS]):
         if own is None:
             text = _("q₁ = q₀: dividing by Δq = 0 is not possible, and the general form in t is used.")
-            form = step(_("No normalised form"), text, r"\Delta q = 0")
+            form = step(
+                _("No normalised form"), text, r"\Delta q = 0", *_general(starts[:, j], ends[:, j], motion.duration)
+            )
         elif degree == 3:
             form = _cubic(starts[:, j].tolist(), ends[:, j].tolist(), motion.duration, own)
         else:
             found = ",\\ ".join(f"{name} = {tex(value)}" for name, value in zip(names, own, strict=True))
-            form = step(_("Coefficients"), _("Lowest powers from the start, the others from the end."), found)
+            general_form = _general(starts[:, j], ends[:, j], motion.duration)
+            text = _("Lowest powers from the start, the others from the end.")
+            form = step(_("Coefficients"), text, *general_form, found)
         polynomial = tex_polynomial(motion.coefficients[0, ::-1, j].tolist())
         in_time = step(_("In time"), _("λ = t/T put in."), f"q(t) = {polynomial}")
         steps += [of_joint(form, j, joints), of_joint(in_time, j, joints)]
     return tuple(steps)
+
+
+def _general(start: Array, end: Array, duration: float) -> list[str]:
+    """Return the coefficients of q = Σ c_k λᵏ, which need no Δq: lower from the start, upper from the rest."""
+    m, formulas = len(start), []
+    c = [float(start[k]) * duration**k / factorial(k) for k in range(m)]
+    for k, value in enumerate(c):
+        power = "" if k == 0 else "\\,T" if k == 1 else rf"\,T^{k}"
+        divided = rf"\frac{{{_RATES[k]}_0{power}}}{{{factorial(k)}}}" if k > 1 else f"{_RATES[k]}_0{power}"
+        formulas.append(rf"c_{k} = {divided} = {tex(value)}")
+    r = []
+    for d in range(m):
+        taken = [(perm(k, d), k) for k in range(max(d, 0), m)]
+        r.append(float(end[d]) * duration**d - sum(count * c[k] for count, k in taken))
+        power = "" if d == 0 else "\\,T" if d == 1 else rf"\,T^{d}"
+        rest = "".join(rf" - {count if count > 1 else ''}c_{k}" for count, k in taken)
+        formulas.append(rf"r_{d} = {_RATES[d]}_1{power}{rest} = {tex(r[d])}")
+    for i, row in enumerate([list(map(Fraction, weights)) for weights in _UPPER[m]]):
+        terms = ""
+        for d, weight in enumerate(row):
+            sign = " - " if weight < 0 else " + " if terms else ""
+            factor = "" if abs(weight) == 1 else str(abs(weight)) if weight.denominator == 1 else _fraction(weight)
+            terms += (sign if terms else sign.strip()) + f"{factor} r_{d}".strip()
+        value = sum(float(weight) * one for weight, one in zip(row, r, strict=True))
+        formulas.append(rf"c_{m + i} = {terms} = {tex(value)}")
+    return formulas
+
+
+def _fraction(weight: Fraction) -> str:
+    return rf"\frac{{{abs(weight.numerator)}}}{{{weight.denominator}}}"
 
 
 def _cubic(start: Sequence[float], end: Sequence[float], duration: float, coefficients: Sequence[float]) -> Step:
@@ -93,9 +146,23 @@ def lift_steps(motion: PiecewisePolynomial, knots: Array) -> tuple[Step, ...]:
     for j in range(min(joints, SHOWN_JOINTS)):
         v1, v2 = map(tex, motion.coefficients[1:, 1, j].tolist())
         rows = motion.coefficients[:, ::-1, j].tolist()
+        system = _lift_system(motion, knots[:, j], j)
         pieces = (f"{name}(t) = {tex_polynomial(row)}" for name, row in zip("LTS", rows, strict=True))
-        steps.append(of_joint(step(_("Coefficients"), text, rf"v_1 = {v1},\quad v_2 = {v2}", *pieces), j, joints))
+        found = rf"v_1 = {v1},\quad v_2 = {v2}"
+        steps.append(of_joint(step(_("Coefficients"), text, *_SAME_ACCELERATIONS, system, found, *pieces), j, joints))
     return tuple(steps)
+
+
+def _lift_system(motion: PiecewisePolynomial, knots: Array, j: int) -> str:
+    """Return the two equations for the inner velocities of joint `j` with their numbers; `knots` has shape (4,)."""
+    h, delta = np.diff(motion.breaks), np.diff(knots)
+    v0, a0 = motion.coefficients[0, 1, j], 2.0 * motion.coefficients[0, 2, j]
+    v3, a3 = (float(motion.derivative(order).at(motion.breaks[-1:])[0, j]) for order in (1, 2))
+    A = np.array([[6.0 / h[0] + 4.0 / h[1], 2.0 / h[1]], [2.0 / h[1], 4.0 / h[1] + 6.0 / h[2]]])
+    travel = 6.0 * delta[1] / h[1] ** 2
+    before = travel + 12.0 * delta[0] / h[0] ** 2 - 6.0 * v0 / h[0] - a0
+    after = travel + 12.0 * delta[2] / h[2] ** 2 - 6.0 * v3 / h[2] + a3
+    return rf"{tex_matrix(A)} \begin{{bmatrix}} v_1 \\ v_2 \end{{bmatrix}} = {tex_matrix(np.array([before, after]))}"
 
 
 def peak_step(velocity: Peaks, acceleration: Peaks) -> Step:
