@@ -7,7 +7,7 @@ from matplotlib.patches import Ellipse
 
 from gelenk.kinematics.ellipsoids.manipulability import manipulability
 from gelenk.plots.figure import PictureFormat
-from gelenk.plots.postures import postures_picture
+from gelenk.plots.motion.postures import postures_picture
 from gelenk.robot.arrays import Array
 from tests.robots import robot
 

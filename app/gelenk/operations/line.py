@@ -174,7 +174,7 @@ def _warnings(found: LineMotion, turn: Turn | None) -> list[str]:
 
 
 def _picture(call: LineRequest, kind: PictureFormat) -> bytes:
-    from gelenk.plots.line import line_picture  # noqa: PLC0415
+    from gelenk.plots.motion.line import line_picture  # noqa: PLC0415
 
     found, law, _axes = _planned(call)
     line_certificate(found, law)

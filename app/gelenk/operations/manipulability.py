@@ -262,7 +262,7 @@ def _postures(
     loaded: LoadedRobot, chain: Chain, qs: Array, translation: Ellipsoids | None, kind: PictureFormat
 ) -> bytes:
     from gelenk.plots.ellipsoids import plane_of  # noqa: PLC0415
-    from gelenk.plots.postures import postures_picture  # noqa: PLC0415
+    from gelenk.plots.motion.postures import postures_picture  # noqa: PLC0415
 
     if translation is None or len(qs) == 0 or plane_of(chain, translation) is None:
         reason = f"an image of an arm that moves in space shows one configuration; these are {len(qs)}"

@@ -117,7 +117,7 @@ def _warnings(found: Pipeline) -> list[str]:
 
 
 def _picture(call: PipelineRequest, kind: PictureFormat) -> bytes:
-    from gelenk.plots.pipeline import pipeline_picture  # noqa: PLC0415
+    from gelenk.plots.motion.pipeline import pipeline_picture  # noqa: PLC0415
 
     found = _planned(call)
     found.certificate(None if found.spline is None else found.largest_deviation())

@@ -6,6 +6,7 @@
 - `ellipsoids`: the arm with the velocity and force ellipse at its tip.
 - `dh_frames`: a DH table's frames, from the `dh_scene` in space, with `labels` where they cover nothing.
 - `fly_over`, `planar_workspace`: a corner passed without a stop; the workspaces of a planar arm.
+- `motion`: motions along a line, and postures along any motion.
 - `course`: pictures that explain the course.
 - `workspace`: the workspace seen along the axes, coloured by how well the arm reaches it.
 

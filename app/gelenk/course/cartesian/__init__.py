@@ -2,4 +2,7 @@
 
 - `line`: the line and its time law, by `line_steps`; `axes`: what each axis of a PPP robot alone would need.
 - `turn`: the orientation along it, by axis and angle and by Euler angles; by `turn_steps`.
+- `planar_line`: a line of a 2R arm on one branch; `planar_motion`: its joints over time, exactly.
+- `pipeline`: samples of such a line and the spline through them; by `pipeline_steps`.
+- `segment_steps`: the segments of a robot's trajectory.
 """
