@@ -93,28 +93,24 @@ class Variant(Generic[N]):
                 continue
         return found
 
-    def mistakes(self, one: AnswerField) -> dict[str, Any]:
-        """Return the wrong answers to a field that can be told from the right one and from each other, by code.
-
-        The exercise's own models come first: a general one that gives the same answer as one of them is left out.
-        """
-        right = self.answers[one.name]
+    def wrong_answers(self, one: AnswerField) -> dict[str, Any]:
+        """Return what all mistakes answer to a field, by code: the exercise's own, then general ones."""
         special = {code: answers[one.name] for code, answers in self.wrong.items() if one.name in answers}
-        general = {code: answer for code, answer in one.slips(right) if code not in special}
-        return {
-            **_distinct(one, special, [right]),
-            **_distinct(one, general, [right, *special.values()]),
-        }
+        return special | {code: answer for code, answer in one.slips(self.answers[one.name]) if code not in special}
 
+    def is_clear(self, one: AnswerField, code: str, wrong: Mapping[str, Any]) -> bool:
+        """Check whether a wrong answer can be told from the right one and from the others.
 
-def _distinct(one: AnswerField, wrong: Mapping[str, Any], others: Sequence[Any]) -> dict[str, Any]:
-    """Return the answers that are far from all others, and from each other."""
-    return {
-        code: answer
-        for code, answer in wrong.items()
-        if all(_are_apart(one, answer, other) for other in others)
-        and all(_are_apart(one, answer, other) for name, other in wrong.items() if name != code)
-    }
+        The exercise's own models come first: they need not differ from general ones, which may have the same cause.
+        """
+        own = self.exercise.wrong
+        others = [answer for name, answer in wrong.items() if name != code and (name in own or code not in own)]
+        return all(_are_apart(one, wrong[code], other) for other in (self.answers[one.name], *others))
+
+    def mistakes(self, one: AnswerField) -> dict[str, Any]:
+        """Return the wrong answers to a field that are offered, by code."""
+        wrong = self.wrong_answers(one)
+        return {code: answer for code, answer in wrong.items() if self.is_clear(one, code, wrong)}
 
 
 def _are_apart(one: AnswerField, answer: Any, other: Any) -> bool:

@@ -54,8 +54,9 @@ def _graded(variant: Variant[Any], one: AnswerField, given: Any) -> FieldGrade:
     share = one.share(answer, right)
     if share == 1.0:
         return FieldGrade(one.name, one.points, True)
-    for code, wrong in variant.mistakes(one).items():
-        if one.distance(answer, wrong) <= 1.0:
+    wrong = variant.wrong_answers(one)
+    for code, other in wrong.items():
+        if one.distance(answer, other) <= 1.0 and variant.is_clear(one, code, wrong):
             return FieldGrade(one.name, share * one.points, False, mistake(code))
     incomplete = one.incomplete(answer, right) if isinstance(one, SetField) else None
     return FieldGrade(one.name, share * one.points, False, incomplete)

@@ -1,6 +1,7 @@
 """An exam: a platform on legs."""
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import NamedTuple
 
 from gelenk.course.mobility.mechanism import GivenPair, Mechanism, mechanism
@@ -72,6 +73,7 @@ def _platform_fields(_numbers: Platform) -> tuple[AnswerField, ...]:
     )
 
 
+@lru_cache(maxsize=64)
 def _platform_answers(numbers: Platform) -> Answers:
     counted, idle = tally(numbers.mechanism), len(numbers.mechanism.idle_spins())
     return {
