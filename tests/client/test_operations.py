@@ -34,6 +34,7 @@ NAMES = {
     "forward_kinematics": "fk",
     "inverse_kinematics": "ik",
     "get_job": "job",
+    "list_exercises": "exercises",
     "list_pictures": "course_pictures",
     "get_picture": "course_picture",
     "count_mobility": "mobility",

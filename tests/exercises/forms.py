@@ -17,6 +17,7 @@ from gelenk.exercises.fields import (
     SetField,
     VectorField,
 )
+from gelenk.exercises.table_field import COLUMNS, DhTableField
 
 
 def sent(answer: Any) -> Any:
@@ -31,6 +32,8 @@ def same(one: AnswerField, right: Any, random: Random) -> Iterator[Any]:
         basis = np.asarray(right, float)
         mix = np.array([[random.uniform(-1, 1) for _ in basis.T] for _ in basis.T]) + 2 * np.eye(basis.shape[1])
         yield (basis @ mix).tolist()
+    elif isinstance(one, DhTableField):
+        yield from _tables(np.asarray(right, float), random)
     elif isinstance(one, NumberField | VectorField | MatrixField):
         yield from _numbers(one, right, random)
     elif isinstance(one, ChoiceField):
@@ -39,6 +42,19 @@ def same(one: AnswerField, right: Any, random: Random) -> Iterator[Any]:
         items = [next(iter(same(one.item, item, random)), item) for item in right]
         yield random.sample(items, len(items))
         yield sent([*right, right[0]])
+
+
+def _tables(rows: Any, random: Random) -> Iterator[Any]:
+    """With the other sense of an x axis, whole turns, and origins elsewhere on parallel axes."""
+    other, k = rows.copy(), random.randrange(len(rows) - 1)
+    other[k] = other[k] * [-1, -1, 1, 1] + [0, 0, 0, math.pi]
+    other[k + 1, 3] += math.pi
+    yield other.tolist()
+    other = rows + np.array([0, 2 * math.pi, 0, -4 * math.pi])
+    for k, (_, alpha, _, _) in enumerate(rows[:-1]):
+        if abs(math.remainder(alpha, 2 * math.pi)) < 1e-9:
+            other[k : k + 2, 2] += [0.3, -0.3]
+    yield {"convention": "standard", "joints": [dict(zip(COLUMNS, row, strict=True)) for row in other.tolist()]}
 
 
 def _numbers(one: NumberField | VectorField | MatrixField, right: Any, random: Random) -> Iterator[Any]:

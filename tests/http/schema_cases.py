@@ -42,6 +42,7 @@ ROBOTS = ("panda", "planar_2r", "scara", "stanford", "ur5_dh")
 UPLOADED = "uploaded_arm"
 """A robot that is replaced and removed."""
 NEW_ROBOT = "zipped_arm"
+EXAMPLE_EXERCISE = "mobility.linkage"
 EXAMPLE_ROBOT = "panda"
 """That of the schema's examples."""
 _MESHES = tuple(
@@ -108,6 +109,7 @@ def make_real(case: Any, data: st.DataObject) -> None:
         "robot": UPLOADED if of_others else robot_name,
         "job": NEW_JOB if of_others else JOB,
         "path": data.draw(st.sampled_from(_MESHES)),
+        "exercise": EXAMPLE_EXERCISE,
     }
     case.path_parameters = {name: places[name] for name in case.path_parameters or {}}
     if case.query:

@@ -26,6 +26,7 @@ JSON_OPERATIONS = [
     if "application/json" in operation.get("requestBody", {}).get("content", {})
 ]
 
+EXERCISE = "mobility.linkage"
 TAKE_LITTLE = {"/v1/robots/{robot}/workspace"}
 
 
@@ -36,7 +37,7 @@ def is_large(call: Call) -> bool:
 
 def wrong_bodies(method: str, path: str, robot: str, example: dict[str, Any]) -> Iterator[Call]:
     """Bodies that an operation does not take, and how it refuses each."""
-    for call in of_json(method, path.replace("{robot}", robot), example):
+    for call in of_json(method, path.replace("{robot}", robot).replace("{exercise}", EXERCISE), example):
         refused = path in TAKE_LITTLE and is_large(call)
         yield call._replace(statuses=(413,), mentions=(str(PARSED_HERE_BYTES),)) if refused else call
 

@@ -70,9 +70,9 @@ SOLUTIONS = {
     "actuators.drive": drive,
 }
 DIGESTS = {
-    "actuators.motor:1": "3aac7034581f0728",
-    "actuators.gear:1": "1d671bcaca106caf",
-    "actuators.pwm:1": "2e342d8190669bfb",
     "actuators.encoder:1": "10eaf2a821a4727f",
+    "actuators.gear:1": "1d671bcaca106caf",
+    "actuators.motor:1": "3aac7034581f0728",
+    "actuators.pwm:1": "2e342d8190669bfb",
     "actuators.drive:1": "1cbabd730e903387",
 }

@@ -63,9 +63,9 @@ SOLUTIONS = {
     "mobility.platform": platform,
 }
 DIGESTS = {
-    "mobility.pairs:1": "d1ca16bc1b267b63",
     "mobility.linkage:1": "52b09edc1dc1409d",
-    "mobility.coincident:1": "2e611b87c473ac93",
+    "mobility.pairs:1": "d1ca16bc1b267b63",
     "mobility.chain:1": "a7af218fd9790d96",
+    "mobility.coincident:1": "2e611b87c473ac93",
     "mobility.platform:1": "9375b0380d927edf",
 }
