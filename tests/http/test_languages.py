@@ -27,10 +27,34 @@ def has_steps(endpoint: Endpoint[Any, Any]) -> bool:
 SPEAKING = [name for name, endpoint in BY_NAME.items() if "language" in fields(endpoint) and has_steps(endpoint)]
 
 
-def answered(client: TestClient, name: str, language: str) -> Any:
+TWO_LINKS = [{"type": "revolute", "a": a, "alpha": 0.0, "d": 0.0, "theta": 0.0} for a in (1.0, 0.7)]
+WRIST = {"position": [0.6, 0.1, 0.3], "rpy": [3.0, 0.2, 0.4]}
+ZIGZAG = {"waypoints": [0.0, 0.3, 1.2, 1.5], "times": [0.0, 0.5, 1.5, 2.0]}
+SLOW = {"joint_velocity": 0.8, "joint_acceleration": 1.6}
+OTHERS: list[tuple[str, str, dict[str, Any]]] = [
+    *(("time_law", "", {"law": law, "start": 0.2, "target": 1.4, "duration": 2.0}) for law in ("quintic", "septic")),
+    ("time_law", "", {"law": "cubic", "start": [0.2, 1.0], "target": [0.2, 2.0], "duration": 2.0}),
+    ("time_law", "", {"law": "4-3-4", **ZIGZAG}),
+    ("time_law", "", {"law": "parabolic_blends", "blend_time": 0.2, **ZIGZAG}),
+    ("time_law", "", {"law": "trapezoidal", "start": [0.0, 0.0], "target": [2.0, 0.3], "limits": SLOW}),
+    ("time_law", "", {"law": "trapezoidal", "start": 0.0, "target": 2.0, "duration": 4.0, "limits": SLOW}),
+    ("time_law", "", {"law": "trapezoidal", "start": 0.0, "target": 2.0, "end_velocity": 0.1, "limits": SLOW}),
+    *(("spline", "", {**ZIGZAG, "boundary": boundary}) for boundary in ("natural", "not_a_knot", "assigned")),
+    ("derive_dh", "", {"dh": {"convention": "standard", "joints": TWO_LINKS}, "dynamics": {"links": [{}, {}]}}),
+    ("derive_dh", "", {"dh": {"convention": "modified", "joints": TWO_LINKS}, "symbolic": False}),
+    *(("ik", robot, {"targets": [WRIST], "solutions": "all"}) for robot in ("ur5", "puma560", "stanford")),
+    ("ik", "planar_2r", {"targets": [{"position": [0.9, 0.8, 0.0], "rpy": [0, 0, 0]}], "task": ["x", "y"]}),
+    ("jacobian", "planar_2r", {"joint_positions": [[0.3, 0.0]]}),
+    ("mobility", "panda", {"robot": "panda"}),
+]
+"""Further requests, and the robot that they are about."""
+
+
+def answered(client: TestClient, name: str, language: str, robot: str = "panda", request: Any = None) -> Any:
     endpoint = BY_NAME[name]
-    asked = {**endpoint.example, "language": language, **({"steps": True} if "steps" in fields(endpoint) else {})}
-    path = endpoint.path.format(robot="panda") if isinstance(endpoint, RobotEndpoint) else endpoint.path
+    given = request or endpoint.example
+    asked = {**given, "language": language, **({"steps": True} if "steps" in fields(endpoint) else {})}
+    path = endpoint.path.format(robot=robot) if isinstance(endpoint, RobotEndpoint) else endpoint.path
     answer = client.post(f"/{path}", json=asked)
     assert answer.status_code == 200, answer.text
     return answer.json()
@@ -51,9 +75,11 @@ def numbers(step: dict[str, Any]) -> Counter[str]:
     return Counter(NUMBER.findall(" ".join([step["title"], step["text"], *step["latex"]])))
 
 
-@pytest.mark.parametrize("name", SPEAKING)
-def test_a_solution_reads_without_latex_and_in_german(client: TestClient, name: str) -> None:
-    english, german = (list(steps(answered(client, name, language))) for language in ("en", "de"))
+@pytest.mark.parametrize(("name", "robot", "request_"), [*((name, "panda", None) for name in SPEAKING), *OTHERS])
+def test_a_solution_reads_without_latex_and_in_german(
+    client: TestClient, name: str, robot: str, request_: dict[str, Any] | None
+) -> None:
+    english, german = (list(steps(answered(client, name, language, robot, request_))) for language in ("en", "de"))
     assert english
     assert [len(one["latex"]) for one in english] == [len(one["latex"]) for one in german]
     for one, other in zip(english, german, strict=True):
