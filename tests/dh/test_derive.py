@@ -1,5 +1,6 @@
 """The worked solution: what textbooks print, letter by letter, and the value of every formula by the text alone."""
 
+import re
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -431,7 +432,7 @@ def test_an_arm_that_is_singular_everywhere_is_told_so() -> None:
     assert formula is not None
     assert formula.plain == "0"
     assert solution.numeric[0].rank == 3
-    assert "everywhere" in solution.steps[-1].text
+    assert "everywhere" in solution.steps[-2].text
 
 
 @pytest.mark.parametrize("ratio", [0.8, 1.5])
@@ -717,3 +718,67 @@ def test_any_small_table_is_derived(
     dh = rows(convention, parameters, types)
     solution = worked_solution(dh, style=data.draw(st.sampled_from(["short", "full"])))
     check_by_text(dh, solution, count=1)
+
+
+# Part of an arm, and columns in another order
+
+
+def test_a_wrist_at_the_end_of_an_arm_has_the_indices_of_its_joints() -> None:
+    """The lecture's T^3_6: a matrix of ZYZ angles in ϑ_4, ϑ_5, ϑ_6, and p = d_6 R e_z."""
+    solution = worked_solution(WRIST, [[0.2, 0.9, -0.5]], first_index=4)
+    found = formulas(solution)
+    assert [matrix.name for matrix in [*found.rows, *found.frames] if matrix] == [
+        "A_4", "A_5", "A_6", "T_3_4", "T_3_5", "T_3_6",
+    ]  # fmt: skip
+    assert found.position is not None
+    assert found.position.plain == [["d6*c4*s5"], ["d6*s4*s5"], ["d6*c5"]]
+    assert {entry.plain for entry in found.legend} == {"d6", "c4", "s4", "c5", "s5", "c6", "s6"}
+    assert {entry.meaning for entry in found.legend if entry.plain in {"d6", "c4"}} == {
+        "length d of row 6, in m", "cos(q4)",
+    }  # fmt: skip
+    latex = [line for step in solution.steps for line in step.latex]
+    for start in (
+        "A^{3}_{4} = ",
+        "T^{3}_{6} = ",
+        "{}^{3}p = A^{3}_{4}\\, A^{4}_{5}\\, A^{5}_{6}\\, {}^{6}p",
+        "z_{3} =",
+    ):
+        assert any(line.startswith(start) for line in latex), start
+    assert not any(re.search(r"[cs]_\{?[123]\b|q_\{?[123]\b", line) for line in latex)
+    conditions = singular(solution).conditions
+    assert [one.condition.plain for one in conditions] == ["s5 = 0"]
+    np.testing.assert_allclose(
+        solution.numeric[0].tip[:3, 3], [0.076771252365, 0.015562303293, 0.062160996827], atol=1e-11
+    )
+
+
+@pytest.mark.parametrize("dh", [STANFORD, PUMA_CRAIG, UR5], ids=["Stanford", "Puma", "UR5"])
+def test_other_indices_change_nothing_else(dh: DhTable) -> None:
+    usual, other = formulas(worked_solution(dh)), formulas(worked_solution(dh, first_index=4))
+    for one, same in zip([*usual.rows, usual.tip], [*other.rows, other.tip], strict=True):
+        assert one is not None
+        assert same is not None
+        assert [[shifted(entry) for entry in row] for row in one.plain or []] == same.plain
+
+
+def shifted(plain: str) -> str:
+    """A formula with 3 added to each index."""
+    return re.sub(r"\b(a|d|q|c|s|theta)(\d+)\b", lambda m: m[1] + "".join(str(int(d) + 3) for d in m[2]), plain)
+
+
+def test_the_position_in_numbers_is_worked_out_from_the_right() -> None:
+    """The anthropomorphic arm of the lecture: each vector is in the step, the last one its position."""
+    solution = worked_solution(ANTHROPOMORPHIC, [[0.3, 0.6, -0.8]])
+    step = solution.steps[-1]
+    assert step.title == "The position in numbers"
+    last = step.latex[-2]
+    assert last.startswith("{}^{0}p = A^{0}_{1}\\, {}^{1}p = ")
+    entries = [float(value) for value in last.rsplit(r"\begin{bmatrix} ", 1)[1].split(r" \end")[0].split(r" \\ ")]
+    np.testing.assert_allclose(entries, [0.768753959783, 0.237803466792, 0.202853504379, 1.0], atol=1e-9)
+
+
+def test_the_table_of_the_steps_has_the_columns_asked_for() -> None:
+    usual = worked_solution(SCARA).steps[0].latex[0]
+    other = worked_solution(SCARA, columns=("a", "d", "alpha", "theta")).steps[0].latex[0]
+    assert r"1 & a_{1} & 0 & d_{1} & q_{1} \\" in usual
+    assert r"1 & a_{1} & d_{1} & 0 & q_{1} \\" in other

@@ -88,6 +88,22 @@ def test_the_catalogue_by_its_text(client: TestClient, name: str, options: dict[
         assert value == pytest.approx(answer["numeric"][0]["determinant"], abs=1e-12)
 
 
+def test_part_of_an_arm_has_its_own_indices(client: TestClient) -> None:
+    content = posted(
+        client, {**EXAMPLE_ANTHROPOMORPHIC, "first_index": 4, "column_order": ["a", "d", "alpha", "theta"]}
+    )
+    assert [one["name"] for one in content["T_0"]] == ["T_3_4", "T_3_5", "T_3_6"]
+    assert content["determinant"]["frame"] >= 3
+    assert r"d_{i} & \alpha_{i}" in content["steps"][0]["latex"][0]
+    for wrong, field in (
+        ({"dynamics": {}}, "first_index"),
+        ({"column_order": ["a", "a", "d", "theta"]}, "column_order"),
+    ):
+        refused = client.post(PATH, json={**EXAMPLE_ANTHROPOMORPHIC, "first_index": 4, **wrong})
+        assert refused.status_code == 422
+        assert field in refused.json()["detail"]
+
+
 def test_configurations_by_name_and_in_plural(client: TestClient) -> None:
     body = {
         "dh": catalogue.dh_table("planar_2r"),

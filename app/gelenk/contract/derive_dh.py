@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from gelenk.contract.common import Answer
-from gelenk.contract.dh import DhTablePayload
+from gelenk.contract.dh import DhTablePayload, InOrder
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.kinematics import Configuration
 from gelenk.contract.lagrangian import EXAMPLE_MOTION, MAX_CONFIGURATIONS, DynamicsInfo, DynamicsPayload, Grid
@@ -20,9 +20,10 @@ from gelenk.dh.derive.texts import (
     SymbolEntry,
 )
 from gelenk.dh.derive.typeset import Formula, MatrixFormula
+from gelenk.robot.dh import MAX_JOINTS
 
 
-class DeriveRequest(InLanguage):
+class DeriveRequest(InLanguage, InOrder):
     """A table, how to write its solution, and the configurations at which to evaluate it."""
 
     dh: DhTablePayload
@@ -40,6 +41,13 @@ class DeriveRequest(InLanguage):
     symbolic: bool = Field(
         default=True,
         description="Whether lengths and angles of the table stay symbols; otherwise formulas contain their values.",
+    )
+    first_index: int = Field(
+        default=1,
+        ge=1,
+        le=MAX_JOINTS,
+        description="Index of the first row, for part of an arm: with 4 the rows of a spherical wrist have A^3_4, "
+        "A^4_5, A^5_6, and the variables are q_4, q_5, q_6. It must be 1 with `dynamics`.",
     )
     dynamics: DynamicsPayload | None = Field(
         default=None,

@@ -10,7 +10,7 @@ from gelenk.contract.common import Answer, Payload
 from gelenk.contract.options import WithSteps
 from gelenk.contract.pose import Pose
 from gelenk.course.steps import Step
-from gelenk.dh.table_steps import COLUMNS, Column
+from gelenk.dh.derive.columns import COLUMNS, Column
 from gelenk.errors import InvalidField, InvalidPose
 from gelenk.robot.arrays import Array
 from gelenk.robot.description import Mimic
@@ -124,8 +124,8 @@ SnapTolerance = Annotated[
 ]
 
 
-class InColumns(WithSteps):
-    """Asks for steps, and for an order of the columns of the tables in them."""
+class InOrder(Payload):
+    """Chooses the order of the columns of the tables in steps."""
 
     column_order: Annotated[
         list[Column],
@@ -143,6 +143,10 @@ class InColumns(WithSteps):
         if set(self.column_order) != set(COLUMNS):
             raise InvalidField("column_order", f"each of {', '.join(COLUMNS)} must be there once")
         return self.column_order
+
+
+class InColumns(WithSteps, InOrder):
+    """Asks for steps, and for an order of the columns of the tables in them."""
 
 
 TableSteps = Annotated[

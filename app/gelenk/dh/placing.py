@@ -13,7 +13,8 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from gelenk.course.steps import Step, step
-from gelenk.dh.table_steps import COLUMNS, Column, angle_text, number, rounded, table_array, vector, with_variable
+from gelenk.dh.derive.columns import COLUMNS, Column
+from gelenk.dh.table_steps import angle_text, number, rounded, table_array, vector, with_variable
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain

@@ -2,34 +2,29 @@
 
 import math
 from collections.abc import Sequence
-from typing import Literal, TypeAlias
 
 from gelenk.course.steps import Step, step, tex
+from gelenk.dh.derive.columns import COLUMNS, Column, array_of
 from gelenk.dh.derive.typeset import multiple_of_pi
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
-from gelenk.robot.dh import DhTable
+from gelenk.robot.dh import DhJoint, DhTable
 
-Column: TypeAlias = Literal["a", "alpha", "d", "theta"]
-
-COLUMNS: tuple[Column, ...] = ("a", "alpha", "d", "theta")
-HEADS = {"a": "a", "alpha": r"\alpha", "d": "d", "theta": r"\vartheta"}
 _DECIMALS = 9
 
 
 def table_array(table: DhTable, columns: Sequence[Column] = COLUMNS) -> str:
     """Return a table in LaTeX, columns in this order, with the variable q_i in each row."""
-    link = "i" if table.convention == "standard" else "i-1"
-    heads = [rf"{HEADS[column]}_{{{link if column in ('a', 'alpha') else 'i'}}}" for column in columns]
-    lines = []
-    for i, row in enumerate(table.joints, start=1):
-        values = {name: rounded(getattr(row, name)) for name in COLUMNS}
-        cells = {name: tex(value) if name in ("a", "d") else angle_text(value) for name, value in values.items()}
-        variable: Column = "theta" if row.type == "revolute" else "d"
-        cells[variable] = with_variable(i, values[variable], cells[variable])
-        lines.append(" & ".join((str(i), *(cells[column] for column in columns))))
-    head = " & ".join(("i", *heads))
-    return rf"\begin{{array}}{{c|cccc}} {head} \\ \hline " + r" \\ ".join(lines) + r" \end{array}"
+    rows = [_cells(i, row) for i, row in enumerate(table.joints, start=1)]
+    return array_of(rows, "i" if table.convention == "standard" else "i-1", columns)
+
+
+def _cells(i: int, row: DhJoint) -> dict[Column, str]:
+    values = {name: rounded(getattr(row, name)) for name in COLUMNS}
+    cells = {name: tex(value) if name in ("a", "d") else angle_text(value) for name, value in values.items()}
+    variable: Column = "theta" if row.type == "revolute" else "d"
+    cells[variable] = with_variable(i, values[variable], cells[variable])
+    return cells
 
 
 def conversion_steps(table: DhTable, other: DhTable, columns: Sequence[Column] = COLUMNS) -> list[Step]:
@@ -50,7 +45,7 @@ def conversion_steps(table: DhTable, other: DhTable, columns: Sequence[Column] =
         for i, row in enumerate(rows, start=1)
     ]
     shift = step(_("Where a and α belong"), text, standard, modified, *moved)
-    result = _("In the modified convention the indices of a and α are those of the link before the joint.")
+    result = _("In the modified convention a and alpha carry the index of the link before the joint.")
     return [*steps, shift, step(_("The table in the other convention"), result, table_array(other, columns))]
 
 

@@ -16,8 +16,9 @@ import numpy as np
 
 from gelenk.course.steps import Step
 from gelenk.dh.derive.check import SEED, Checks, checked_formulas, checked_singularities
+from gelenk.dh.derive.columns import COLUMNS, Column
 from gelenk.dh.derive.numeric import NumericSolution, numeric_solution
-from gelenk.dh.derive.steps import steps
+from gelenk.dh.derive.steps import Layout, numbers_step, steps
 from gelenk.dh.derive.symbolic import formulas, singularities
 from gelenk.dh.derive.table import Numbers4, RowNumbers, TableNumbers
 from gelenk.dh.derive.texts import FormulaCertificate, Formulas, NumericCertificate, Singularities, SymbolicRequest
@@ -99,6 +100,8 @@ def worked_solution(
     *,
     keeps_symbols: bool = True,
     dynamics: MassProperties | None = None,
+    first_index: int = 1,
+    columns: Sequence[Column] = COLUMNS,
     run: BoundedRunner = directly,
     deadline: float | None = None,
 ) -> WorkedSolution:
@@ -108,7 +111,9 @@ def worked_solution(
         values: Configurations at which numbers are wanted too, in order or by name, [rad or m].
         style: `short` writes c_{12}, `full` writes cos(q_1 + q_2).
         keeps_symbols: Whether lengths stay symbols; otherwise the formulas contain their values.
-        dynamics: Masses and gravity, if the equations of motion are wanted.
+        dynamics: Masses and gravity, if the equations of motion are wanted; then the first index is 1.
+        first_index: Index of the first row: 4 for a wrist at the end of an arm with three joints.
+        columns: Order of the columns of the table in the steps.
         run: Runs the symbolic part.
         deadline: Time at which the symbolic part must be done, on the monotonic clock, [s]; none if left out.
 
@@ -126,7 +131,8 @@ def worked_solution(
     bodies = None if dynamics is None else checked_dynamics(table, robot.chain(None, None), dynamics, len(qs))
     numeric = [numeric_solution(table, q) for q in qs]
     samples = _samples(table)
-    question = SymbolicRequest(_numbers(table), style, keeps_symbols, tuple(tuple(q) for q in samples.tolist()))
+    points = tuple(tuple(q) for q in samples.tolist())
+    question = SymbolicRequest(_numbers(table), style, keeps_symbols, points, first_index - 1)
     notes: list[str] = []
     timed = _Timed(run, deadline, notes)
     found = timed.result(formulas, question, 0.5, "transforms")
@@ -148,7 +154,10 @@ def worked_solution(
         notes.append(moving.reason)
     elif bodies is not None and found is None:
         notes.append(_("without the transforms in symbols the equations of motion are left out too"))
-    derivation = steps(table.convention, found, singular) if found is not None else []
+    layout = Layout(table.convention == "standard", first_index - 1, columns)
+    derivation = [] if found is None else steps(layout, found, singular)
+    if numeric and found is not None:
+        derivation.append(numbers_step(layout, table, numeric[0]))
     return WorkedSolution(
         tuple(row.name for row in table.joints),
         found,

@@ -18,6 +18,7 @@ from gelenk.dh.derive.typeset import MatrixFormula
 from gelenk.dh.lagrangian.numeric import NumericMotion
 from gelenk.dh.lagrangian.solution import MotionSolution
 from gelenk.dh.worked import WorkedSolution, worked_solution
+from gelenk.errors import InvalidField
 from gelenk.operations.outcome import Outcome
 
 SECONDS = 8.0
@@ -73,11 +74,16 @@ class _Overdue(BaseException):
 
 
 def _derived(call: DeriveRequest) -> dict[str, Any]:
+    if call.first_index != 1 and call.dynamics is not None:
+        raise InvalidField("first_index", "must be 1 with `dynamics`: the equations of motion are of a whole arm")
+    before = call.first_index - 1
     solution = worked_solution(
         call.dh.table(),
         call.joint_positions,
         call.notation,
         keeps_symbols=call.symbolic,
+        first_index=call.first_index,
+        columns=call.columns,
         dynamics=None if call.dynamics is None else call.dynamics.dynamics(),
         run=in_time,
         deadline=time.monotonic() + SECONDS,
@@ -92,13 +98,13 @@ def _derived(call: DeriveRequest) -> dict[str, Any]:
         "notation": call.notation,
         "symbolic": call.symbolic,
         "legend": _legend(solution),
-        "A": _matrices("A", [None] * len(names) if found is None else found.rows),
-        "T_0": _matrices("T_0", [None] * len(names) if found is None else found.frames),
+        "A": _matrices("A", [None] * len(names) if found is None else found.rows, before),
+        "T_0": _matrices(f"T_{before}", [None] * len(names) if found is None else found.frames, before),
         "T_base_tool": found and found.tip,
         "position": found and found.position,
         "rotation": found and found.rotation,
         "jacobian": jacobian,
-        "determinant": singular and _determinant(singular),
+        "determinant": singular and _determinant(singular, before),
         "singularities": singular.conditions if singular else (),
         "dynamics": solution.motion and _dynamics(solution.motion),
         "numeric": [
@@ -119,20 +125,21 @@ def _legend(solution: WorkedSolution) -> list[SymbolEntry]:
     return list(unique.values())
 
 
-def _matrices(letter: str, matrices: Sequence[MatrixFormula | None]) -> list[MatrixFormula]:
+def _matrices(letter: str, matrices: Sequence[MatrixFormula | None], before: int) -> list[MatrixFormula]:
     """Return matrices, with nulls in place of those that are too long."""
-    return [matrix or MatrixFormula(f"{letter}_{i}", None, None) for i, matrix in enumerate(matrices, start=1)]
+    numbered = enumerate(matrices, start=before + 1)
+    return [matrix or MatrixFormula(f"{letter}_{i}", None, None) for i, matrix in numbered]
 
 
-def _determinant(singular: Singularities) -> dict[str, Any] | None:
+def _determinant(singular: Singularities, before: int) -> dict[str, Any] | None:
     block, formula = singular.block, singular.formula
     if block is None:
         return None
     return {
         "block": block.kind,
         "rows": [ROW_NAMES[i] for i in block.rows],
-        "frame": block.frame,
-        "why": which_block(block),
+        "frame": block.frame + before,
+        "why": which_block(block, before),
         "latex": formula and formula.latex,
         "plain": formula and formula.plain,
         "factors": singular.factors,

@@ -11,5 +11,6 @@
 - `symbolic`: all of it for one table, as text and as values at samples; it loads neither NumPy nor Pinocchio.
 - `numeric`: the same quantities at given configurations, from the table's own product of transforms.
 - `check`: compares formulas with numbers.
+- `columns`: the rows of a table in LaTeX.
 - `steps`: the solution in the order of the lecture.
 """

@@ -1,57 +1,79 @@
 """The worked solution in the order of the lecture: short texts, and the formulas that they refer to."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from gelenk.course.steps import Step, step
+from gelenk.course.steps import Step, step, tex
+from gelenk.dh.derive.columns import COLUMNS, Column, array_of
 from gelenk.dh.derive.jacobian import Block
+from gelenk.dh.derive.numeric import NumericSolution
 from gelenk.dh.derive.texts import Formulas, SingularCondition, Singularities
-from gelenk.dh.derive.typeset import MatrixFormula
 from gelenk.language import translated as _
+from gelenk.robot.dh import DhTable
 
+_DECIMALS = 9
+_STANDARD = (
+    r"\begin{bmatrix} c_{\vartheta_i} & -s_{\vartheta_i} c_{\alpha_i} & s_{\vartheta_i} s_{\alpha_i} & "
+    r"a_i c_{\vartheta_i} \\ s_{\vartheta_i} & c_{\vartheta_i} c_{\alpha_i} & -c_{\vartheta_i} s_{\alpha_i} & "
+    r"a_i s_{\vartheta_i} \\ 0 & s_{\alpha_i} & c_{\alpha_i} & d_i \\ 0 & 0 & 0 & 1 \end{bmatrix}"
+)
+_MODIFIED = (
+    r"\begin{bmatrix} c_{\vartheta_i} & -s_{\vartheta_i} & 0 & a_{i-1} \\ "
+    r"s_{\vartheta_i} c_{\alpha_{i-1}} & c_{\vartheta_i} c_{\alpha_{i-1}} & -s_{\alpha_{i-1}} & -d_i s_{\alpha_{i-1}} "
+    r"\\ s_{\vartheta_i} s_{\alpha_{i-1}} & c_{\vartheta_i} s_{\alpha_{i-1}} & c_{\alpha_{i-1}} & d_i c_{\alpha_{i-1}} "
+    r"\\ 0 & 0 & 0 & 1 \end{bmatrix}"
+)
 _ROWS = (r"v_{x}", r"v_{y}", r"v_{z}", r"\omega_{x}", r"\omega_{y}", r"\omega_{z}")
 
 
-def steps(convention: str, found: Formulas, singular: Singularities | None) -> list[Step]:
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """How the steps are written: convention, number of joints before the first row, order of the table's columns."""
+
+    is_standard: bool
+    before: int
+    columns: Sequence[Column]
+
+
+def steps(layout: Layout, found: Formulas, singular: Singularities | None) -> list[Step]:
     """Return the solution in sections: table, A_i, position, pose, Jacobian, determinant, singular configurations."""
-    standard = convention == "standard"
-    all_ = [_table(standard, found), _rows(standard, found), _position(found), _pose(found), _jacobian(standard, found)]
+    parts = (_table, _rows, _position, _pose, _jacobian)
+    all_ = [part(layout, found) for part in parts]
     if singular is not None and singular.block is not None:
-        all_ += [_determinant(singular, singular.block), _singular(singular)]
+        all_ += [_determinant(singular, singular.block, layout.before), _singular(singular)]
     return [step for step in all_ if step is not None]
 
 
-def _table(standard: bool, found: Formulas) -> Step:
-    links = [("i", "a_i", r"\alpha_i"), ("i", "a_{i-1}", r"\alpha_{i-1}")][not standard]
-    head = " & ".join((*links, "d_i", r"\vartheta_i"))
-    lines = [" & ".join((str(i), *(text.latex for text in row))) for i, row in enumerate(found.parameters, start=1)]
-    array = rf"\begin{{array}}{{c|cccc}} {head} \\ \hline " + r" \\ ".join(lines) + r" \end{array}"
+def _table(layout: Layout, found: Formulas) -> Step:
+    rows = [{name: text.latex for name, text in zip(COLUMNS, row, strict=True)} for row in found.parameters]
+    array = array_of(rows, "i" if layout.is_standard else "i-1", layout.columns, layout.before + 1)
     text = _(
         "One row per joint. The variable adds to the angle of a revolute joint and to d of a prismatic one; "
         "a parameter that is zero leaves the formulas, an angle that is a multiple of 90° becomes a number."
     )
-    if not standard:
+    if not layout.is_standard:
         index = _("In the modified convention a and alpha carry the index of the link before the joint.")
         text = f"{text} {index}"
     return step(_("Denavit-Hartenberg table"), text, array)
 
 
-def _rows(standard: bool, found: Formulas) -> Step:
-    rule = (
-        r"A_i = R_z(\vartheta_i)\, T_z(d_i)\, T_x(a_i)\, R_x(\alpha_i)"
-        if standard
-        else r"A_i = R_x(\alpha_{i-1})\, T_x(a_{i-1})\, R_z(\vartheta_i)\, T_z(d_i)"
-    )
+def _rows(layout: Layout, found: Formulas) -> Step:
+    rule = (r"R_z(\vartheta_i)\, T_z(d_i)\, T_x(a_i)\, R_x(\alpha_i)", _STANDARD)
+    if not layout.is_standard:
+        rule = (r"R_x(\alpha_{i-1})\, T_x(a_{i-1})\, R_z(\vartheta_i)\, T_z(d_i)", _MODIFIED)
+    product, matrix = rule
+    numbered = enumerate(found.rows, start=layout.before + 1)
+    lines = [rf"A^{{{i - 1}}}_{{{i}}} = {row.latex}" for i, row in numbered if row is not None]
     text = _("Each row put into the rule of the convention gives the pose of frame i in frame i - 1.")
-    return step(_("Transforms between neighbours"), text, rule, *_named("A", found.rows))
+    return step(_("Transforms between neighbours"), text, rf"A^{{i-1}}_{{i}} = {product} = {matrix}", *lines)
 
 
-def _position(found: Formulas) -> Step | None:
+def _position(layout: Layout, found: Formulas) -> Step | None:
     if found.chain is None:
         return None
-    n = len(found.rows)
-    product = " ".join(f"A_{{{i}}}" for i in range(1, n + 1))
-    lines = [rf"{{}}^{{0}}p = {product}\, {{}}^{{{n}}}p"]
-    lines += [rf"{{}}^{{{n - k}}}p = {vector.latex}" for k, vector in enumerate(found.chain)]
+    lines = [_product(layout, len(found.rows))]
+    last = layout.before + len(found.rows)
+    lines += [rf"{{}}^{{{last - k}}}p = {vector.latex}" for k, vector in enumerate(found.chain)]
     text = _(
         "The position of the tip is best worked out from the right: a matrix times a vector at every step, never a "
         "matrix times a matrix. Superscripts name the frame in which the point is written."
@@ -59,24 +81,27 @@ def _position(found: Formulas) -> Step | None:
     return step(_("Position of the tip"), text, *lines)
 
 
-def _pose(found: Formulas) -> Step:
-    lines = _named("T^{0}", found.frames)
+def _pose(layout: Layout, found: Formulas) -> Step:
+    first = layout.before
+    numbered = enumerate(found.frames, start=first + 1)
+    lines = [rf"T^{{{first}}}_{{{i}}} = {frame.latex}" for i, frame in numbered if frame is not None]
     last = found.frames[-1]
     if found.tip is not None and (last is None or found.tip.latex != last.latex):
         lines.append(rf"T^{{\mathrm{{base}}}}_{{\mathrm{{tool}}}} = {found.tip.latex}")
     text = _(
-        "T_0_i = A_1 A_2 … A_i. About parallel axes angles add up, so that each sum is in one sine and cosine. "
-        "The last column is the position, the first three are the axes of frame i written in frame 0."
-    )
+        "T_{first}_i is the product of all transforms up to A_i. About parallel axes angles add up, so that each sum "
+        "is in one sine and cosine. "
+        "The last column is the position, the first three are the axes of frame i written in frame {first}."
+    ).format(first=first)
     return step(_("Forward kinematics"), text, *lines)
 
 
-def _jacobian(standard: bool, found: Formulas) -> Step | None:
+def _jacobian(layout: Layout, found: Formulas) -> Step | None:
     if found.columns is None or found.jacobian is None:
         return None
     lines = []
-    for i, column in enumerate(found.columns, start=1):
-        k = i - 1 if standard else i
+    for i, column in enumerate(found.columns, start=layout.before + 1):
+        k = i - 1 if layout.is_standard else i
         if column.arm is None:
             whole = rf"J_{{{i}}} = \begin{{bmatrix}} z_{{{k}}} \\ 0 \end{{bmatrix}}"
             lines.append(rf"{whole},\quad z_{{{k}}} = {column.axis.latex}")
@@ -88,14 +113,14 @@ def _jacobian(standard: bool, found: Formulas) -> Step | None:
     text = _(
         "The column of a revolute joint is z × p over z, that of a prismatic one z over 0. The z is that of frame "
         "{frame}, p leads from its origin to the tip. Linear rows are above angular ones, all in the axes of the base."
-    ).format(frame="i - 1" if standard else "i")
+    ).format(frame="i - 1" if layout.is_standard else "i")
     return step(_("Geometric Jacobian"), text, *lines, f"J = {found.jacobian.latex}")
 
 
-def _determinant(singular: Singularities, block: Block) -> Step:
+def _determinant(singular: Singularities, block: Block, before: int) -> Step:
     setting = singular.setting
     rows = ", ".join(_ROWS[i] for i in block.rows)
-    text = which_block(block)
+    text = which_block(block, before)
     if setting is None:
         vanishes = _("A part of it vanishes for every configuration, and so does its determinant.")
         text = f"{text} {vanishes}"
@@ -107,15 +132,16 @@ def _determinant(singular: Singularities, block: Block) -> Step:
             else "In the axes of frame {frame}, for the velocity of the origin of frame {point}, which does not change "
             "the determinant, it is block triangular: the determinant is the product of those of its parts."
         )
-        text = f"{text} {triangular.format(frame=setting.frame, point=setting.point)}"
+        point = None if setting.point is None else setting.point + before
+        text = f"{text} {triangular.format(frame=setting.frame + before, point=point)}"
     if singular.formula is None:
         unwritten = _("It is not written out: see the notes.")
         return step(_("Determinant"), f"{text} {unwritten}")
     return step(_("Determinant"), text, rf"\det J_{{({rows})}} = {singular.formula.latex}")
 
 
-def which_block(block: Block) -> str:
-    """Say which block of the Jacobian has the determinant, and why that one."""
+def which_block(block: Block, before: int = 0) -> str:
+    """Say which block of the Jacobian has the determinant, and why that one; `before` is as in `Layout`."""
     words = {
         "full": _("With six joints the Jacobian is square."),
         "moving": _(
@@ -131,7 +157,7 @@ def which_block(block: Block) -> str:
             "the linear ones make up no regular block. This square block tells how the tip can turn."
         ),
     }
-    return words[block.kind].format(count=len(block.rows), frame=block.frame)
+    return words[block.kind].format(count=len(block.rows), frame=block.frame + before)
 
 
 def _singular(singular: Singularities) -> Step | None:
@@ -154,5 +180,33 @@ def _solved(condition: SingularCondition) -> str:
     return r" \;\Leftrightarrow\; " + rf" \;\text{{{_('or')}}}\; ".join(values) if values else ""
 
 
-def _named(letter: str, matrices: Sequence[MatrixFormula | None]) -> list[str]:
-    return [f"{letter}_{{{i}}} = {matrix.latex}" for i, matrix in enumerate(matrices, start=1) if matrix is not None]
+def numbers_step(layout: Layout, table: DhTable, one: NumericSolution) -> Step:
+    """Return the position of the tip in numbers at one configuration, from the right, then T of the whole table."""
+    first, last = layout.before, layout.before + len(one.rows)
+    point = [*table.tool[:3, 3].tolist(), 1.0]
+    lines = [rf"q = {_matrix([[value] for value in one.q.tolist()])}", _product(layout, len(one.rows))]
+    lines.append(rf"{{}}^{{{last}}}p = {_matrix([[value] for value in point])}")
+    for i, A in zip(range(last, first, -1), reversed(one.rows), strict=True):
+        after = (A @ point).tolist()
+        product = rf"{_matrix(A.tolist())} {_matrix([[value] for value in point])}"
+        lines.append(
+            rf"{{}}^{{{i - 1}}}p = A^{{{i - 1}}}_{{{i}}}\, {{}}^{{{i}}}p = {product} = {_matrix([[v] for v in after])}"
+        )
+        point = after
+    lines.append(rf"T^{{{first}}}_{{{last}}} = {_matrix(one.frames[-1].tolist())}")
+    text = _(
+        "The same at the first of the given configurations. A point is written with a 1 below, so that one product "
+        "turns and shifts it; the last column of T is the origin of the last frame."
+    )
+    return step(_("The position in numbers"), text, *lines)
+
+
+def _product(layout: Layout, count: int) -> str:
+    first, last = layout.before, layout.before + count
+    product = r"\, ".join(f"A^{{{i - 1}}}_{{{i}}}" for i in range(first + 1, last + 1))
+    return rf"{{}}^{{{first}}}p = {product}\, {{}}^{{{last}}}p"
+
+
+def _matrix(rows: Sequence[Sequence[float]]) -> str:
+    body = r" \\ ".join(" & ".join(tex(round(value, _DECIMALS) + 0.0) for value in row) for row in rows)
+    return rf"\begin{{bmatrix}} {body} \end{{bmatrix}}"

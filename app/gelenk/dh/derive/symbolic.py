@@ -71,8 +71,10 @@ MAX_FACTOR_TERMS = 40
 def formulas(question: SymbolicRequest) -> Formulas:
     """Return transforms and Jacobian of a table in symbols."""
     table = read_table(question.table)
-    notation = notation_of(table, table.group, question.style, {} if question.keeps_symbols else table.values)
-    rows, frames = row_transforms(table), frames_from(table, 0)[1:]
+    notation = notation_of(
+        table, table.group, question.style, {} if question.keeps_symbols else table.values, question.before
+    )
+    rows, frames, before = row_transforms(table), frames_from(table, 0)[1:], question.before
     tip = None if frames[-1] is None else _shown(composed(frames[-1], table.tool, table.group))
     base_tip = None if tip is None else _shown(composed(table.base, tip, table.group))
     found = None if tip is None or base_tip is None else _columns(table, tip)
@@ -85,8 +87,11 @@ def formulas(question: SymbolicRequest) -> Formulas:
         table.remarks,
         legend(atoms, table, notation),
         _parameters(table, notation),
-        [notation.matrix(f"A_{i}", row.rows) for i, row in enumerate(rows, start=1)],
-        [None if T is None else notation.matrix(f"T_0_{i}", T.rows) for i, T in enumerate(frames, start=1)],
+        [notation.matrix(f"A_{i}", row.rows) for i, row in enumerate(rows, start=before + 1)],
+        [
+            None if T is None else notation.matrix(f"T_{before}_{i}", T.rows)
+            for i, T in enumerate(frames, start=before + 1)
+        ],
         None if base_tip is None else notation.matrix("T_base_tool", base_tip.rows),
         None if tip is None else _chain(table, tip, notation),
         None if base_tip is None else notation.vector("p", base_tip.position),
@@ -101,7 +106,9 @@ def formulas(question: SymbolicRequest) -> Formulas:
 def singularities(question: SymbolicRequest) -> Singularities:
     """Return the determinant of a table's square block, and the configurations at which it vanishes."""
     table = read_table(question.table)
-    notation = notation_of(table, table.group, question.style, {} if question.keeps_symbols else table.values)
+    notation = notation_of(
+        table, table.group, question.style, {} if question.keeps_symbols else table.values, question.before
+    )
     frames = [frame for frame in frames_from(table, 0) if frame is not None]
     if len(frames) <= len(table.rows):
         return Singularities()
@@ -130,10 +137,10 @@ def singularities(question: SymbolicRequest) -> Singularities:
     )
 
 
-def notation_of(table: Table, group: Group, style: Style, numbers: Mapping[Atom, float]) -> Notation:
+def notation_of(table: Table, group: Group, style: Style, numbers: Mapping[Atom, float], before: int = 0) -> Notation:
     """Return the notation of a table's formulas; see `Notation`."""
     offset = {row.index for row in table.rows if row.angle and (row.offset or not row.is_revolute)}
-    return Notation(style, group, offset, numbers, len(table.rows) >= 10)
+    return Notation(style, group, offset, numbers, len(table.rows) + before >= 10, before)
 
 
 def _product(table: Table, setting: Setting) -> tuple[Fraction, list[Polynomial]]:
@@ -196,11 +203,12 @@ def _chain(table: Table, tip: Transform, notation: Notation) -> list[MatrixFormu
 def _parameters(table: Table, notation: Notation) -> list[tuple[Formula, Formula, Formula, Formula]]:
     found = []
     for row, numbers in zip(table.rows, table.as_read.rows, strict=True):
-        link = row.index if table.is_standard else row.index - 1
+        index = row.index + notation.before
+        link = index if table.is_standard else index - 1
         alpha = decimal(numbers.alpha) if notation.numbers else indexed(r"\alpha", "alpha", link)
         theta = multiple_of_pi(numbers.theta) or decimal(numbers.theta)
         if row.is_revolute:
-            theta = summed((indexed("q", "q", row.index), theta))
+            theta = summed((indexed("q", "q", index), theta))
         found.append((notation.text(row.a), multiple_of_pi(numbers.alpha) or alpha, notation.text(row.d), theta))
     return found
 
@@ -219,8 +227,8 @@ def _column(i: int, column: Column, table: Table, notation: Notation) -> ColumnF
         table.as_read.rows[i - 1].name,
         notation.vector("z", column.axis),
         None if column.arm is None else notation.vector("p", column.arm),
-        notation.vector(f"J_v_{i}", column.linear),
-        notation.vector(f"J_omega_{i}", column.angular),
+        notation.vector(f"J_v_{i + notation.before}", column.linear),
+        notation.vector(f"J_omega_{i + notation.before}", column.angular),
     )
 
 
@@ -258,7 +266,7 @@ def legend(atoms: Iterable[Atom], table: Table, notation: Notation) -> list[Symb
     for index in sorted(angles & set(notation.offset_angles)):
         row = table.rows[index - 1]
         own = decimal(row.offset)
-        meaning = summed((indexed("q", "q", index), own)) if row.is_revolute else own
+        meaning = summed((indexed("q", "q", index + notation.before), own)) if row.is_revolute else own
         found.append(symbol_entry(notation.angle_name(index), meaning))
     return found
 
@@ -271,19 +279,19 @@ def _entries(atom: Atom, table: Table, notation: Notation) -> list[SymbolEntry]:
         angle, names = notation.angle(atom.indices), ("c", "s")
     elif atom.name in {"ca", "sa"}:
         index = atom.indices[0]
-        angle, names = indexed(r"\alpha", "alpha", index), ("ca", "sa")
+        angle, names = indexed(r"\alpha", "alpha", index + notation.before), ("ca", "sa")
         if notation.style == "full":
             row = index if table.is_standard else index + 1
-            words = _("twist alpha of row {row}, in rad").format(row=row)
+            words = _("twist alpha of row {row}, in rad").format(row=row + notation.before)
             return [symbol_entry(angle, words, table.as_read.rows[row - 1].alpha)]
     else:
-        return [symbol_entry(notation.atom(atom), _words(atom, table), table.values.get(atom))]
+        return [symbol_entry(notation.atom(atom), _words(atom, table, notation.before), table.values.get(atom))]
     both = [atom._replace(name=name) for name in names]
     return [symbol_entry(notation.atom(one), function_of(one.name, angle), table.values.get(one)) for one in both]
 
 
-def _words(atom: Atom, table: Table) -> str:
-    index = atom.indices[0]
+def _words(atom: Atom, table: Table, before: int) -> str:
+    index = atom.indices[0] + before
     row = index if table.is_standard or atom.name != "a" else index + 1
     named = {
         "a": _("length a of row {row}, in m"),

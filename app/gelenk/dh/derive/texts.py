@@ -18,14 +18,15 @@ Grid: TypeAlias = list[list[float]]
 class SymbolicRequest:
     """The request as plain data, with style and symbols as for `worked_solution`.
 
-    The formulas are also evaluated at the samples, configurations in [rad or m]. The language is that of the texts
-    beside them, which a cache keeps too.
+    The formulas are also evaluated at the samples, configurations in [rad or m]. `before` is added to every index. The
+    language is that of the texts, so that a cached answer is never in another one.
     """
 
     table: TableNumbers
     style: Style
     keeps_symbols: bool
     samples: tuple[Configuration, ...]
+    before: int = 0
     language: Language = field(default_factory=current_language)
 
 

@@ -44,6 +44,8 @@ _SYMBOLS = {
     "qdd": (r"\ddot{{q}}_{{{}}}", "qdd{}"),
 }
 """Symbols by the names of their atoms; any other one is the last letter of the name with an index."""
+_OF_ITS_OWN = frozenset({"pb", "pt", "rb", "rt", "sqrt", "g"})
+"""Names of atoms whose indices are not those of rows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +86,7 @@ class Notation:
         offset_angles: Indices of angles ϑ_i that consist of more than the variable q_i.
         numbers: Values to put in place of symbols; empty to keep the symbols.
         has_commas: Whether indices of a sum are separated: with ten joints c_{1,2} is not c_{12}.
+        before: Number of joints before the table's first, added to its indices: 3 for the rows 4 to 6 of a wrist.
     """
 
     style: Style
@@ -91,6 +94,7 @@ class Notation:
     offset_angles: Collection[int] = ()
     numbers: Mapping[Atom, float] = field(default_factory=dict)
     has_commas: bool = False
+    before: int = 0
 
     def text(self, polynomial: Polynomial) -> Formula:
         """Write a polynomial."""
@@ -140,7 +144,8 @@ class Notation:
         """Write an atom by its symbol."""
         if atom.kind == TRIGONOMETRIC:
             return self._wave(atom)
-        index = "".join(str(i) for i in atom.indices)
+        before = 0 if atom.name in _OF_ITS_OWN else self.before
+        index = "".join(str(i + before) for i in atom.indices)
         if atom.name in {"ca", "sa"}:
             if self.style == "full":
                 return function_of(atom.name, indexed(r"\alpha", "alpha", index))
@@ -161,14 +166,16 @@ class Notation:
 
     def angle_name(self, index: int) -> Formula:
         """Write q_i, or ϑ_i if the angle consists of more than the variable."""
-        return indexed(r"\vartheta", "theta", index) if index in self.offset_angles else indexed("q", "q", index)
+        shown = index + self.before
+        return indexed(r"\vartheta", "theta", shown) if index in self.offset_angles else indexed("q", "q", shown)
 
     def _wave(self, atom: Atom) -> Formula:
         if self.style == "full" or len(set(atom.indices)) < len(atom.indices):
             return function_of(atom.name, self.angle(atom.indices))
         comma, underscore = (",", "_") if self.has_commas else ("", "")
-        plain = underscore.join(str(index).replace("-", "m") for index in atom.indices)
-        return Formula(f"{atom.name}_{{{comma.join(map(str, atom.indices))}}}", f"{atom.name}{plain}")
+        indices = [str(index + (self.before if index > 0 else -self.before)) for index in atom.indices]
+        plain = underscore.join(index.replace("-", "m") for index in indices)
+        return Formula(f"{atom.name}_{{{comma.join(indices)}}}", f"{atom.name}{plain}")
 
     def numbered(self, polynomial: Polynomial) -> Polynomial:
         """Put values in place of symbols, if values are wanted."""
