@@ -31,7 +31,8 @@ ENDPOINT = Endpoint(
     answer=ConvertAnswer,
     summary="Standard ↔ modified",
     description="""
-    Writes a table in the other convention, exactly: α and a move by one row, base and tool absorb the rest.
+    Writes a Denavit-Hartenberg table in the other convention, standard (distal) or modified (Craig), exactly: α and a
+    move by one row, base and tool absorb the rest. `steps` shows how.
     """,
     example={"dh": EXAMPLE_TABLE, "convention": "standard"},
 )

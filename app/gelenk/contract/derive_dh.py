@@ -149,10 +149,11 @@ ENDPOINT = Endpoint(
     description="""
     Writes the worked solution of a table as a lecturer would, in symbols and in numbers.
 
-    Every A_i and T_0_i, the tip's pose, the Jacobian by its columns z × p, the determinant as a product, and the
-    singular configurations; `steps` explains it in words. Formulas are given in LaTeX and plain text; sums of
-    angles about parallel axes appear as c_{23}, and `legend` says what each symbol is. An angle within 1e-5 of a
-    multiple of 90°, 45° or 30° is taken as that angle, and `notes` says so.
+    Every homogeneous transform A^{i-1}_i(ϑ_i) of the Denavit-Hartenberg table and every T^0_i, the position from the
+    right, A^0_1 (A^1_2 (… p)), the tip's pose (direct kinematics), the geometric Jacobian by its columns z × p, the
+    determinant as a product, and the singular configurations; `steps` explains it in words. Formulas are given in
+    LaTeX and plain text; sums of angles about parallel axes appear as c_{23}, and `legend` says what each symbol is.
+    An angle within 1e-5 of a multiple of 90°, 45° or 30° is taken as that angle, and `notes` says so.
 
     Each formula is checked against the table's numbers at random configurations, and the numbers at the given ones
     against Pinocchio's. A formula that fails the check is left out, and so are formulas of a large arm that are too

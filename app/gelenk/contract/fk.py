@@ -45,7 +45,7 @@ ENDPOINT = RobotEndpoint(
     answer=ForwardAnswer,
     summary="Forward kinematics",
     description="""
-    Pose of the tip, and of other frames on the chain, at each configuration.
+    Pose of the tip, and of other frames on the chain, at each configuration: the direct kinematics T^0_n(q).
 
     Poses are those of `tip_frame` in `base_frame`. Every answer is recomputed through Pinocchio before it is
     sent (a sample of a large batch), and `certificate` gives the difference.

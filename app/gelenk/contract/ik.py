@@ -262,12 +262,13 @@ ENDPOINT = RobotEndpoint(
     its errors are those of that computation. An unsolved target comes with the reason and the nearest configuration
     found. The same call gives the same answer, unless it has a `time_limit`.
 
-    Closed forms: arms whose last three axes meet in a point, or whose first three do (any three joints besides,
-    turning or sliding); six joints with three parallel axes; positioning arms of two and three joints, with or
-    without turns at their end (planar, SCARA, Cartesian, cylindrical, spherical, anthropomorphic); spherical
-    wrists; seven joints with a spherical shoulder and wrist, by the angle of the elbow. Of six joints of any other
-    geometry `analytic`, and `auto` where all solutions are wanted, eliminates all joints but one, or follows all
-    solutions of another target to this one (continuation).
+    Closed forms: arms whose last three axes meet in a point, or whose first three do (decoupling: the position of the
+    wrist first, then the orientation by the spherical wrist; any three joints besides, turning or sliding); six
+    joints with three parallel axes; positioning arms of two and three joints, with or without turns at their end
+    (planar, SCARA, Cartesian, cylindrical, spherical, anthropomorphic); spherical wrists; seven joints with a
+    spherical shoulder and wrist, by the angle of the elbow. Of six joints of any other geometry `analytic`, and
+    `auto` where all solutions are wanted, eliminates all joints but one, or follows all solutions of another target
+    to this one (continuation).
     """,
     batch="targets",
     options=InverseOptions,

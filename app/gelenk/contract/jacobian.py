@@ -81,7 +81,7 @@ ENDPOINT = RobotEndpoint(
     Jacobian of the tip at each configuration, with rank, singular values and condition number.
 
     Rows are linear before angular. `local_world_aligned` is the course's geometric Jacobian; `zyz` and `rpy`
-    give the analytic one, which does not exist where its angles degenerate. Every answer is recomputed through
+    give the analytic Jacobian, which does not exist where its angles degenerate. Every answer is recomputed through
     Pinocchio before it is sent (a sample of a large batch).
     """,
     options=JacobianOptions,

@@ -257,7 +257,7 @@ ENDPOINT = RobotEndpoint(
     answer=ManipulabilityAnswer,
     summary="Manipulability",
     description="""
-    Velocity and force ellipsoids of the tip at each configuration, and the measures drawn from them.
+    The manipulability ellipsoids of the tip at each configuration, of velocity and of force, and their measures.
 
     Joint velocities of norm one move the tip within the velocity ellipsoid, with semi-axes σ_i of the Jacobian;
     joint torques of norm one balance the forces within the force ellipsoid. The lecture notes call the two

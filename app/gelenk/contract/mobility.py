@@ -81,7 +81,7 @@ ENDPOINT = Endpoint(
     answer=MobilityAnswer,
     summary="Freedoms of a mechanism",
     description="""
-    Counts the degrees of freedom of a mechanism, M = λ(n - 1) - Σc, and classifies its chain.
+    Counts the degrees of freedom (DOF) of a mechanism by Grübler, M = λ(n - 1) - Σc, and classifies its chain.
 
     Give `space`, `links` and `pairs`; `pairs` as a list gives their links and so the loops, as an object the number
     of each type. Or give the name of a `robot`, whose tree is counted with its mimic joints, as Pinocchio's

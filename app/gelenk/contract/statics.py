@@ -234,9 +234,9 @@ ENDPOINT = RobotEndpoint(
     neither, `torques` are those of the weight alone, if `gravity` asks for it. A DH table gives no masses: its
     robot gets the masses of the bodies drawn for it, and `notes` says so.
 
-    `subspaces` (implied by any of the `test_…` vectors): range(J) ⊕ ker(Jᵀ) = Rᵐ and range(Jᵀ) ⊕ ker(J) = Rⁿ. Both
-    sums are direct and orthogonal (the notes write +). They mix metres and radians: `task` selects rows of one
-    unit.
+    Kinetostatic duality: `subspaces` (implied by any of the `test_…` vectors): range(J) ⊕ ker(Jᵀ) = Rᵐ and range(Jᵀ)
+    ⊕ ker(J) = Rⁿ. Both sums are direct and orthogonal (the notes write +). They mix metres and radians: `task`
+    selects rows of one unit.
 
     With `Accept: image/svg+xml` or `image/png` the lever arms of a force on a planar arm are drawn.
     """,

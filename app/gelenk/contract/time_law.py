@@ -116,10 +116,11 @@ ENDPOINT = Endpoint(
     normalises by Δq = q₁ - q₀, which is not possible where q₁ = q₀: here the general form is computed, and the
     normalised coefficients are given for the joints that have them.
 
-    Trapezoid: T_s = v/a and T = (La + v²)/(av) where L > v²/a, else T_s = √(L/a) and T = 2 T_s (a T = √(L/2a) that
-    circulates is wrong). With end velocities v_p = min(v, √(aL + (v_i² + v_f²)/2)); |v_i² - v_f²| > 2aL is refused,
-    and the message says what would be feasible, unless `may_reverse`. The slowest of several joints sets the time;
-    the others are slowed by k = T/T_j, those with end velocities and those in a given `duration` coast more slowly.
+    Trapezoid (bang-coast-bang): T_s = v/a and T = (La + v²)/(av) where L > v²/a, else T_s = √(L/a) and T = 2 T_s (a T
+    = √(L/2a) that circulates is wrong). With end velocities v_p = min(v, √(aL + (v_i² + v_f²)/2)); |v_i² - v_f²| >
+    2aL is refused, and the message says what would be feasible, unless `may_reverse`. The slowest of several joints
+    sets the time; the others are slowed by k = T/T_j, those with end velocities and those in a given `duration` coast
+    more slowly.
 
     As a picture of the profiles with `Accept: image/svg+xml` or `image/png`.
     """,

@@ -13,9 +13,9 @@ ENDPOINT = RobotEndpoint(
     A motion from rest to rest through segments: joints, lines, circles and splines of the tip.
 
     A `joint` segment moves all joints together to a configuration or a pose; `line`, `circle` and `spline` lead the
-    tip along a path in space, which the joints follow within `path_tolerance`, also between samples, on one branch
-    of the inverse kinematics. A spline through configurations moves the joints. The motion stops between two
-    segments, except where a line is blended into the next. Each segment has its own time law and limits, or the
+    tip along a path in space, which the joints follow within `path_tolerance`, also between samples, on one branch of
+    the inverse kinematics. A spline through configurations moves the joints. The motion stops between two segments,
+    except where a line is blended into the next (fly-over). Each segment has its own time law and limits, or the
     trajectory's; limits that neither the request nor the robot's description gives are assumed, and `notes` and
     `limit_sources` say so.
 

@@ -291,13 +291,13 @@ ENDPOINT = RobotEndpoint(
     d²p/ds² ṡ² + dp/ds s̈. They say that the planar arm's 6×2 Jacobian has a rank between 1 and 2: it is 2 always,
     and the 2×2 block of v_x, v_y loses rank at q₂ = 0 and π, which `"task": ["x", "y"]` shows.
 
-    **Inverse**, `twists` given: q̇ = J⁻¹v, the pseudo-inverse J#v by singular values, or damped least squares
-    min λ‖q̇‖² + ‖Jq̇ - v‖² with fixed λ (the course's λ, elsewhere written λ²) or one that follows the smallest
-    singular value and the velocity limits; joints weighted on request, and a motion (I - J#J) ξ in the null space
-    added. `tip_accelerations` and `tip_jerks` are inverted likewise, less what the given rates already make. Each
-    entry has its residual, the joints that are too fast, and how near the configuration is to a singularity.
-    Where metres and radians are mixed, J#, damping and condition number depend on the unit of length: choose a
-    `task` of one kind, or give a `characteristic_length`.
+    **Inverse**, `twists` given: q̇ = J⁻¹v, the Moore-Penrose pseudo-inverse J#v by singular values, or damped least
+    squares min λ‖q̇‖² + ‖Jq̇ - v‖² with fixed λ (the course's λ, elsewhere written λ²) or one that follows the
+    smallest singular value and the velocity limits; joints weighted on request, and a motion (I - J#J) ξ in the null
+    space added. `tip_accelerations` and `tip_jerks` are inverted likewise, less what the given rates already make.
+    Each entry has its residual, the joints that are too fast, and how near the configuration is to a singularity.
+    Where metres and radians are mixed, J#, damping and condition number depend on the unit of length: choose a `task`
+    of one kind, or give a `characteristic_length`.
 
     The tip's motion is recomputed through Pinocchio before it is sent (a sample of a large batch), of an inversion
     that which the found rates make.
