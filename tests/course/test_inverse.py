@@ -231,3 +231,28 @@ def test_the_choice_of_the_tables_axes_does_not_matter(turned: int, offset: floa
 def test_arms_without_a_solution_by_hand_say_so() -> None:
     (steps,), _ = asked("so100", [0.1, 0.3, 0.2, 0.5, 0.3], solutions="one")
     assert [step.title for step in steps] == ["How it was solved"]
+
+
+def test_a_third_joint_that_does_not_move_the_tip_is_no_elbow() -> None:
+    of = arm((0.0, UP, 0.0), (0.5, 0.0, 0.0), (0.0, 0.0, 0.0))
+    q = np.array([0.3, 0.6, -0.8])
+    assert hand_steps(of, SentSolutions(of.pose(q), POSITION, q[None])) is None
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_arms_of_special_geometry_in_special_postures_are_solved_or_left(seed: int) -> None:
+    """Parallel, square and skew axes, slides, zero lengths; what is stated has the posture among its solutions."""
+    rng = np.random.default_rng(seed)
+    for _ in range(20):
+        count = int(rng.choice([2, 3, 3, 4, 6, 6]))
+        lengths = rng.choice([0.0, 0.3, -0.4, 0.2], (count, 2)).tolist()
+        alphas = rng.choice([0.0, UP, -UP, math.pi, 0.4], count, p=[0.2, 0.35, 0.3, 0.1, 0.05]).tolist()
+        slides = tuple(np.flatnonzero(rng.uniform(size=count) < 0.15).tolist())
+        rows = ((a, alpha, d) for (a, d), alpha in zip(lengths, alphas, strict=True))
+        of = arm(*rows, slides=slides)
+        q = rng.choice([0.0, 0.3, UP, -2.0, math.pi], count)
+        pose = of.pose(of.values(q))
+        for directions in (POSE, POSITION):
+            found = hand_steps(of, SentSolutions(pose, directions, q[None]))
+            assert found is None or any(not line.startswith("*") for line in listed(found))
+            hand_steps(of, SentSolutions(pose + np.eye(4, k=3), directions, np.empty((0, count))))

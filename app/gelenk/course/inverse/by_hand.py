@@ -8,7 +8,7 @@ import numpy as np
 from gelenk.course.inverse.arm import STRAIGHT, ArmRow, HandArm
 from gelenk.course.inverse.parallel import by_three_parallel, fits_three_parallel
 from gelenk.course.inverse.planar import by_planar, fits_planar
-from gelenk.course.inverse.shoulder import placed
+from gelenk.course.inverse.shoulder import behind_third, placed
 from gelenk.course.inverse.solution import ByHand, HandSolution, HandTarget
 from gelenk.course.inverse.wrist import centre_step, wrist_formulas, wrist_numbers, wrist_text, zyz_angles
 from gelenk.course.steps import Step, step
@@ -27,12 +27,12 @@ def solver_of(arm: HandArm, directions: frozenset[str]) -> Callable[[HandArm, Ha
     if fits_three_parallel(arm, directions):
         return by_three_parallel
     n = len(arm.rows)
-    if n == 3 and directions >= _POSITION and _places(arm.rows):
+    if n == 3 and directions >= _POSITION and _places(arm.rows) and _bends(arm, arm.tool[:3, 3]):
         return _by_shoulder
     if n == 3 and directions >= _ROTATION and _turns(arm.rows):
         return _by_wrist
     if n == 6 and len(directions) == 6 and _places(arm.rows) and _turns(arm.rows[3:]):
-        return _by_decoupling
+        return _by_decoupling if _bends(arm, _wrist_in_three(arm)) else None
     return None
 
 
@@ -54,6 +54,16 @@ def _places(rows: tuple[ArmRow, ...]) -> bool:
     first, second, third = rows[:3]
     behind = second.is_square if third.slides else second.is_parallel and abs(second.a) > STRAIGHT
     return first.is_square and behind and not first.slides and not second.slides
+
+
+def _bends(arm: HandArm, local: Array) -> bool:
+    """Check that the third joint moves a point of frame 3, (3,) [m]."""
+    return arm.rows[2].slides or math.hypot(*behind_third(arm, local)[:2].tolist()) > STRAIGHT
+
+
+def _wrist_in_three(arm: HandArm) -> Array:
+    """Return the wrist's centre in frame 3; shape (3,), [m]."""
+    return np.array([0.0, 0.0, arm.rows[3].d])
 
 
 def _turns(rows: tuple[ArmRow, ...]) -> bool:
@@ -87,8 +97,7 @@ def _by_decoupling(arm: HandArm, target: HandTarget) -> ByHand:
     centre = target.pose[:3, 3] - R @ tail[:3, 3]
     text = _("The last three axes meet in a point that their angles do not move: step back to it from the tool.")
     steps = [centre_step(target.pose, tail, centre, text)]
-    local = np.array([0.0, 0.0, arm.rows[3].d])
-    found = placed(arm, centre, local, "p_w")
+    found = placed(arm, centre, _wrist_in_three(arm), "p_w")
     steps += found.steps
     lines, solutions, degenerate = wrist_formulas(3, "R^{3}_{6}"), [], False
     for number_, values in enumerate(found.values, start=1):

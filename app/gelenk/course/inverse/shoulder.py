@@ -49,7 +49,7 @@ def placed(arm: HandArm, point: Array, local: Array, name: str = "p") -> Placed:
     The second and third axis are parallel, or the third joint slides perpendicular to the second axis.
     """
     second, third = arm.rows[1:3]
-    end = about_x(third.alpha, third.a) @ np.append(local, 1.0)
+    end = behind_third(arm, local)
     if third.slides:
         end[:2] = _rotated(end[:2], third.theta)
         side = second.d + end[1] * math.sin(second.alpha)
@@ -69,6 +69,12 @@ def placed(arm: HandArm, point: Array, local: Array, name: str = "p") -> Placed:
     steps.append(elbow_step(links, list(plane.places), found))
     pairs = zip(plane.turns, found, strict=True)
     return Placed(steps, [(turn, *pair) for turn, bend in pairs for pair in bend.pairs])
+
+
+def behind_third(arm: HandArm, local: Array) -> Array:
+    """Return a point of frame 3 in the frame that the third joint turns or slides; shape (3,) → (3,), [m]."""
+    third = arm.rows[2]
+    return np.asarray((about_x(third.alpha, third.a) @ np.append(local, 1.0))[:3])
 
 
 def _rotated(v: Array, angle: float) -> Array:
