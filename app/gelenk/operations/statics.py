@@ -182,7 +182,7 @@ def _content(loaded: LoadedRobot, call: StaticsRequest, found: _Results) -> dict
         "overloaded_joints": overloaded_joints(robot, chain, found.torques),
         "subspaces": [_subspaces_content(call, split) for split in splits] if _wants_subspaces(call) else None,
         "notes": weight_notes(loaded, mechanism(robot, chain), still.load) if weighs else [],
-        "steps": _worked(call, found) if call.steps else None,
+        **({"steps": _worked(call, found)} if call.steps else {}),
         "certificate": found.certificate,
     }
 
