@@ -47,7 +47,7 @@ LINKAGE = Exercise(
     title=marked("Grübler's formula in the plane"),
     difficulty=1,
     draw=_draw_linkage,
-    is_degenerate=lambda one: not -2 <= one.tally.mobility <= 4,
+    is_degenerate=lambda one: one.tally.pairs < one.links or not -1 <= one.tally.mobility <= 3,
     text=_linkage_text,
     fields=lambda _numbers: (
         whole("constraints", _("Constraints of all pairs, Σc")),
