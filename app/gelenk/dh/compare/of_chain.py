@@ -4,6 +4,7 @@ from gelenk.dh.compare.words import ORIENTATION_TOLERANCE, POSITION_TOLERANCE
 from gelenk.dh.tables.from_chain import FAR, ChainTable, FarNormal, dh_from_chain
 from gelenk.kinematics.judge.tables import certify_table
 from gelenk.kinematics.judge.words import PoseCertificate
+from gelenk.language import translated as _
 from gelenk.robot.chain import Chain
 from gelenk.robot.dh import Convention, DhTable
 from gelenk.robot.robot import RobotModel
@@ -35,16 +36,18 @@ def _notes(found: ChainTable, certificate: PoseCertificate) -> list[str]:
     notes = []
     longest = max(abs(length) for row in found.table.joints for length in (row.a, row.d))
     if longest > FAR * found.reach and found.far:
-        notes.append(
-            f"exact, but with a length of {longest:.4g} m: axes are nearly parallel and meet their common "
-            f"normal far away, which cannot be rounded within {_LIMITS}: {_listed(found.far)}"
+        text = _(
+            "exact, but with a length of {length:.4g} m: axes are nearly parallel and meet their common normal far "
+            "away, which cannot be rounded within {limits}: {pairs}"
         )
+        notes.append(text.format(length=longest, limits=_LIMITS, pairs=_listed(found.far)))
     if found.rounded:
-        cost = f"{certificate.max_position_error:.2g} m and {certificate.max_orientation_error:.2g} rad"
-        notes.append(
-            f"treated as parallel, because their common normal is far away; the error is {cost} by the certificate: "
-            f"{_listed(found.rounded)}"
+        text = _(
+            "treated as parallel, because their common normal is far away; the error is {position:.2g} m and "
+            "{angle:.2g} rad by the certificate: {pairs}"
         )
+        position, angle = certificate.max_position_error, certificate.max_orientation_error
+        notes.append(text.format(position=position, angle=angle, pairs=_listed(found.rounded)))
     return notes
 
 

@@ -33,6 +33,8 @@ from typing import NamedTuple
 import numpy as np
 
 from gelenk.errors import InvalidDhTable, InvalidField, listed, quoted
+from gelenk.language import marked
+from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain, crossed_joints
 from gelenk.robot.description import Description, Joint, Mimic, UrdfLimits
@@ -63,14 +65,14 @@ _STEEP = 1e-2
 _TIE = 1e-9
 """Distance from ±π/2 within which both directions of x count as equally good, [rad]."""
 
-_PARALLEL = "parallel to the next axis, so the normal goes through the previous origin and d is zero"
-_ONE_LINE = "on one line with the next axis, so origin and x stay, and theta and d are zero"
-_INTERSECTING = "intersecting the next axis, so a is zero and x the cross product of the two directions"
-_THROUGH_TIP = "parallel to z of the tip, so the last frame is at the tip's height"
-_AT_TIP = "on one line with z of the tip, so the last frame is the tip's"
-_ON_NEXT = "prismatic, so its axis may be anywhere: placed on the next one, which is parallel"
-_AS_GIVEN = "prismatic, so that the axis may be anywhere: left where the description has it"
-_THROUGH_PREVIOUS = "prismatic, so that the axis may be anywhere: put through the previous origin"
+_PARALLEL = marked("parallel to the next axis, so the normal goes through the previous origin and d is zero")
+_ONE_LINE = marked("on one line with the next axis, so origin and x stay, and theta and d are zero")
+_INTERSECTING = marked("intersecting the next axis, so a is zero and x the cross product of the two directions")
+_THROUGH_TIP = marked("parallel to z of the tip, so the last frame is at the tip's height")
+_AT_TIP = marked("on one line with z of the tip, so the last frame is the tip's")
+_ON_NEXT = marked("prismatic, so its axis may be anywhere: placed on the next one, which is parallel")
+_AS_GIVEN = marked("prismatic, so that the axis may be anywhere: left where the description has it")
+_THROUGH_PREVIOUS = marked("prismatic, so that the axis may be anywhere: put through the previous origin")
 
 
 class FarNormal(NamedTuple):
@@ -379,15 +381,18 @@ class _Lines:
     def notes(self) -> tuple[str, ...]:
         base, tip = (quoted(end) for end in self._ends)
         notes = [
-            f"frame 0 is at the foot of the origin of {base} on the first axis; base takes up the rest",
-            f"the last frame is at the foot of the normal to z of {tip}; tool takes up the rest",
-            *(f"{what}: {listed(tuple(joints))}" for what, joints in self._chosen.items()),
+            _("frame 0 is at the foot of the origin of {base} on the first axis; base takes up the rest").format(
+                base=base
+            ),
+            _("the last frame is at the foot of the normal to z of {tip}; tool takes up the rest").format(tip=tip),
+            *(f"{_(what)}: {listed(tuple(joints))}" for what, joints in self._chosen.items()),
         ]
         if self._snapping:
-            notes.append(
-                f"snapped: angles by up to {self._most_angle:.2g} rad, lengths by up to {self._most_length:.2g} m; the "
-                "certificate states the resulting error"
+            text = _(
+                "snapped: angles by up to {angle:.2g} rad, lengths by up to {length:.2g} m; the certificate states the "
+                "resulting error"
             )
+            notes.append(text.format(angle=self._most_angle, length=self._most_length))
         return tuple(notes)
 
 
@@ -427,20 +432,25 @@ def _joint_notes(description: Description, joints: Sequence[Joint], rows: Sequen
     on_the_way = {joint.name for joint in joints}
     endless = [joint.name for joint in joints if joint.type == "continuous" and joint.mimic is None]
     if endless:
-        yield f"continuous, so their limits are left out, which a table reads as ±π: {listed(tuple(endless))}"
+        text = _("continuous, so their limits are left out, which a table reads as ±π: {joints}")
+        yield text.format(joints=listed(tuple(endless)))
     cut = [row.name for row in rows if MAX_LENGTH in {abs(end) for end in (row.lower, row.upper) if end is not None}]
     if cut:
-        yield f"limits cut to ±{MAX_LENGTH:g}: {listed(tuple(cut))}"
+        yield _("limits cut to ±{most:g}: {joints}").format(most=MAX_LENGTH, joints=listed(tuple(cut)))
     for row in rows:
         if row.mimic is None:
             continue
         leader = description.joint[row.mimic.joint]
-        note = f"{quoted(row.name)} follows {quoted(leader.name)}"
+        text = _("{joint} follows {leader}")
         if leader.name not in on_the_way:
-            note += ", which is not in the chain and has its own variable; the row's limits are what its limits allow"
-            if (leader.type == "prismatic") != (row.type == "prismatic"):
-                note += f"; unlike its follower it is {leader.type}"
-        yield note
+            text = _(
+                "{joint} follows {leader}, which is not in the chain and has its own variable; the row's limits are "
+                "what its limits allow; unlike its follower it is {type}"
+                if (leader.type == "prismatic") != (row.type == "prismatic")
+                else "{joint} follows {leader}, which is not in the chain and has its own variable; the row's limits "
+                "are what its limits allow"
+            )
+        yield text.format(joint=quoted(row.name), leader=quoted(leader.name), type=leader.type)
 
 
 # Transforms
