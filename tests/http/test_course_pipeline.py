@@ -94,6 +94,12 @@ def test_a_hole_between_two_samples_is_seen(client: TestClient) -> None:
     assert "between two samples" in content["warnings"][0]
 
 
+def test_an_arm_that_begins_nearly_folded_keeps_its_digits(client: TestClient) -> None:
+    lengths, target = [1.266743022721144, 1.2709098965443981], [1.9369989790097026, 0.32242174218561037]
+    body = {"lengths": lengths, "start": [1000.0, 3.14159], "target": target, "duration": 16.0, "samples": 3}
+    assert good(client, {**body, "law": "septic"})["certificate"]["max_position_error"] < 1e-9
+
+
 def test_a_stretched_arm_is_marked(client: TestClient) -> None:
     content = good(client, {"lengths": [1, 1], "start": [0, 1], "target": [0, 2], "samples": 3, "duration": 1})
     assert content["samples"][-1]["status"] == "singular"

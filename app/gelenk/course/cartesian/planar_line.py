@@ -1,7 +1,7 @@
 """A straight line of a planar 2R arm's tip, on one branch of its inverse kinematics.
 
 Along a line that does not pass through the base the direction of the tip turns by less than π, so that q(s) follows
-without counting turns: q_2 = ±acos c_2 and q_1 = ψ - β, with the differences of ψ and β from the start. Points are
+without counting turns: cos q_2 = c_2 and q_1 = ψ - β, with the differences of ψ and β from the start. Points are
 complex numbers x + iy here; links are l_1 e^{iq_1} and l_2 e^{i(q_1 + q_2)}.
 """
 
@@ -60,10 +60,13 @@ class PlanarLine:
         """Return q(s), continuous from the start on; shape (N, 2), [rad]; NaN out of reach."""
         l1, l2 = self.lengths
         p = self.points(np.append(0.0, s))
-        cosine = (np.abs(p) ** 2 - l1**2 - l2**2) / (2.0 * l1 * l2)
-        cosine[np.abs(np.abs(cosine) - 1.0) < _ROUNDING] = np.sign(cosine[np.abs(np.abs(cosine) - 1.0) < _ROUNDING])
+        r, outer, inner = np.abs(p), l1 + l2, abs(l1 - l2)
+        # tan²(q_2/2), whose factors keep their digits near both ends of the reach, where acos c_2 loses half of them.
+        above, below = (outer - r) * (outer + r), (r - inner) * (r + inner)
+        rounding = -_ROUNDING * outer**2
         with np.errstate(invalid="ignore"):
-            bend = self.elbow * np.arccos(cosine)
+            up, down = (np.sqrt(np.where(x < 0.0, np.where(x > rounding, 0.0, np.nan), x)) for x in (above, below))
+        bend = self.elbow * 2.0 * np.arctan2(up, down)
         beta = np.angle(l1 + l2 * np.exp(1j * bend))
         turned = np.angle(p * np.conj(self.start))
         change = np.column_stack((turned - beta, bend))
