@@ -146,6 +146,10 @@ def test_the_table_below_has_degrees_and_the_variables(monkeypatch: pytest.Monke
     texts = [text.get_text() for text in drawn(monkeypatch, ARMS["Stanford"]).texts]
     row = texts[texts.index("3") : texts.index("3") + 5]
     assert row == ["3", "0.0203", "0", "$q_{3}$", "-90"]
+    offset = table("standard", (0.1, 0.0, 1e-12, -H), (0.1, 0.0, 0.0, H))
+    texts = [text.get_text() for text in drawn(monkeypatch, (offset, [0.0, 0.0])).texts]
+    assert texts[texts.index("$q_{1}$ - 90") - 1 :][:2] == ["0", "$q_{1}$ - 90"]
+    assert "$q_{2}$ + 90" in texts
 
 
 def test_a_name_stands_beside_a_line_and_not_on_it() -> None:

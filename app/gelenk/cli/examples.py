@@ -15,7 +15,7 @@ EXAMPLES = {
     "dh from-urdf": "gelenk -o table.csv dh from-urdf ur5 --convention modified",
     "dh convert": "gelenk dh convert table.csv --convention modified",
     "dh compare": "gelenk dh compare table.csv ur5",
-    "dh derive": "gelenk dh derive table.csv --latex",
+    "dh derive": "gelenk dh derive table.csv --latex --plot frames.svg",
 }
 """Examples by command. Commands that read files use those that other examples have written."""
 

@@ -9,7 +9,7 @@ from gelenk.cli.completion import CONVENTIONS, one_of
 from gelenk.cli.examples import example_of
 from gelenk.cli.files.inputs import fields_of, is_file, table_from
 from gelenk.cli.files.outputs import AnswerRows, Format, largest
-from gelenk.cli.session import BaseOption, FieldsOption, RobotArgument, TipOption, session
+from gelenk.cli.session import BaseOption, FieldsOption, RobotArgument, TipOption, draw, plot_option, session
 from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:
@@ -62,11 +62,13 @@ def from_urdf(
     snap: Annotated[
         float | None, typer.Option(help="Tolerance within which numbers are rounded to plain ones, [rad or m].")
     ] = None,
+    plot: Annotated[Path | None, plot_option("frames")] = None,
 ) -> None:
     """A chain of a robot as a table, with its certificate."""
     shared = session(context)
     with shared.robot(robot) as (client, name):
         answer = client.dh_table(name, convention, base, tip, snap)  # type: ignore[arg-type]
+        draw(client, plot, "v1/dh/picture", {"dh": answer.dh})
     shared.write(
         answer, _rows(answer.dh, (f"the table and the robot differ by {largest(answer.certificate)}", *answer.notes))
     )
@@ -114,12 +116,15 @@ def derive(
     symbolic: Annotated[
         bool, typer.Option("--symbols/--values", help="Keep lengths as symbols, or write them as numbers.")
     ] = True,
+    plot: Annotated[Path | None, plot_option("frames")] = None,
     fields: FieldsOption = None,
 ) -> None:
     """The worked solution: each A_i and T_0_i, the Jacobian, and where it is singular."""
     shared = session(context)
     with shared.client() as client:
-        answer = client.derive_dh(**{"dh": _table(table), "symbolic": symbolic, **fields_of(fields)})
+        dh = _table(table)
+        answer = client.derive_dh(**{"dh": dh, "symbolic": symbolic, **fields_of(fields)})
+        draw(client, plot, "v1/dh/picture", {"dh": dh})
     matrices = [*answer.A, *answer.T_0, *([answer.jacobian.matrix] if answer.jacobian else [])]
     if latex:
         rows = AnswerRows(("name", "formula"), [(one.name, one.latex) for one in matrices], answer.notes)

@@ -220,9 +220,15 @@ def _write_table(figure: Figure, table: DhTable) -> None:
 
 def _cells(table: DhTable) -> Iterator[tuple[str, ...]]:
     for i, row in enumerate(table.joints, start=1):
-        alpha, theta, d = f"{math.degrees(row.alpha):.6g}", f"{math.degrees(row.theta):.6g}", f"{row.d:.6g}"
+        numbers = (row.a, math.degrees(row.alpha), row.d, math.degrees(row.theta))
+        a, alpha, d, theta = (f"{round(number, 9) + 0.0:.6g}" for number in numbers)
         if row.type == "revolute":
-            theta = rf"$q_{{{i}}}$" + ("" if theta == "0" else f" + {theta}")
+            theta = _with_variable(i, theta)
         else:
-            d = rf"$q_{{{i}}}$" + ("" if d == "0" else f" + {d}")
-        yield str(i), f"{row.a:.6g}", alpha, d, theta
+            d = _with_variable(i, d)
+        yield str(i), a, alpha, d, theta
+
+
+def _with_variable(i: int, constant: str) -> str:
+    sign, size = (" - ", constant[1:]) if constant.startswith("-") else (" + ", constant)
+    return rf"$q_{{{i}}}$" + ("" if constant == "0" else sign + size)
