@@ -21,6 +21,9 @@ from gelenk.course.plain import plain
         (r"\sigma = \cos 2 + \max(a,\ b)", "σ = cos 2 + max(a, b)"),
         (r"x^{i-1}_{i+1} \frac12", "xⁱ⁻¹_(i+1) 1/2"),
         (r"\rho = 2, \sum_i \sigma_i", "ρ = 2, Σ_i σ_i"),
+        (r"\varphi - \cos^2 \psi + x", "φ - cos² ψ + x"),
+        (r"x = \pm\sqrt{a} \pm b", "x = ±√(a) ± b"),
+        (r"f(\pm y, \mp x)", "f(±y, ∓x)"),
         (r"\det J = \det(J^T), \dim = 1", "det J = det(Jᵀ), dim = 1"),
     ],
 )

@@ -41,8 +41,10 @@ _RAISED = set("0123456789+-=()ni")
 @lru_cache(maxsize=1024)  # the formulas without numbers come again and again
 def plain(latex: str) -> str:
     r"""Return a formula as plain text; rows of a matrix stand in brackets, separated by semicolons."""
-    text = re.sub(_APPLIED + r"(?=[^\W_]|√)", " ", _Reader(latex).group()).replace(_APPLIED, "")
-    text = re.sub(r"(?<=[^\s:])(?=[=≤≥] )", " ", text)
+    text = re.sub(_APPLIED + r"(?=[^\W_⁰¹²³⁴⁵⁶⁷⁸⁹]|√)", " ", _Reader(latex).group()).replace(_APPLIED, "")
+    text = re.sub(r"(?<=[^\s:])(?=[=≤≥] )|(?<=[α-ωϑϕϵ])(?=[+-] )", " ", text)
+    # At the beginning of a formula, a bracket or an argument a sign belongs to what follows.
+    text = re.sub(r"(?:(^|[(\[{])\s*|([,;=]\s*))([±∓]) ", r"\1\2\3", text)
     return re.sub(r" *\u2003 *", "  ", re.sub(r" +", " ", text)).strip()
 
 
