@@ -40,6 +40,7 @@ NAMES = {
     "count_mobility": "mobility",
     "convert_orientation": "orientation",
     "cubic_spline": "spline",
+    "solve_triangle": "triangle",
 }
 """Methods by the operation that they ask, where the two have other names."""
 

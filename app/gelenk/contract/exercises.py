@@ -100,7 +100,7 @@ class ExerciseFieldGrade(Answer):
     """What the answer to one field earns."""
 
     name: str = Field(description="Of the field.")
-    correct: bool
+    correct: bool = Field(description="Whether the whole answer is right, in whatever form.")
     points: float = Field(description="What the answer earns; a set of solutions may earn a part. No unit.")
     mistake: MistakeInfo | None = Field(description="The mistake that leads to this answer; null if none is known.")
 
