@@ -41,6 +41,13 @@ def test_none_unless_requested(client: TestClient) -> None:
     assert plain["steps"] is None if "steps" in plain else True
 
 
+def test_formulas_are_the_same_in_both_languages(client: TestClient) -> None:
+    english, german = (
+        worked(client, start=READY, segments=[JOINT], language=code)[0]["steps"] for code in ("en", "de")
+    )
+    assert [one["latex"] for one in english] == [one["latex"] for one in german]
+
+
 @pytest.mark.parametrize(("law", "peaks"), [("cubic", (1.5, 6.0)), ("quintic", (1.875, 10 / math.sqrt(3), 60.0))])
 def test_the_time_of_a_polynomial(client: TestClient, law: str, peaks: tuple[float, ...]) -> None:
     content, text = worked(client, start=READY, segments=[JOINT], law=law)

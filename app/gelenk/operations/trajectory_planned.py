@@ -13,6 +13,7 @@ from gelenk.errors import InvalidField, TooLarge
 from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.kinematics.simd.kernels import chain_poses
+from gelenk.language import language
 from gelenk.operations.outcome import PictureFormat
 from gelenk.operations.pose_arrays import pose_list
 from gelenk.operations.rows import json_list, json_rows
@@ -176,7 +177,8 @@ class PlannedTrajectory:
             "certificate": certificate,
         }
         if self.call.steps:
-            answer["steps"] = trajectory_steps(self.chain, self.question.problem.segments, found)
+            with language(self.call.language):  # A job answers outside the context of its request.
+                answer["steps"] = trajectory_steps(self.chain, self.question.problem.segments, found)
         return answer | ({"timing": found.timing} if self.call.compare_timing else {})
 
     def _segments_json(self) -> list[dict[str, Any]]:
