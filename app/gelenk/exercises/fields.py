@@ -120,6 +120,26 @@ class MatrixField(_NumberArray):
             yield "transposed", np.asarray(right).T
 
 
+def vector(name: str, label: str, size: int, unit: str = "", points: float = 1.0) -> VectorField:
+    """Return the field of a vector, with a tolerance of one per cent of its largest entry."""
+    return VectorField(name=name, label=label, size=size, unit=unit, tolerance=_SHARE, is_relative=True, points=points)
+
+
+def matrix(name: str, label: str, shape: tuple[int, int], unit: str = "", points: float = 1.0) -> MatrixField:
+    """Return the field of a matrix, with a tolerance of one per cent of its largest entry."""
+    rows, columns = shape
+    return MatrixField(
+        name=name,
+        label=label,
+        rows=rows,
+        columns=columns,
+        unit=unit,
+        tolerance=_SHARE,
+        is_relative=True,
+        points=points,
+    )
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BasisField(MatrixField):
     """A basis of a space of `rows` dimensions, its vectors as columns: any basis of the same space is right.
@@ -206,6 +226,11 @@ class SetField(AnswerField):
         if missing == 0:
             return mistake("solutions_too_many")
         return mistake("solutions_missing", missing=missing, count=len(right)) if answer and all(is_right) else None
+
+
+def basis(name: str, label: str, shape: tuple[int, int], points: float = 1.0) -> BasisField:
+    """Return the field of a basis, with a tolerance of two per cent in the projector."""
+    return BasisField(name=name, label=label, rows=shape[0], columns=shape[1], tolerance=2.0 * _SHARE, points=points)
 
 
 def _in_tolerances(apart: Array, allowed: float) -> float:

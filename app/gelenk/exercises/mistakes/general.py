@@ -26,4 +26,5 @@ MISTAKES = {
     "square": marked("This is the square of the right answer: a root is missing."),
     "reversed": marked("The numbers are right, but in the opposite order."),
     "transposed": marked("This is the transposed matrix: rows and columns are exchanged."),
+    "calculator_mode": marked("The angles are in degrees, but sine and cosine were taken as of radians."),
 }

@@ -1,0 +1,94 @@
+"""The arms of exercises: chains by their DH tables in the standard convention, and what wrong models make of them."""
+
+import math
+from collections.abc import Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+from gelenk.course.velocity.geometry import ChainGeometry, chain_geometry
+from gelenk.kinematics.velocity.velocity import jacobian_derivatives
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain, FlatChain
+from gelenk.robot.dh import DhJoint
+
+Row: TypeAlias = tuple[bool, float, float, float, float]
+"""Whether the joint slides, then a, α, d and ϑ without the variable."""
+
+
+def chain_of(rows: Sequence[Row]) -> Chain:
+    """Return the chain of a DH table, from frame 0 to frame n."""
+    names = tuple(f"q{i}" for i in range(1, len(rows) + 1))
+    joints = [
+        DhJoint(name, "prismatic" if slides else "revolute", a, alpha, d, theta)
+        for name, (slides, a, alpha, d, theta) in zip(names, rows, strict=True)
+    ]
+    Ts = [np.eye(4), *(joint.transform(0.0, "standard") for joint in joints)]  # A_i(q) = motion(q) A_i(0)
+    flat = FlatChain(
+        np.array([np.append(T[:3, :3], T[:3, 3]) for T in Ts]),
+        np.array([(row[0], i) for i, row in enumerate(rows)], dtype=np.int64),
+        np.array([(1.0, 0.0)] * len(rows)),
+    )
+    unbounded = np.full(len(rows), np.inf)
+    return Chain("0", str(len(rows)), names, frozenset(names), -unbounded, unbounded, flat)
+
+
+def planar(*lengths: float) -> Chain:
+    """Return a planar arm of revolute joints."""
+    return chain_of([(False, length, 0.0, 0.0, 0.0) for length in lengths])
+
+
+def polar() -> Chain:
+    """Return a planar arm whose first joint turns and whose second one slides along the link."""
+    return chain_of([(False, 0.0, math.pi / 2.0, 0.0, math.pi / 2.0), (True, 0.0, 0.0, 0.0, 0.0)])
+
+
+def anthropomorphic(upper: float, fore: float) -> Chain:
+    """Return an anthropomorphic arm: a vertical axis, then two horizontal ones."""
+    links = [(False, length, 0.0, 0.0, 0.0) for length in (upper, fore)]
+    return chain_of([(False, 0.0, math.pi / 2.0, 0.0, 0.0), *links])
+
+
+def scara(first: float, second: float, height: float, tool: float) -> Chain:
+    """Return a SCARA of four joints whose tool points down."""
+    return chain_of(
+        [
+            (False, first, 0.0, height, 0.0),
+            (False, second, math.pi, 0.0, 0.0),
+            (True, 0.0, 0.0, 0.0, 0.0),
+            (False, 0.0, 0.0, tool, 0.0),
+        ]
+    )
+
+
+def radians(*degrees: float) -> Array:
+    """Return angles in radians."""
+    return np.radians(degrees)
+
+
+def at(chain: Chain, q: Array) -> ChainGeometry:
+    """Return a chain's axes and lever arms at a configuration, [rad or m]."""
+    return chain_geometry(chain.flat, q)
+
+
+def in_plane(chain: Chain, q: Array) -> Array:
+    """Return the rows v_x and v_y of J; shape (2, n)."""
+    return at(chain, q).jacobian()[:2]
+
+
+def rates_in_plane(chain: Chain, q: Array, *rates: Array) -> tuple[Array, ...]:
+    """Return J, J̇, J̈, … in the plane, one more than there are rates q̇, q̈, …; shape (2, n) each."""
+    series = jacobian_derivatives(chain, q[None], np.array(rates).reshape(len(rates), 1, len(q)))
+    return tuple(np.asarray(each[0, :2]) for each in series)
+
+
+def lever_from_base(geometry: ChainGeometry) -> Array:
+    """Return J as it is if every lever arm begins at the base; shape (6, n)."""
+    columns = [joint.column(geometry.position + joint.origin) for joint in geometry.joints]
+    return np.array(columns).T
+
+
+def angles_not_summed(lengths: Sequence[float], q: Array) -> Array:
+    """Return J in the plane as it is if each link's angle is counted from the base's x axis; shape (2, n)."""
+    columns = [-np.multiply(lengths, np.sin(q)), np.multiply(lengths, np.cos(q))]
+    return np.array([np.cumsum(column[::-1])[::-1] for column in columns])

@@ -1,0 +1,36 @@
+"""Mistakes about Jacobians and their inverses."""
+
+from gelenk.language import marked
+
+MISTAKES = {
+    "angle_not_summed": marked("The direction of a link is the sum of all angles before it, not its own angle alone."),
+    "own_link_only": marked("A joint moves all links after it, not its own alone: the lever arm leads to the tip."),
+    "minus_of_cosine": marked("The derivative of the cosine is minus the sine."),
+    "transpose_for_jacobian": marked("Velocities need J itself; its transpose is for forces."),
+    "transpose_for_inverse": marked("This is the transpose; velocities of the joints need the inverse."),
+    "direct_for_inverse": marked("This is J times the velocity of the tip; the joints follow from the inverse of J."),
+    "determinant_forgotten": marked("The inverse of a 2×2 matrix is divided by the determinant."),
+    "cofactor_signs": marked("In the inverse of a 2×2 matrix the elements beside the diagonal change their sign."),
+    "damping_squared": marked("λ is the factor itself here, and is not squared."),
+    "root_of_damping": marked("λ is the factor itself here; no root is taken of it."),
+    "undamped": marked("This is the exact solution, without damping."),
+    "angular_first": marked("The linear rows come first, then the angular ones."),
+    "slide_as_turn": marked("A prismatic joint does not turn the tip: its column is (z; 0)."),
+    "next_axis": marked("Joint i turns about z of frame i-1, not of frame i."),
+    "lever_from_base": marked("The lever arm of a joint begins at the joint, not at the base."),
+    "axis_not_turned": marked("α₂ = 180° turns the following axes: they point down."),
+    "elbow_factor_only": marked("The factor a₂c₂ + a₃c₂₃, the distance from the first axis, is missing."),
+    "cosine_of_elbow": marked("The elbow is singular where the sine of ϑ₃ vanishes, not the cosine."),
+    "minus_forgotten": marked("a₂c₂ + a₃c₂₃ = 0 leads to c₂₃ = -a₂c₂/a₃: there is a minus sign."),
+    "sum_the_wrong_way": marked("ϑ₃ is the angle of the last link minus ϑ₂, not plus."),
+    "moving_direction": marked("In this direction the tip can move; it is lost across the plane of the arm."),
+    "axis_for_direction": marked("Along the first axis the tip can move; it is lost across the plane of the arm."),
+    "joint_locked": marked("With the last joint at rest the tip moves as wanted, but the norm is not the least."),
+    "projector_forgotten": marked("ξ itself moves the tip; only its part in the kernel of J is added."),
+    "wrong_projector": marked("J# J keeps what moves the tip; the kernel needs I - J# J."),
+    "row_for_kernel": marked("A row of J is orthogonal to the kernel, not in it."),
+    "two_forgotten": marked("The term J̇q̈ of the jerk has the factor 2."),
+    "change_forgotten": marked("The Jacobian changes as the joints move: the terms with J̇ are missing."),
+    "second_change_forgotten": marked("The term J̈q̇ of the jerk is missing."),
+    "rates_not_summed": marked("The second link turns at the sum of both joint velocities."),
+}
