@@ -81,7 +81,8 @@ def by_api(url: str) -> Way:
     def ask(question: Question) -> Any:
         path = question.path.format(**{name: quote(value) for name, value in question.names.items()})
         query = "?" + urlencode(question.query) if question.query else ""
-        request = urllib.request.Request(url + path + query, method=question.method)
+        wanted = {"Accept": "application/json"}
+        request = urllib.request.Request(url + path + query, method=question.method, headers=wanted)
         if question.body:
             request.add_header("Content-Type", "application/json")
             request.data = json.dumps(question.body).encode()

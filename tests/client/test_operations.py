@@ -21,8 +21,8 @@ from tests.corpus import zips
 from tests.robots import robot, samples
 from tests.test_serve import get
 
-IN_OTHER_WORDS = {"watch_job", "get_job_result", "get_dh_picture"}
-"""What `watch` does, a method for each kind of job, and what `picture` gets."""
+IN_OTHER_WORDS = {"watch_job", "get_job_result"}
+"""What `watch` does, and a method for each kind of job."""
 OF_ITS_OWN = {"add_archive", "replace_archive", "workspace_result", "ik_result", "trajectory_result", "picture"}
 """Methods that share an operation with another one."""
 NAMES = {
@@ -37,6 +37,7 @@ NAMES = {
     "list_exercises": "exercises",
     "list_pictures": "course_pictures",
     "get_picture": "course_picture",
+    "get_dh_picture": "dh_parameters",
     "count_mobility": "mobility",
     "convert_orientation": "orientation",
     "cubic_spline": "spline",

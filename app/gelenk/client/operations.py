@@ -141,6 +141,7 @@ class Operations:
     cancel_job = Sent(stored.cancel)
     picture = Sent(stored.picture)
     course_pictures = Sent(stored.course_pictures)
+    dh_parameters = Sent(stored.dh_parameters)
     course_picture = Sent(stored.course_picture)
 
     exercises = Sent(stored.exercises)

@@ -140,6 +140,12 @@ def picture(path: str, kind: Literal["svg", "png"], fields: Mapping[str, Any] | 
     return Call(method, path, _content, body=body, accept=_PICTURES[kind])
 
 
+def dh_parameters(convention: Literal["standard", "modified"] = "standard", language: Language = "en") -> Call[bytes]:
+    """The DH parameters on the two links of the lecture as SVG; as PNG `picture` returns it."""
+    query = query_of({"convention": convention, "language": language})
+    return Call("GET", "v1/dh/picture", _content, query, accept=_PICTURES["svg"])
+
+
 def course_pictures(language: Language = "en") -> Call[CoursePictures]:
     """The course's pictures that need no request, with their titles."""
     return Call("GET", "v1/course/pictures", reader(CoursePictures), query_of({"language": language}))
