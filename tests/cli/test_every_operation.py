@@ -268,7 +268,7 @@ def fields_of(part: dict[str, Any]) -> set[str]:
 def test_the_client_takes_what_the_schema_does_and_nothing_else() -> None:
     """Also what no example holds."""
     for question in QUESTIONS:
-        if question.id != "watch_job":
+        if question.id not in {"watch_job", "get_dh_picture"}:  # `watch` and `picture`
             operation = SCHEMA["paths"][question.path][question.method.lower()]
             content = operation.get("requestBody", {}).get("content", {}).get("application/json", {})
             parameters = operation.get("parameters", [])

@@ -57,7 +57,7 @@ class SigmaInfo(Answer):
 class LineSamples(Answer):
     """The motion at the requested times; accelerations that jump are those after the jump."""
 
-    times: list[float] = Field(description="[s].")
+    times: list[float] = Field(description="From the start on, [s].")
     sigma: list[float] = Field(description="σ, [m].")
     sigma_velocity: list[float] = Field(description="σ̇, [m/s].")
     sigma_acceleration: list[float] = Field(description="σ̈, [m/s²].")

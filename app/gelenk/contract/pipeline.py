@@ -42,7 +42,7 @@ class PathKnot(Answer):
 class PathSample(Answer):
     """A point of the line and its configuration."""
 
-    time: float = Field(description="[s].")
+    time: float = Field(description="When the tip is to be there, [s].")
     s: float = Field(description="Place on the line, 0 to 1; no unit.")
     position: list[float] = Field(description="p(s), [m].")
     joint_positions: list[float] | None = Field(description="On the branch of the start, [rad]; null out of reach.")
@@ -61,10 +61,10 @@ class JointSplineInfo(Answer):
 class PipelineCurve(Answer):
     """The joint trajectory and where it takes the tip."""
 
-    times: list[float] = Field(description="[s].")
-    joint_positions: list[list[float]] = Field(description="[rad].")
-    joint_velocities: list[list[float]] = Field(description="[rad/s].")
-    joint_accelerations: list[list[float]] = Field(description="[rad/s²].")
+    times: list[float] = Field(description="Evenly spaced, [s].")
+    joint_positions: list[list[float]] = Field(description="Values of the spline, [rad].")
+    joint_velocities: list[list[float]] = Field(description="Its first derivatives, [rad/s].")
+    joint_accelerations: list[list[float]] = Field(description="Its second derivatives, [rad/s²].")
     positions: list[list[float]] = Field(description="Of the tip, [m].")
     deviations: list[float] = Field(description="Of the tip from the line, to its left positive, [m].")
 
