@@ -85,7 +85,7 @@ def test_a_client_carries_numbers_and_computes_none() -> None:
     assert not loaded("gelenk.cli.main", "gelenk.client") & computing
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "tests" / "oracles").glob("*.py")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sorted((ROOT / "tests" / "oracles").rglob("*.py")), ids=lambda path: path.stem)
 def test_oracles_share_no_code_with_what_they_judge(path: Path) -> None:
     assert not re.search(r"^\s*(from|import) (gelenk|tests\.(?!oracles))", path.read_text(), re.MULTILINE)
 

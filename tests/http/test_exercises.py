@@ -62,10 +62,18 @@ def test_answers_of_the_wrong_form_are_explained(client: TestClient) -> None:
     assert {one["mistake"]["code"] for one in grade["fields"]} == {"missing"}
 
 
-@pytest.mark.parametrize("value", [None, True, 1e308, 10**400, "nan", {}, {"a": []}, [[[]]], "x" * 3000])
+@pytest.mark.parametrize("value", [None, True, 1e308, "nan", "1e999", {}, {"a": []}, [[[]]], "x" * 3000])
 def test_no_answer_is_an_error(client: TestClient, value: Any) -> None:
     grade = asked(client, f"{LINKAGE}/grade", seed=3, answers=dict.fromkeys(RIGHT, value))
     assert not any(one["correct"] for one in grade["fields"])
+
+
+@pytest.mark.parametrize("value", ["NaN", "-Infinity", "1e400", "9" * 400, "[1, [NaN]]", '{"joints": [{"a": NaN}]}'])
+def test_numbers_are_finite(client: TestClient, value: str) -> None:
+    body = f'{{"seed": 3, "answers": {{"mobility": {value}}}}}'
+    answer = client.post(f"{LINKAGE}/grade", content=body, headers={"Content-Type": "application/json"})
+    assert answer.status_code == 422
+    assert "answers/mobility" in answer.text
 
 
 def test_a_decimal_comma_is_read(client: TestClient) -> None:

@@ -1,12 +1,14 @@
 """Exercises of the course: their list, variants, solutions and grades."""
 
+import sys
 from typing import Annotated, Any
 
-from pydantic import Field, JsonValue
+from pydantic import Field, JsonValue, model_validator
 
 from gelenk.contract.common import Answer
 from gelenk.contract.options import InLanguage
 from gelenk.course.steps import Step
+from gelenk.errors import InvalidField
 
 MAX_SEED = 2**53 - 1
 MAX_ANSWERS = 64
@@ -87,6 +89,21 @@ class ExerciseGradeRequest(ExerciseRequest):
         description="By field; a field that is left out earns nothing. Numbers may be strings too, with a decimal "
         "point or comma."
     )
+
+    @model_validator(mode="after")
+    def _finite(self) -> "ExerciseGradeRequest":
+        """Refuse what is not a number by its name; a text that is none only earns nothing."""
+        for name, answer in self.answers.items():
+            if not _is_finite(answer):
+                raise InvalidField(f"answers/{name}", "its numbers must be finite")
+        return self
+
+
+def _is_finite(value: JsonValue) -> bool:
+    if isinstance(value, int | float):
+        return abs(value) <= sys.float_info.max
+    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return all(map(_is_finite, inner))
 
 
 class MistakeInfo(Answer):
