@@ -80,7 +80,7 @@ def by_api(url: str) -> Way:
 
     def ask(question: Question) -> Any:
         path = question.path.format(**{name: quote(value) for name, value in question.names.items()})
-        query = "?" + urlencode(question.query) if question.query else ""
+        query = "?" + urlencode(question.query, doseq=True) if question.query else ""
         wanted = {"Accept": "application/json"}
         request = urllib.request.Request(url + path + query, method=question.method, headers=wanted)
         if question.body:
