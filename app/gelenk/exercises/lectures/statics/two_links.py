@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
 
 from gelenk.course.steps import Step, step
 from gelenk.course.velocity.geometry import ChainGeometry
@@ -155,12 +156,14 @@ PAYLOAD = Exercise(
 )
 
 
-def _force_answers(force: Array) -> Answers:
+def _force_answers(inverse: ArrayLike, torques: Array) -> Answers:
+    """Return the force that a matrix makes of torques, and its size."""
+    force = np.asarray(inverse, np.float64) @ torques
     return {"force": force, "size": float(np.linalg.norm(force))}
 
 
 def _force_steps(task: TwoLinkForce) -> list[Step]:
-    force = np.linalg.solve(_jacobian(task).T, task.load)
+    force = _force_answers(np.linalg.inv(_jacobian(task).T), task.load)["force"]
     size = step(
         _("The size of the force"),
         _("The root of the sum of the squares."),
@@ -184,14 +187,14 @@ FORCE = Exercise(
         vector("force", _("Force of the tip"), 2, "N", 2.0),
         quantity("size", _("Size of the force"), "N"),
     ),
-    solve=lambda one: _force_answers(np.linalg.solve(_jacobian(one).T, one.load)),
+    solve=lambda one: _force_answers(np.linalg.inv(_jacobian(one).T), one.load),
     steps=_force_steps,
     wrong={
-        "inverse_without_transpose": lambda one: _force_answers(np.linalg.solve(_jacobian(one), one.load)),
-        "transpose_for_its_inverse": lambda one: _force_answers(_jacobian(one).T @ one.load),
-        "angle_not_summed": lambda one: _force_answers(np.linalg.solve(_not_summed(one).T, one.load)),
+        "inverse_without_transpose": lambda one: _force_answers(np.linalg.inv(_jacobian(one)), one.load),
+        "transpose_for_its_inverse": lambda one: _force_answers(_jacobian(one).T, one.load),
+        "angle_not_summed": lambda one: _force_answers(np.linalg.inv(_not_summed(one).T), one.load),
         "sum_for_norm": lambda one: {"size": float(np.abs(np.linalg.solve(_jacobian(one).T, one.load)).sum())},
-        "calculator_mode": lambda one: _force_answers(np.linalg.solve(_jacobian(one, calculator=True).T, one.load)),
+        "calculator_mode": lambda one: _force_answers(np.linalg.inv(_jacobian(one, calculator=True).T), one.load),
     },
     picture=_picture,
 )
