@@ -67,14 +67,12 @@ class DhTableField(AnswerField):
 
     def _poses(self, rows: Any) -> Array:
         rows, slides = np.asarray(rows, float), np.array(self.slides)
-        found = []
-        for k in range(2 * len(slides) + 1):
-            moved = rows.copy()
-            positions = np.sin(1.7 * k + 2.3 * np.arange(len(slides)) + 1.0)
-            moved[slides, 2] += positions[slides]
-            moved[~slides, 3] += 3.0 * positions[~slides]
-            found.append(_product(moved))
-        return np.array(found)
+        count = len(slides)
+        positions = np.sin(1.7 * np.arange(2 * count + 1)[:, None] + 2.3 * np.arange(count) + 1.0)
+        moved = np.repeat(rows[None], len(positions), axis=0)
+        moved[:, slides, 2] += positions[:, slides]
+        moved[:, ~slides, 3] += 3.0 * positions[:, ~slides]
+        return _products(moved)
 
     def slips(self, right: Any) -> Iterator[tuple[str, Any]]:
         """Yield the table with the usual mistakes."""
@@ -89,8 +87,14 @@ class DhTableField(AnswerField):
         yield "reversed", rows[::-1]
 
 
-def _product(rows: Array) -> Array:
-    T = np.eye(4)
-    for row in rows:
-        T = T @ DhJoint("", "revolute", *row).transform(0.0, "standard")
+def _products(rows: Array) -> Array:
+    """Return the products of standard transforms; rows of shape (K, n, 4), products of shape (K, 4, 4)."""
+    a, alpha, d, theta = np.moveaxis(rows, -1, 0)
+    c, s, ca, sa = np.cos(theta), np.sin(theta), np.cos(alpha), np.sin(alpha)
+    zero, one = np.zeros_like(a), np.ones_like(a)
+    entries = [[c, -s * ca, s * sa, a * c], [s, c * ca, -c * sa, a * s], [zero, sa, ca, d], [zero, zero, zero, one]]
+    As = np.moveaxis(np.array(entries), (0, 1), (-2, -1))
+    T = As[:, 0]
+    for i in range(1, As.shape[1]):
+        T = T @ As[:, i]
     return T
