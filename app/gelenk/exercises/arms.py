@@ -5,9 +5,11 @@ from collections.abc import Sequence
 from typing import TypeAlias
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from gelenk.course.velocity.geometry import ChainGeometry, chain_geometry
 from gelenk.kinematics.velocity.velocity import jacobian_derivatives
+from gelenk.plots.course.planar_arm import PlanarJoint, planar_arm_figure
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain, FlatChain
 from gelenk.robot.dh import DhJoint
@@ -92,3 +94,10 @@ def angles_not_summed(lengths: Sequence[float], q: Array) -> Array:
     """Return J in the plane as it is if each link's angle is counted from the base's x axis; shape (2, n)."""
     columns = [-np.multiply(lengths, np.sin(q)), np.multiply(lengths, np.cos(q))]
     return np.array([np.cumsum(column[::-1])[::-1] for column in columns])
+
+
+def planar_picture(lengths: Sequence[float], degrees: Sequence[float]) -> Figure:
+    """Draw a planar arm with its lengths and angles."""
+    angles = radians(*degrees).tolist()
+    joints = [PlanarJoint("R", angle, length) for angle, length in zip(angles, lengths, strict=True)]
+    return planar_arm_figure(joints, values=True)

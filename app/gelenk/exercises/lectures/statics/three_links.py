@@ -3,19 +3,17 @@
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from gelenk.course.steps import Step, step
 from gelenk.course.velocity.geometry import ChainGeometry
 from gelenk.course.velocity.statics_steps import StaticsQuestion, statics_steps
 from gelenk.course.velocity.writing import number, row
-from gelenk.exercises.arms import angles_not_summed, at, planar, radians
+from gelenk.exercises.arms import angles_not_summed, at, planar, planar_picture, radians
 from gelenk.exercises.draw import Draw
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import matrix, quantity, vector, whole
 from gelenk.language import marked
 from gelenk.language import translated as _
-from gelenk.plots.course.planar_arm import PlanarJoint, planar_arm_figure
 from gelenk.robot.arrays import Array
 
 _ROWS = np.array([0, 1, 5])
@@ -129,13 +127,6 @@ def _load_steps(task: ThreeLinkLoad) -> list[Step]:
     return [*statics_steps(question), power, factor]
 
 
-def _load_picture(task: ThreeLinkLoad) -> Figure:
-    angles = radians(task.q1, task.q2, task.q3).tolist()
-    lengths = (task.l1, task.l2, task.l3)
-    joints = [PlanarJoint("R", angle, length) for angle, length in zip(angles, lengths, strict=True)]
-    return planar_arm_figure(joints, values=True)
-
-
 LOAD = Exercise(
     id="statics.load",
     title=marked("Exam: three links under a load"),
@@ -171,7 +162,7 @@ LOAD = Exercise(
         "smallest_torque": _smallest,
         "calculator_mode": lambda one: _load_answers(one, one.geometry(calculator=True).jacobian()[_ROWS]),
     },
-    picture=_load_picture,
+    picture=lambda one: planar_picture((one.l1, one.l2, one.l3), (one.q1, one.q2, one.q3)),
 )
 
 EXERCISES = (LOAD,)

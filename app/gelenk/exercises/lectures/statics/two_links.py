@@ -3,20 +3,18 @@
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from gelenk.course.steps import Step, step
 from gelenk.course.velocity.geometry import ChainGeometry
 from gelenk.course.velocity.statics_steps import StaticsQuestion, statics_steps
 from gelenk.course.velocity.writing import number, row
-from gelenk.exercises.arms import angles_not_summed, at, planar, radians
+from gelenk.exercises.arms import angles_not_summed, at, planar, planar_picture, radians
 from gelenk.exercises.draw import Draw
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import quantity, vector
 from gelenk.language import marked
 from gelenk.language import translated as _
-from gelenk.plots.course.planar_arm import PlanarJoint, planar_arm_figure
 from gelenk.robot.arrays import Array
 
 _GRAVITY = 9.81
@@ -83,11 +81,6 @@ def worked(geometry: ChainGeometry, force: Array, *, wants_wrench: bool = False)
     )
 
 
-def _picture(task: TwoLinkForce | TwoLinkPayload) -> Figure:
-    q1, q2 = radians(task.q1, task.q2).tolist()
-    return planar_arm_figure([PlanarJoint("R", q1, task.l1), PlanarJoint("R", q2, task.l2)], values=True)
-
-
 def _draw_posture(draw: Draw) -> tuple[float, float, float, float]:
     return (
         draw.decimal(0.3, 1.0, 0.1),
@@ -119,7 +112,7 @@ TORQUES = Exercise(
         "own_link_only": lambda one: {"torques": _own_link(_jacobian(one)).T @ one.load},
         "calculator_mode": lambda one: {"torques": _jacobian(one, calculator=True).T @ one.load},
     },
-    picture=_picture,
+    picture=lambda one: planar_picture((one.l1, one.l2), (one.q1, one.q2)),
 )
 
 
@@ -152,7 +145,7 @@ PAYLOAD = Exercise(
         "angle_not_summed": lambda one: _payload_answers(one, _not_summed(one)),
         "calculator_mode": lambda one: _payload_answers(one, _jacobian(one, calculator=True)),
     },
-    picture=_picture,
+    picture=lambda one: planar_picture((one.l1, one.l2), (one.q1, one.q2)),
 )
 
 
@@ -196,7 +189,7 @@ FORCE = Exercise(
         "sum_for_norm": lambda one: {"size": float(np.abs(np.linalg.solve(_jacobian(one).T, one.load)).sum())},
         "calculator_mode": lambda one: _force_answers(np.linalg.inv(_jacobian(one, calculator=True).T), one.load),
     },
-    picture=_picture,
+    picture=lambda one: planar_picture((one.l1, one.l2), (one.q1, one.q2)),
 )
 
 EXERCISES = (TORQUES, PAYLOAD, FORCE)

@@ -7,7 +7,7 @@ import numpy as np
 from gelenk.course.steps import Step, step
 from gelenk.course.velocity.tip_motion_steps import tip_motion_steps
 from gelenk.course.velocity.writing import number, row
-from gelenk.exercises.arms import angles_not_summed, planar, radians, rates_in_plane
+from gelenk.exercises.arms import angles_not_summed, planar, planar_picture, radians, rates_in_plane
 from gelenk.exercises.draw import Draw
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import matrix, quantity, vector
@@ -149,6 +149,7 @@ MOTION = Exercise(
         "transpose_for_inverse": lambda one: {"uniform": -one.jacobians()[0].T @ one.jacobians()[1] @ one.rates[0]},
         "calculator_mode": lambda one: _motion_answers(one, one.jacobians(calculator=True)),
     },
+    picture=lambda one: planar_picture(one.lengths, (one.q1, one.q2)),
 )
 
 EXERCISES = (MOTION,)

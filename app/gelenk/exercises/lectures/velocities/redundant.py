@@ -8,7 +8,7 @@ from gelenk.course.steps import Step
 from gelenk.course.velocity.inverse_steps import inverse_steps
 from gelenk.course.velocity.inverses import LectureInverse
 from gelenk.course.velocity.null_space_steps import NullSpaceWish, wish_steps
-from gelenk.exercises.arms import in_plane, planar, radians
+from gelenk.exercises.arms import in_plane, planar, planar_picture, radians
 from gelenk.exercises.draw import Draw
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import basis, vector
@@ -125,6 +125,7 @@ REDUNDANT = Exercise(
         "row_for_kernel": lambda one: {"kernel": one.jacobian()[:1].T},
         "calculator_mode": lambda one: _redundant_answers(one, one.jacobian(calculator=True)),
     },
+    picture=lambda one: planar_picture(one.lengths, (one.q1, one.q2, one.q3)),
 )
 
 EXERCISES = (REDUNDANT,)

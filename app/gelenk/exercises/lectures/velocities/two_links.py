@@ -13,7 +13,7 @@ from gelenk.course.velocity.jacobian_steps import JacobianQuestion, jacobian_ste
 from gelenk.course.velocity.tip_motion_steps import tip_motion_steps
 from gelenk.course.velocity.writing import matrix as written
 from gelenk.course.velocity.writing import number
-from gelenk.exercises.arms import angles_not_summed, at, in_plane, planar, radians
+from gelenk.exercises.arms import angles_not_summed, at, in_plane, planar, planar_picture, radians
 from gelenk.exercises.draw import Draw
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import matrix, quantity, vector
@@ -141,6 +141,7 @@ JACOBIAN = Exercise(
         "minus_of_cosine": lambda one: _jacobian_answers(one, np.diag([-1.0, 1.0]) @ jacobian_of(one)),
         "transpose_for_jacobian": lambda one: {"velocity": jacobian_of(one).T @ one.rates},
     },
+    picture=lambda one: planar_picture((one.l1, one.l2), (one.q1, one.q2)),
 )
 
 
@@ -197,6 +198,7 @@ INVERSE = Exercise(
         "determinant_forgotten": lambda one: _rates_by("determinant_forgotten", one),
         "cofactor_signs": lambda one: _rates_by("cofactor_signs", one),
     },
+    picture=lambda one: planar_picture((one.l1, one.l2), (one.q1, one.q2)),
 )
 
 
@@ -245,6 +247,7 @@ DAMPED = Exercise(
         "angle_not_summed": lambda one: _damped_answers(one, not_summed(one), one.damping),
         "transpose_for_inverse": lambda one: {"rates": jacobian_of(one).T @ one.velocity},
     },
+    picture=lambda one: planar_picture((one.l1, one.l2), (one.q1, one.q2)),
 )
 
 EXERCISES = (JACOBIAN, INVERSE, DAMPED)
