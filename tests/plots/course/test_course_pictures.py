@@ -230,3 +230,9 @@ def test_texts_follow_the_language() -> None:
             found.append(words(motor_figure(MOTOR, 24.0, 0.1)))
     assert "no load" in found[0]
     assert "Leerlauf" in found[1]
+
+
+def test_a_hanging_arm_leaves_room_for_the_axes_of_its_base() -> None:
+    figure = planar_arm_figure([PlanarJoint("R", -0.96, 0.6), PlanarJoint("R", -2.1, 0.6)])
+    low, high = figure.axes[0].get_ylim()
+    assert high > 0.85 * (high - low) / figure.get_figheight()  # where the arrow of y ends, above the base at 0

@@ -15,6 +15,8 @@ from gelenk.robot.arrays import Array
 Kind: TypeAlias = Literal["R", "P"]
 
 _ALMOST = 1e-9
+_AXES = 0.15
+"""Room for the base's axes, as a share of the arm's extent."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +48,8 @@ def arm_points(joints: Sequence[PlanarJoint]) -> tuple[Array, Array]:
 def planar_arm_figure(joints: Sequence[PlanarJoint], *, values: bool = False, tip: str = "$P$") -> Figure:
     """Draw an arm with the names of its lengths and variables, or also their values."""
     points, angles = arm_points(joints)
-    sketch = _sketch_of(points)
+    axes = points[0] + _AXES * max(float(np.ptp(points, axis=0).max()), _ALMOST) * np.eye(2)
+    sketch = _sketch_of(np.concatenate((points, axes)))
     _base_axes(sketch, points[0])
     radius = 0.42 * sketch.unit
     before = 0.0
