@@ -44,13 +44,13 @@ class GivenMotion:
 
 def orientation_steps(given: Sequence[GivenMotion], path: Composition, found: Notations) -> list[Step]:
     """Return the steps for motions, their composition and the notations of the last frame."""
-    steps = [_of_given(one, index, len(given)) for index, one in enumerate(given, start=1)]
+    steps = [given_step(one, index, len(given)) for index, one in enumerate(given, start=1)]
     steps += [_validated(one.validation, one.transform) for one in given if one.validation is not None]
     if len(given) > 1:
-        steps.append(_composed(given, path))
-    steps += [_zyz(found), _rpy(found), _axis_angle(found), _quaternion(found), _inverse(path)]
+        steps.append(composition_step(given, path))
+    steps += [zyz_step(found), rpy_step(found), axis_angle_step(found), _quaternion(found), inverse_step(path)]
     if len(path.points):
-        steps.append(_moved(path, given))
+        steps.append(points_step(path, given))
     return steps
 
 
@@ -58,7 +58,8 @@ def _symbol(index: int, count: int) -> str:
     return "R" if count == 1 else f"R_{{{index}}}"
 
 
-def _of_given(one: GivenMotion, index: int, count: int) -> Step:
+def given_step(one: GivenMotion, index: int, count: int) -> Step:
+    """Return the step from what is given of a motion, the `index`-th of `count` from 1, to its matrix."""
     name = _symbol(index, count)
     R, values = one.transform[:3, :3], one.numbers.tolist()
     if one.notation in _NAMES:
@@ -112,8 +113,8 @@ def _validated(found: Validation, T: Array) -> Step:
     return step(_("Is it a rotation?"), text, *lines)
 
 
-def _composed(given: Sequence[GivenMotion], path: Composition) -> Step:
-    """Multiply in order; in symbols where all rotations are elementary, and few."""
+def composition_step(given: Sequence[GivenMotion], path: Composition) -> Step:
+    """Return the step that multiplies in order; in symbols where all rotations are elementary, and few."""
     order = [1]
     for index, one in enumerate(given[1:], start=2):
         order = [*order, index] if one.about == "moving" else [index, *order]
@@ -135,7 +136,8 @@ def _composed(given: Sequence[GivenMotion], path: Composition) -> Step:
     return step(_("Composition of frames"), text, *lines)
 
 
-def _zyz(found: Notations) -> Step:
+def zyz_step(found: Notations) -> Step:
+    """Return the step that finds the ZYZ angles of R."""
     lines = [
         rf"R_z(\varphi)\, R_y(\vartheta)\, R_z(\psi) = {product(_ZYZ)}",
         r"\vartheta = " + atan2(r"\pm\sqrt{r_{13}^2 + r_{23}^2}", "r_{33}"),
@@ -150,7 +152,8 @@ def _zyz(found: Notations) -> Step:
     return step(_("ZYZ angles"), text, *lines, *_branches(found.zyz, r"(\varphi,\; \vartheta,\; \psi)"))
 
 
-def _rpy(found: Notations) -> Step:
+def rpy_step(found: Notations) -> Step:
+    """Return the step that finds roll, pitch and yaw of R."""
     lines = [
         rf"R_z(\psi)\, R_y(\vartheta)\, R_x(\phi) = {product(_RPY)}",
         r"\vartheta = " + atan2("-r_{31}", r"\pm\sqrt{r_{11}^2 + r_{21}^2}"),
@@ -169,7 +172,8 @@ def _branches(triple: Triple, names: str) -> list[str]:
     return [f"{names} = {vector(angles)}" for angles in triple.solutions]
 
 
-def _axis_angle(found: Notations) -> Step:
+def axis_angle_step(found: Notations) -> Step:
+    """Return the step that finds axis and angle of R."""
     R, turn = found.rotation, found.axis_angle
     v = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
     trace = float(np.trace(R))
@@ -197,14 +201,16 @@ def _quaternion(found: Notations) -> Step:
     return step(_("Quaternion"), text, *lines, f"(w, x, y, z) = {vector((w, x, y, z))}")
 
 
-def _inverse(path: Composition) -> Step:
+def inverse_step(path: Composition) -> Step:
+    """Return the step that inverts the last transform."""
     T = path.inverse
     rule = r"T^{-1} = \begin{bmatrix} R^T & -R^T p \\ 0 & 1 \end{bmatrix}"
     text = _("The inverse of a rotation is its transpose, and the origin goes back: no matrix has to be inverted.")
     return step(_("Inverse"), text, rule, f"R^T = {matrix(T[:3, :3])}", f"-R^T p = {vector(T[:3, 3])}")
 
 
-def _moved(path: Composition, given: Sequence[GivenMotion]) -> Step:
+def points_step(path: Composition, given: Sequence[GivenMotion]) -> Step:
+    """Return the step that expresses points in the frame that stays."""
     n = len(given)
     lines = [rf"p_0 = R^{{0}}_{{{n}}}\, p_{{{n}}} + p^{{0}}_{{{n}}}"]
     lines += [f"p_0 = {vector(point)}" for point in path.points[:_SHOWN_POINTS]]
