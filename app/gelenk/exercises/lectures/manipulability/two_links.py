@@ -17,6 +17,8 @@ from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 
 NO_DIRECTION = np.zeros((0, 2))
+_SINGULAR = 1e6
+"""Condition number from which a wrong model is left out."""
 
 
 class TwoLinkPosture(NamedTuple):
@@ -59,7 +61,9 @@ def unit(degrees: float) -> Array:
 
 
 def ratios(J: Array, u: Array) -> Answers:
-    """Return how far the velocity and the force ellipse reach along u."""
+    """Return how far the velocity and the force ellipse reach along u; raises ZeroDivisionError where J is singular."""
+    if np.linalg.cond(J) > _SINGULAR:
+        raise ZeroDivisionError
     inverse = np.linalg.inv(J @ J.T)
     return {"velocity": float(u @ inverse @ u) ** -0.5, "force": float(u @ J @ J.T @ u) ** -0.5}
 
