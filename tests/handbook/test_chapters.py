@@ -27,6 +27,15 @@ def test_a_chapter_has_idea_formula_call_picture_and_exercises(chapter: Path) ->
 
 
 @pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda chapter: chapter.stem)
+def test_a_chapter_begins_with_an_example_by_hand_whose_numbers_are_compared(chapter: Path) -> None:
+    before_any_code = chapter.read_text(encoding="utf-8").partition("\n```")[0]
+    example = before_any_code.partition("\n## By hand\n")[2].partition("\n## ")[0]
+    assert example.count("$$") >= 2
+    assert len(re.findall(r"^<!-- [^=\n]+ = .*gelenk\.", example, re.MULTILINE)) >= 1
+    assert len(re.findall(r"^<!-- [^=\n]+ = ", example, re.MULTILINE)) >= 4
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda chapter: chapter.stem)
 def test_where_the_notes_err_is_in_the_list_too(chapter: Path) -> None:
     if "Where the notes err" in chapter.read_text(encoding="utf-8"):
         assert f"({chapter.name}" in CORRECTIONS
