@@ -101,6 +101,7 @@ EXAMPLES: dict[type[errors.KinematicsError], tuple[str, str, object]] = {
     errors.RobotExists: ("POST", "/v1/robots", {"name": "panda", "urdf": '<robot name="r"><link name="l"/></robot>'}),
     errors.ReadOnlyRobot: ("DELETE", "/v1/robots/panda", None),
     errors.UnknownJob: ("GET", "/v1/jobs/nobody", None),
+    errors.UnknownExercise: ("POST", "/v1/course/exercises/juggling", {"seed": 1}),
     errors.UnknownPicture: ("GET", "/v1/course/pictures/wrist", None),
 }
 OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {

@@ -74,14 +74,14 @@ Then start the service again.</p>
 
 
 class _PageFiles(StaticFiles):
-    """The files of a bundle, with a policy of their own; a folder's address is that of its first page."""
+    """The files of a bundle, with a policy of their own; with `html` a folder's address is that of its `index.html`."""
 
-    def __init__(self, folder: Path, policy: str) -> None:
-        super().__init__(directory=folder)
+    def __init__(self, folder: Path, policy: str, *, html: bool = False) -> None:
+        super().__init__(directory=folder, html=html)
         self._headers = {"Content-Security-Policy": policy, **_KEPT}
 
     async def get_response(self, path: str, scope: Scope) -> Response:
-        response = await super().get_response("index.html" if path == "." else path, scope)
+        response = await super().get_response(path, scope)
         response.headers.update(self._headers)
         return response
 
@@ -119,7 +119,7 @@ def _install_handbook(app: FastAPI) -> None:
         return RedirectResponse("handbook/")  # all of its links are relative to its folder
 
     if (handbook() / "index.html").is_file():
-        app.mount("/handbook", _PageFiles(handbook(), HANDBOOK_POLICY))
+        app.mount("/handbook", _PageFiles(handbook(), HANDBOOK_POLICY, html=True))
         return
 
     @app.get("/handbook/", include_in_schema=False)

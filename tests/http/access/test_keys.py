@@ -69,7 +69,7 @@ def test_a_zero_digest_is_nobodys_key() -> None:
     [
         ("secret", "entry 1 is not"),
         ("anna:read:00:00", "entry 1 is not"),
-        (f"anna:root:{'0' * 32}:{'0' * 64}", "scope 'root'; there are read, write, admin"),
+        (f"anna:root:{'0' * 32}:{'0' * 64}", "scope 'root'; there are read, write, teach, admin"),
         (f"anna:read:{'0' * 32}:{'0' * 64} anna:write:{'1' * 32}:{'0' * 64}", "entry 2: the name 'anna' appears twice"),
         (f"anna:read:{'0' * 32}:{'0' * 64}x", "entry 1 is not"),
     ],
