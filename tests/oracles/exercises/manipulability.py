@@ -56,6 +56,15 @@ def transmission(task: Any) -> dict[str, Any]:
     return reach(jacobian(task), direction(turned(task.towards)))
 
 
+def stretched(task: Any) -> dict[str, Any]:
+    J = jacobian(task)
+    major, minor, _ = ellipse(J)
+    way = task.l1 * direction(turned(task.q1)) + task.l2 * direction(turned(task.q1 + task.q2))
+    along, across = (np.linalg.norm(J.T @ u) for u in (way, [-way[1], way[0]]))
+    fast, strong = ("along", "across") if along > across else ("across", "along")
+    return {"fast": fast, "strong": strong, "isotropy": minor / major}
+
+
 def isotropic(task: Any) -> dict[str, Any]:
     second = task.l1 * np.sin(np.pi / 4)
     bend = np.degrees(np.arccos(-second / task.l1))
@@ -84,10 +93,12 @@ SOLUTIONS = {
     "manipulability.velocity": velocity,
     "manipulability.force": force,
     "manipulability.transmission": transmission,
+    "manipulability.stretched": stretched,
     "manipulability.isotropic": isotropic,
     "manipulability.three_links": three_links,
 }
 DIGESTS = {
+    "manipulability.stretched:1": "2e13c60eb4b6478d",
     "manipulability.measure:1": "3c1b472be844819a",
     "manipulability.velocity:1": "10fb7e54977348ea",
     "manipulability.force:1": "f355a59c40cfedc9",

@@ -24,4 +24,7 @@ MISTAKES = {
     "acute_for_obtuse": marked("cos ϑ₂ = -l₂/l₁ is negative: the angle is obtuse."),
     "last_joint_forgotten": marked("The last joint moves the tip too: its column is missing."),
     "axes_exchanged": marked("The directions are exchanged: the tip is strong where it is slow."),
+    "condition_for_isotropy": marked("This is the condition number, the reciprocal."),
+    "sine_for_isotropy": marked("The sine of ϑ₂ is in the measure; the isotropy is the ratio of the semi-axes."),
+    "eigenvalues_for_axes": marked("The semi-axes are the roots of the eigenvalues of J Jᵀ."),
 }
