@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
-CHAPTERS = sorted(set((DOCS / "course").glob("*.md")) - {DOCS / "course" / "corrections.md"})
+NO_CHAPTERS = {DOCS / "course" / "corrections.md", DOCS / "course" / "exam.md"}
+CHAPTERS = sorted(set((DOCS / "course").glob("*.md")) - NO_CHAPTERS)
 CORRECTIONS = (DOCS / "course" / "corrections.md").read_text(encoding="utf-8")
 
 
@@ -39,6 +40,16 @@ def test_a_chapter_begins_with_an_example_by_hand_whose_numbers_are_compared(cha
 def test_where_the_notes_err_is_in_the_list_too(chapter: Path) -> None:
     if "Where the notes err" in chapter.read_text(encoding="utf-8"):
         assert f"({chapter.name}" in CORRECTIONS
+
+
+def test_the_exam_adds_up_and_its_solutions_are_compared_with_calls() -> None:
+    text = (DOCS / "course" / "exam.md").read_text(encoding="utf-8")
+    heads, parts = re.findall(r"^## .*\((\d+) points\)$", text, re.MULTILINE), text.split("\n## ")[1:]
+    assert f"minutes, {sum(map(int, heads))} points" in text
+    assert len(parts) == len(heads)
+    for part in parts:
+        assert part.count("<summary>Solution</summary>") == part.count("<!-- run") == 1
+        assert re.search(r"^<!-- [^=\n]+ = ", part, re.MULTILINE)
 
 
 def test_every_notebook_is_named_in_a_chapter() -> None:
