@@ -95,7 +95,7 @@ class OrientationPayload(Payload):
             return name, [*unit_axis(self.axis_angle.axis, "axis_angle/axis").tolist(), self.axis_angle.angle], ""
         if self.elementary is not None:
             return name, [self.elementary.angle], self.elementary.axis
-        return name, [] if self.rotation is not None else list(getattr(self, name)), ""
+        return name, np.ravel(getattr(self, name)).tolist(), ""
 
     def _as_in_a_pose(self, place: str) -> Array:
         name = next(name for name in ORIENTATIONS if getattr(self, name) is not None)

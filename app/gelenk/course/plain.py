@@ -52,7 +52,8 @@ class _Reader:
     """Reads a formula from left to right."""
 
     def __init__(self, latex: str) -> None:
-        self._tokens: Iterator[str] = iter([part.strip() or " " for part in _TOKEN.findall(latex)])
+        closed = re.sub(r"\s+(?=\\r(?:Vert|vert|ceil|floor)\b)", "", latex)
+        self._tokens: Iterator[str] = iter([part.strip() or " " for part in _TOKEN.findall(closed)])
 
     def group(self) -> str:
         """Read to the closing brace, the end of an environment or the end of the formula."""
@@ -134,4 +135,5 @@ def _raised(text: str) -> str:
 
 
 def _lowered(text: str) -> str:
+    text = text if text.count("(") > 1 else re.sub(r"^\((.*)\)$", r"\1", text.strip())
     return f"_{text}" if re.fullmatch(r"[^\s,+\-]+", text) else f"_({text})"

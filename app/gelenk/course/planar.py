@@ -229,7 +229,10 @@ def workspace_steps(arm: PlanarWorkspace) -> tuple[Step, ...]:
     return (
         step(
             _("Primary workspace"),
-            _("Stretched the arm reaches farthest. It reaches the base unless one link is longer than all the others."),
+            _(
+                "Stretched the arm reaches farthest. It reaches the base unless one link is longer than all the others "
+                "together."
+            ),
             lengths,
             rf"r_{{\max}} = \sum l_i = {tex(total, 'm')}",
             rf"r_{{\min}} = \max(0,\ 2\,l_{{\max}} - \sum l_i) = \max(0,\ {excess}) = {tex(arm.primary[0][0], 'm')}",

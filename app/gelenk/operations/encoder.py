@@ -5,7 +5,7 @@ from typing import Any
 from gelenk.contract.encoder import EncoderRequest
 from gelenk.course.actuators import gray
 from gelenk.course.actuators.encoders import COUNTS_A_LINE, TURN, required, required_step, resolution, resolution_steps
-from gelenk.course.actuators.quadrature import decoded, read_samples
+from gelenk.course.actuators.quadrature import decoded, decoding_step, read_samples
 from gelenk.course.steps import Step
 from gelenk.errors import InvalidField, counted
 from gelenk.operations.outcome import Outcome, PictureFormat
@@ -58,6 +58,7 @@ def _content(call: EncoderRequest) -> dict[str, Any]:
     if call.samples is not None:
         samples = read_samples(call.samples, "samples")
         motion = decoded(samples, call.decoding, counts, ratio, call.counter_bits)
+        steps.append(decoding_step(motion, counts))
     return {
         "resolution": None if counts is None else resolution(counts, ratio, period, velocity),
         "required": needed,

@@ -12,7 +12,9 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from gelenk.course.actuators.encoders import TURN, Decoding
+from gelenk.course.steps import Step, step, tex
 from gelenk.errors import InvalidField, counted
+from gelenk.language import translated as _
 from gelenk.robot.arrays import Flags, Indices
 from gelenk.robot.result import Result
 
@@ -149,6 +151,22 @@ def decoded(
         pulses,
         count - pulses[-1].count if pulses else None,
     )
+
+
+def decoding_step(found: Quadrature, counts_per_revolution: int | None = None) -> Step:
+    """Return the worked decoding: which way it counts, the counts, the angle."""
+    text = _(
+        "A leads B in one direction, and B leads A in the other. x4 counts each change of a channel, x2 those of A, "
+        "x1 those of A while B is 0."
+    )
+    if found.illegal_transitions:
+        text += " " + _("Where both channels change at once, a sample was missed: it counts nothing.")
+    shown = ", ".join(map(str, found.counts[:_SHOWN])) + (r",\ \dots" if len(found.counts) > _SHOWN else "")
+    lines = [r"00 \to 10 \to 11 \to 01 \to 00:\ +1", rf"z = ({shown}),\quad z_{{end}} = {found.count}"]
+    if counts_per_revolution is not None:
+        degrees = rf"{tex(360.0 * found.count / counts_per_revolution)}^\circ"
+        lines.append(rf"\varphi_m = z_{{end}} \cdot \frac{{360^\circ}}{{{counts_per_revolution}}} = {degrees}")
+    return step(_("Decoding"), text, *lines)
 
 
 def _pulses(index: Flags, counts: Sequence[int], counts_per_revolution: int | None) -> list[IndexPulse]:

@@ -123,4 +123,4 @@ def _last_step(turns: list[int], solutions: list[HandSolution], constant: float)
             lines.append(rf"{one} + {three} = {number(solution.pair[3])}")
         else:
             lines.append(rf"{three} = {number(float(value))}")
-    return step(_("Third joint"), _("The angles add up to that of the last link."), *lines)
+    return step(_("Last angle"), _("The angles add up to that of the last link."), *lines)

@@ -92,6 +92,8 @@ def _parabola(blend: Blend) -> Step:
     text = _("A parabola in the plane of A, B and C whose tangents at the ends meet in B.")
     if corner.turn != "corner":
         text = _("All three points lie on one line, and so does the blend.")
+        if corner.turn == "reversal" and corner.speed_before > 0.0 < corner.speed_after:
+            text += " " + _("BC leads back along AB: the motion stops for a moment before B, and returns.")
     velocity, half = corner.speed_before * corner.direction_before, 0.5 * blend.acceleration
     return step(
         _("The blend"),

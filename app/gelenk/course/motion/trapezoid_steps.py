@@ -35,8 +35,8 @@ def trapezoid_steps(tasks: Sequence[JointMove], found: PointToPoint) -> tuple[St
                 rf"v = \frac{{v_p}}{{k}} = {v},\quad a = \frac{{a}}{{k^2}} = {a}",
             )
             steps.append(of_joint(slowed, j, joints))
-    if joints == 1 and found.factors[0] is not None:
-        steps.append(_three_pieces(found.profiles[0]))
+    if joints == 1 and found.factors[0] is not None and found.motion.duration > 0.0:
+        steps.append(_pieces(found.profiles[0]))
     return tuple(steps)
 
 
@@ -108,10 +108,17 @@ def _given(task: JointMove, profile: Profile, duration: float) -> Step:
     )
 
 
-def _three_pieces(profile: Profile) -> Step:
+def _pieces(profile: Profile) -> Step:
     """Return the step with σ(t) along the path, from rest to rest."""
-    if profile.duration == 0.0 or profile.start_velocity != 0.0 or profile.end_velocity != 0.0:
+    if profile.start_velocity != 0.0 or profile.end_velocity != 0.0:
         return step(_("Velocity"), _("A trapezoid over time."), r"\dot\sigma: v_i \to v_p \to v_p \to v_f")
+    if profile.coast == 0.0:
+        return step(
+            _("The two pieces"),
+            _("Speeding up to v_p, and braking at once."),
+            r"\sigma(t) = \frac{a t^2}{2},\quad 0 \le t \le T_s",
+            r"\sigma(t) = L - \frac{a (t - T)^2}{2},\quad T_s \le t \le T",
+        )
     return step(
         _("The three pieces"),
         _("Speeding up, coasting, braking; each joins the next one with its velocity."),

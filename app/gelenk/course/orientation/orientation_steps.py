@@ -83,7 +83,11 @@ def given_step(one: GivenMotion, index: int, count: int) -> Step:
         lines = [rf"r = {vector(axis)}, \quad \vartheta = {number(angle)}",
                  rf"{name} = I + \sin\vartheta\, [r]_{{\times}} + (1 - \cos\vartheta)\, [r]_{{\times}}^2"]  # fmt: skip
     elif one.notation == "rotation":
-        return step(_("Rotation matrix"), _("The columns are the axes of the turned frame."), f"{name} = {matrix(R)}")
+        return step(
+            _("Rotation matrix"),
+            _("The columns are the axes of the turned frame."),
+            f"{name} = {matrix(one.numbers.reshape(3, 3))}",
+        )
     else:
         text = _("A unit quaternion: w = cos(ϑ/2), and x, y, z are sin(ϑ/2) times the axis.")
         x, y, z, w = values if one.notation == "quaternion_xyzw" else (*values[1:], values[0])
@@ -108,7 +112,7 @@ def _validated(found: Validation, T: Array) -> Step:
     lines = [rf"\lVert R^T R - I \rVert = {error}, \quad \det R = {determinant}"]
     if found.projected:
         text += " " + _("This one is not: the nearest rotation is taken, by the singular value decomposition.")
-        lines.append(r"R = U\, \mathrm{diag}(1,\; 1,\; \det U V^T)\, V^T = " + matrix(T[:3, :3]))
+        lines.append(r"R = U \Sigma\, V^T \to U\, \mathrm{diag}(1,\; 1,\; \det U V^T)\, V^T = " + matrix(T[:3, :3]))
         lines.append(rf"\mathrm{{distance}} = {number(found.distance)}")
     return step(_("Is it a rotation?"), text, *lines)
 

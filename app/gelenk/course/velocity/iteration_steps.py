@@ -12,6 +12,10 @@ from gelenk.robot.arrays import Array
 
 _WORKED = 3
 """Iterations that are worked out; the table has all."""
+_FAR = 1e-4
+"""‖e‖ of an iteration that has not arrived, [m, rad]."""
+_RESTING = 1e-6
+"""Of ‖Jᵀe‖ / ‖e‖, [m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +48,7 @@ def iteration_steps(turns: Sequence[IterationTurn], total: int, *, given_step_si
     methods = [method for method in dict.fromkeys(turn.method for turn in turns) if method is not None]
     rules = [_rule(method, turns[-1], given_step_size=given_step_size) for method in methods]
     worked = [_worked(turn, turn.step) for turn in turns[:_WORKED] if turn.step is not None]
-    return [*rules, *worked, _table(turns, total)]
+    return [*rules, *worked, *_rest(turns[-1]), _table(turns, total)]
 
 
 def _rule(method: str, last: IterationTurn, *, given_step_size: bool) -> Step:
@@ -97,6 +101,20 @@ def _worked(turn: IterationTurn, delta: Array) -> Step:
     lines.append(rf"q_{{{k + 1}}} = q_{{{k}}} + \Delta q_{{{k}}} = {row(turn.q + delta)}")
     text = _("Residual, Jacobian and step at configuration {k}.").format(k=k)
     return step(_("Iteration {k}").format(k=k + 1), text, *lines)
+
+
+def _rest(last: IterationTurn) -> list[Step]:
+    """Return the step for an iteration that ends away from its target, where the error is in ker Jᵀ."""
+    slope = last.J.T @ last.e
+    if last.error <= _FAR or float(np.linalg.norm(slope)) > _RESTING * last.error:
+        return []
+    text = _(
+        "Here the residual is in the kernel of Jᵀ: no motion of the joints makes it smaller, and every method that "
+        "steps along Jᵀ e rests, though e is not 0."
+    )
+    k = last.number
+    errors = rf"e_{{{k}}} = {row(last.e)},\quad J^{{\mathsf T}} e_{{{k}}} \approx 0"
+    return [step(_("Where it rests"), text, rf"J(q_{{{k}}}) = {matrix(last.J)}", errors)]
 
 
 def _table(turns: Sequence[IterationTurn], total: int) -> Step:

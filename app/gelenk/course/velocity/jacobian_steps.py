@@ -56,7 +56,7 @@ def jacobian_steps(question: JacobianQuestion) -> list[Step]:
         _levers(question.geometry),
         _columns(question.geometry),
         *conversion,
-        _rank(J, question.rank_tolerance),
+        _rank(J, question.rank_tolerance, "J_a" if question.view in {"zyz", "rpy"} else "J"),
     ]
     if question.q_dot is not None:
         result.append(_time_variation(question, question.q_dot))
@@ -160,17 +160,17 @@ def _analytic(question: JacobianQuestion, J: Array) -> tuple[Array, list[Step]]:
     return analytic, [rates, singular, step(_("Analytic Jacobian"), text, f"{rule} = {matrix(analytic)}")]
 
 
-def _rank(J: Array, tolerance: float) -> Step:
+def _rank(J: Array, tolerance: float, name: str) -> Step:
     sigmas = np.asarray(np.linalg.svd(J, compute_uv=False), dtype=np.float64)
     rank, (m, n) = int(np.sum((sigmas > tolerance * sigmas[:1]) & (sigmas > 0.0))), J.shape
-    lines = [rf"\sigma(J) = {row(sigmas)}", rf"\rho = \mathrm{{rank}}\, J = {rank} \le \min({m}, {n})"]
+    lines = [rf"\sigma({name}) = {row(sigmas)}", rf"\rho = \mathrm{{rank}}\, {name} = {rank} \le \min({m}, {n})"]
     if m == n:
-        lines.append(rf"\det J = {number(float(np.linalg.det(J)))}")
+        lines.append(rf"\det {name} = {number(float(np.linalg.det(J)))}")
     text = _("Singular values of 0 do not count: the rank is not full, and the condition number is infinite.")
     if len(sigmas) and rank == len(sigmas):
         text = _("Every singular value counts: the rank is full.")
         quotient = rf"\frac{{{number(sigmas[0])}}}{{{number(sigmas[-1])}}} = {number(sigmas[0] / sigmas[-1])}"
-        lines.append(rf"\mathrm{{cond}}\, J = \frac{{\sigma_{{max}}}}{{\sigma_{{min}}}} = {quotient}")
+        lines.append(rf"\mathrm{{cond}}\, {name} = \frac{{\sigma_{{max}}}}{{\sigma_{{min}}}} = {quotient}")
     return step(_("Rank and condition"), text, *lines)
 
 
