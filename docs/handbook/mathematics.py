@@ -17,7 +17,8 @@ _SIZE = 16.0
 """Of a formula's letters in the drawing."""
 _EM = 14.5
 """What becomes one em of the text around: the letters are a little larger, as those of the text are wide."""
-_GLYPH = re.compile(r'<symbol id="([^"]+)".*?</symbol>', re.DOTALL)
+_GLYPH = re.compile(r'<symbol id="([^"]+)"[^>]*?(?:/>|>.*?</symbol>)', re.DOTALL)
+"""An empty one, of a space, closes itself."""
 _ROOT = re.compile(r'<svg [^>]*width="([-.\d]+)" height="([-.\d]+)" viewBox="([^"]*)">')
 
 _SIGN = re.compile(r"([=(\[,<>]|\\(?:in|le|ge|approx|to)\b)\s*([-+])")

@@ -36,6 +36,12 @@ def test_a_glyph_is_written_once_a_page() -> None:
     assert re.findall('href="(#[^"]+)"', first) == re.findall('href="(#[^"]+)"', second) != []
 
 
+def test_what_follows_the_empty_glyph_of_a_space_is_drawn_too() -> None:
+    known: set[str] = set()
+    both = drawn(r"\cos x", False, known) + drawn(r"\tan x", False, known)
+    assert set(re.findall(r'href="#([^"]+)"', both)) == set(re.findall(r'symbol id="([^"]+)"', both))
+
+
 def test_a_sign_stands_next_to_its_number() -> None:
     assert width("x = -1") < width("x - 1 =")
     assert width(r"\begin{bmatrix} 1 & -1 \end{bmatrix}") < width(r"\begin{bmatrix} 1 & 1 - 1 \end{bmatrix}")
