@@ -16,6 +16,7 @@ _BOUNDARIES: dict[Boundary, tuple[str, ...]] = {
         marked(
             "The velocities at both ends are given; what they add to the first and the last row goes to the right side."
         ),
+        r"\dot q(t_1) = v_1,\quad \dot q(t_N) = v_N",
     ),
     "natural": (
         marked("No acceleration at both ends: a row more at the top and at the bottom."),
