@@ -4,7 +4,7 @@ from gelenk.language import marked
 
 MISTAKES = {
     "hole_forgotten": marked("Links of different lengths cannot fold onto the base: there is a hole."),
-    "pi_forgotten": marked("The area of a disc is π r²."),
+    "disc_without_pi": marked("The area of a disc is π r²."),
     "width_squared": marked("The area is π (r_max² - r_min²), not π times the width squared."),
     "first_link_alone": marked("Folded the arm comes nearer to the base than its first link is long."),
     "right_angle_as_limit": marked("Stretched the links add up; this is the distance at a right angle."),

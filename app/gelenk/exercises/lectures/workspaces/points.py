@@ -48,7 +48,8 @@ def _is_useless_point(one: PointTask) -> bool:
     inner, outer = one.arm.wrist
     if one.l1 == one.l2 or nearest < inner + 0.03 or not nearest + 0.05 < outer < farthest - 0.05:
         return True
-    return abs(_point_answers(one)["limit"] - 0.5 * math.pi) < 0.1
+    limit: float = _point_answers(one)["limit"]
+    return abs(limit - 0.5 * math.pi) < 0.1
 
 
 def _point_answers(one: PointTask) -> Answers:
@@ -197,7 +198,7 @@ DESIGN = Exercise(
         "primary_for_secondary": lambda one: _secondary_of(*one.arm.primary[0]),
         "ring_of_wrist": lambda one: _secondary_of(*one.arm.wrist),
         "last_link_only_outside": lambda one: _secondary_of(one.inner, one.outer - one.l3),
-        "pi_forgotten": lambda one: {"area": _design_answers(one)["area"] / math.pi},
+        "disc_without_pi": lambda one: {"area": _design_answers(one)["area"] / math.pi},
     },
 )
 

@@ -65,7 +65,7 @@ RING = Exercise(
     steps=lambda one: [*workspace_steps(one.arm)[:1], area_step(one.arm)],
     wrong={
         "hole_forgotten": lambda one: one.answers(0.0, one.l1 + one.l2),
-        "pi_forgotten": lambda one: {"area": area(one.arm.primary) / math.pi},
+        "disc_without_pi": lambda one: {"area": area(one.arm.primary) / math.pi},
         "width_squared": lambda one: {"area": math.pi * (one.arm.primary[0][1] - one.arm.primary[0][0]) ** 2},
         "first_link_alone": lambda one: one.answers(one.l1, one.l1 + one.l2),
         "right_angle_as_limit": lambda one: one.answers(abs(one.l1 - one.l2), math.hypot(one.l1, one.l2)),
@@ -124,7 +124,7 @@ PRIMARY = Exercise(
         "hole_forgotten": lambda one: {"inner": 0.0, "area": math.pi * sum(one) ** 2},
         "always_a_hole": lambda one: {"inner": abs(2.0 * max(one) - sum(one))},
         "last_link_forgotten": lambda one: {"inner": abs(one.l1 - one.l2), "outer": one.l1 + one.l2},
-        "pi_forgotten": lambda one: {"area": area(one.arm.primary) / math.pi},
+        "disc_without_pi": lambda one: {"area": area(one.arm.primary) / math.pi},
     },
 )
 
