@@ -103,6 +103,8 @@ BRANCHES = [[0.1, 1.6], [1.3, -1.6], [-2.0, 0.4], [3.1, -0.4]]
         ([*BRANCHES, [0.0, 0.0]], 3.0, "solutions_too_many"),
         ([*BRANCHES[:3], [0.0, 0.0]], 2.0, None),
         ([], 0.0, None),
+        ([[-a, -b] for a, b in BRANCHES], 0.0, "sign"),
+        ([[2 * a, 2 * b] for a, b in BRANCHES], 0.0, "twice"),
     ],
 )
 def test_a_set_earns_what_is_in_it(given: Any, points: float, code: str | None) -> None:
@@ -130,6 +132,11 @@ def test_a_set_earns_what_is_in_it(given: Any, points: float, code: str | None) 
 def test_it_is_no_answer(one: AnswerField, given: Any) -> None:
     with pytest.raises(Unreadable):
         one.read(given)
+
+
+def test_solutions_of_a_wrong_model_that_coincide_count_once() -> None:
+    right = [[0.3, math.pi / 2], [0.3 + math.pi, -math.pi / 2]]
+    assert told(SOLUTIONS, right, [[0.6, math.pi]]) == (0.0, "twice")
 
 
 def test_a_wrong_model_is_offered_only_where_it_can_be_told_apart() -> None:

@@ -1,7 +1,7 @@
 """Fields of an answer: what a student gives, when it is the same as the right one, and what slips look like."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
@@ -196,23 +196,31 @@ class SetField(AnswerField):
         """Return the solutions, each of them once."""
         if not isinstance(given, Sequence) or isinstance(given, str):
             raise Unreadable("wrong_shape", shape=_("a list of solutions"))
+        return self._distinct(map(self.item.read, given))
+
+    def _distinct(self, solutions: Iterable[Any]) -> list[Any]:
         found: list[Any] = []
-        for one in map(self.item.read, given):
+        for one in solutions:
             if all(self.item.distance(one, other) > 1.0 for other in found):
                 found.append(one)
         return found
 
     def distance(self, answer: Any, reference: Any) -> float:
         """Return the largest distance of a solution from its partner; infinite if there are more or fewer of them."""
-        if len(answer) != len(reference):
+        left, reference, worst = self._distinct(answer), self._distinct(reference), 0.0
+        if len(left) != len(reference):
             return math.inf
-        left, worst = list(answer), 0.0
         for one in reference:
             apart = [self.item.distance(other, one) for other in left]
             nearest = int(np.argmin(apart))
             worst = max(worst, apart[nearest])
             left.pop(nearest)
         return worst
+
+    def slips(self, right: Any) -> Iterator[tuple[str, Any]]:
+        """Yield what general mistakes make of every solution."""
+        found = [dict(self.item.slips(one)) for one in right]
+        yield from ((code, [one[code] for one in found]) for code in found[0])
 
     def share(self, answer: Any, right: Any) -> float:
         """Return the share of the solutions that are there, less the wrong ones."""
