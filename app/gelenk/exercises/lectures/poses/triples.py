@@ -6,12 +6,11 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from gelenk.course.orientation.composition import composed
 from gelenk.course.orientation.orientation import Notations, notations
 from gelenk.course.orientation.orientation_steps import GivenMotion, given_step, rpy_step, zyz_step
 from gelenk.course.orientation.rotations import elementary
 from gelenk.course.steps import Step, step
-from gelenk.course.writing import matrix, number
+from gelenk.course.writing import number
 from gelenk.exercises.draw import Draw
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import ChoiceField, NumberField, SetField, VectorField
@@ -129,10 +128,7 @@ def _other_rpy(one: RollPitchYaw) -> tuple[float, float, float]:
 
 
 def _rpy_steps(one: RollPitchYaw) -> list[Step]:
-    motion = rpy_motion(one.radians)
-    R = composed(motion.transform, [], np.empty((0, 3))).transforms[-1][:3, :3]
-    return [given_step(motion, 1, 1), step(_("Numbers"), _("The product of the three matrices."), f"R = {matrix(R)}"),
-            rpy_step(notations(R))]  # fmt: skip
+    return [given_step(rpy_motion(one.radians), 1, 1), rpy_step(notations(one.rotation))]
 
 
 def _flipped(one: RollPitchYaw, *signs: float) -> Answers:
