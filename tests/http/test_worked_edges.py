@@ -69,3 +69,10 @@ def test_samples_are_decoded_in_the_steps(client: TestClient) -> None:
         "φ_m = z_end · 360°/4096 = 0.3515625°",
     ]
     assert "it counts nothing" in next(step["text"] for step in steps if step["title"] == "Decoding")
+
+
+def test_samples_out_of_reach_are_named(client: TestClient) -> None:
+    body = {"lengths": [1, 1], "start": [0.5, 1], "target": [5, 5], "samples": 5, "duration": 2}
+    steps = answer_to(client, "course/pipeline", body)["steps"]
+    assert "out of reach" in next(step["text"] for step in steps if step["title"] == "Sample 1 in full")
+    assert "q_1 = (0.5, -, -, -, -)" in lines(steps, "3. Samples and inverse kinematics")

@@ -59,8 +59,9 @@ def _draw_way(axes: Axes, blend: Blend) -> None:
         axes.plot(
             *point, "o", markersize=5.0, color="white" if is_end else style.INK, markeredgecolor=style.INK, zorder=4
         )
-        # If the path turns back, the two ends of the blend coincide.
-        offset = (6.0, -14.0) if name == "C'" else (6.0, 6.0)
+        # If the path turns back, the two ends of the blend coincide, and A and C may.
+        is_below = name == "C'" or (name == "C" and corner.turn == "reversal")
+        offset = (6.0, -14.0) if is_below else (6.0, 6.0)
         axes.annotate(name, point, offset, textcoords="offset points", fontproperties=style.font(), color=style.INK)
     _frame(axes, np.concatenate((legs, parabola)))
 

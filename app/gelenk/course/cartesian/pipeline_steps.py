@@ -72,10 +72,15 @@ def _solved(found: Pipeline, k: int) -> Step:
     line, p = found.line, complex(found.line.points(found.shares[k : k + 1])[0])
     (l1, l2), (q1, q2) = line.lengths, found.configurations[k].tolist()
     cosine = float(np.cos(q2))
+    text = _("The other samples are solved in the same way.")
+    if found.spline is None:
+        text += " " + _(
+            "Where |c₂| > 1 a sample is out of reach (-): no spline leads there, and the motion is not planned."
+        )
     squares = rf"{tex_factor(p.real)}^2 + {tex_factor(p.imag)}^2 - {tex(l1)}^2 - {tex(l2)}^2"
     return step(
         _("Sample {number} in full").format(number=k + 1),
-        _("The other samples are solved in the same way."),
+        text,
         rf"p({tex(float(found.shares[k]))}) = {_point(p)}",
         rf"c_2 = \frac{{{squares}}}{{2 \cdot {tex(l1)} \cdot {tex(l2)}}} = {tex(cosine)}",
         rf"q_2 = {tex(q2, 'rad')}",

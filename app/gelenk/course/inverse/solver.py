@@ -38,7 +38,7 @@ def _geometry(closed_form: str | None, method: str) -> tuple[str, str]:
         text = _("Shoulder and wrist are points, whose distance fixes the elbow; its turn about their line is free.")
         return text, r"\lVert p_w - p_s \rVert^2 = l_1^2 + l_2^2 + 2 l_1 l_2 \cos \psi_4"
     if closed_form is None:
-        text = _("An iteration found these numbers ({method}); there is no solution by hand, or they are less exact.")
+        text = _("An iteration from a first guess found these numbers ({method}); `trace` shows all of it.")
         return text.format(method=method), ""
     if closed_form.startswith("six"):
         return _("This arm has no solution by hand: all joints but one are eliminated, or solutions are followed."), ""

@@ -16,7 +16,10 @@ _VERDICTS = {
 }
 _CHAINS = {
     "open": marked("Independent loops: {sum} = {loops}; no loop: an open chain."),
-    "closed": marked("Independent loops: {sum} = {loops}; two paths join each link to each other: a closed chain."),
+    "closed": marked(
+        "Independent loops: {sum} = {loops}; two paths without a common pair join each link to each other: a closed "
+        "chain."
+    ),
     "mixed": marked(
         "Independent loops: {sum} = {loops}; some links lie on no loop, or on none with the others: a mixed chain."
     ),
