@@ -194,6 +194,7 @@ export type FromUrdfAnswer = {
   certificate: TableCertificate;
   notes: string[];
   warnings: string[];
+  steps: Step[] | null;
 };
 
 export type InternalMotionInfo = { joint_velocities: number[]; only_here: boolean };
@@ -208,6 +209,8 @@ export type InverseAnswer = {
 };
 
 export type InverseRequest = {
+  language?: "en" | "de";
+  steps?: boolean;
   base_frame?: string | null;
   tip_frame?: string | null;
   method?: "auto" | "analytic" | "newton" | "gradient" | "gradient_then_newton" | "damped_least_squares";
@@ -247,6 +250,7 @@ export type InverseResult = {
     "converged" | "stagnated" | "near_singular" | "at_limits" | "diverged" | "time_limit" | "iterations" | null;
   trace?: Iterate[] | null;
   note?: string | null;
+  steps?: Step[] | null;
 };
 
 export type Iterate = {
@@ -270,6 +274,7 @@ export type JacobianAnswer = {
   rank_tolerance: number;
   time_variations?: number[][][] | null;
   hessians?: number[][][][] | null;
+  steps?: Step[][] | null;
   certificate: JacobianCertificate;
 };
 
@@ -371,6 +376,7 @@ export type ManipulabilityAnswer = {
   joints_without_velocity_limit?: string[] | null;
   joints_without_effort_limit?: string[] | null;
   results: ManipulabilityInfo[];
+  steps?: Step[][] | null;
   certificate: EllipsoidCertificate;
 };
 
@@ -649,7 +655,7 @@ export type SplineSegment = {
   orientation?: "axis_angle" | "zyz" | "zyz_other";
 };
 
-export type Step = { title: string; text: string; latex: string[] };
+export type Step = { title: string; text: string; latex: string[]; plain: string[] };
 
 export type SymbolEntry = {
   latex: string;
@@ -702,6 +708,7 @@ export type TrajectoryAnswer = {
   timing?: TimingComparison[] | null;
   limits: MotionLimitsInfo;
   limit_sources: LimitSourcesInfo;
+  steps?: Step[] | null;
   notes: string[];
   certificate: PoseCertificate | null;
 };
@@ -717,6 +724,8 @@ export type TrajectoryLimits = {
 };
 
 export type TrajectoryRequest = {
+  language?: "en" | "de";
+  steps?: boolean;
   limits?: TrajectoryLimits | null;
   velocity_scale?: number | null;
   acceleration_scale?: number | null;
