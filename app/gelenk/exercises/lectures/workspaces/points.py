@@ -10,7 +10,7 @@ from gelenk.course.steps import Step, step, tex
 from gelenk.exercises.draw import Draw
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import NumberField, VectorField, quantity
-from gelenk.exercises.lectures.workspaces.rings import CLOSE, ThreeLinks, shape_field
+from gelenk.exercises.lectures.workspaces.rings import CLOSE, WristLinks, shape_field
 from gelenk.language import marked
 from gelenk.language import translated as _
 
@@ -136,7 +136,7 @@ def _design_answers(one: DesignTask) -> Answers:
 
 
 def _is_useless_design(one: DesignTask) -> bool:
-    links = ThreeLinks(*one.links, one.l3)
+    links = WristLinks(*one.links, one.l3)
     bounds = (one.outer - 2.0 * one.l3 - one.inner, one.l3 - one.inner)
     return one.outer - one.inner < 0.5 or bounds[0] < 0.1 or abs(bounds[1]) < 0.06 or min(links) < 0.1
 

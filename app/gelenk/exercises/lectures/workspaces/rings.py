@@ -17,7 +17,7 @@ CLOSE = 0.002
 """Tolerance of radii, [m]."""
 
 
-class TwoLinks(NamedTuple):
+class RingLinks(NamedTuple):
     """Lengths of a planar arm with two links, [m]."""
 
     l1: float
@@ -46,7 +46,7 @@ RING = Exercise(
     id="workspaces.ring",
     title=marked("What two links reach"),
     difficulty=1,
-    draw=lambda draw: TwoLinks(draw.decimal(0.3, 1.2, 0.05), draw.decimal(0.2, 1.0, 0.05)),
+    draw=lambda draw: RingLinks(draw.decimal(0.3, 1.2, 0.05), draw.decimal(0.2, 1.0, 0.05)),
     is_degenerate=lambda one: abs(one.l1 - one.l2) < 0.1 or abs(one.l1 - 1.0) < 0.01,
     text=lambda one: _(
         "A planar arm has two links of {l1:g} m and {l2:g} m whose joints turn without limits. Between which distances "
@@ -73,7 +73,7 @@ RING = Exercise(
 )
 
 
-class ThreeLinks(NamedTuple):
+class WristLinks(NamedTuple):
     """Lengths of a planar arm with three links, [m]."""
 
     l1: float
@@ -86,19 +86,19 @@ class ThreeLinks(NamedTuple):
         return planar_workspace(self)
 
 
-def _lengths(draw: Draw) -> ThreeLinks:
-    return ThreeLinks(draw.decimal(0.4, 1.2, 0.1), draw.decimal(0.3, 1.0, 0.1), draw.decimal(0.1, 0.7, 0.1))
+def _lengths(draw: Draw) -> WristLinks:
+    return WristLinks(draw.decimal(0.4, 1.2, 0.1), draw.decimal(0.3, 1.0, 0.1), draw.decimal(0.1, 0.7, 0.1))
 
 
-def _long_link(draw: Draw) -> ThreeLinks:
-    return ThreeLinks(*(draw.decimal(low, high, 0.1) for low, high in ((0.2, 1.6), (0.2, 1.6), (0.1, 1.2))))
+def _long_link(draw: Draw) -> WristLinks:
+    return WristLinks(*(draw.decimal(low, high, 0.1) for low, high in ((0.2, 1.6), (0.2, 1.6), (0.1, 1.2))))
 
 
-def _primary(one: ThreeLinks) -> Answers:
+def _primary(one: WristLinks) -> Answers:
     return dict(zip(("inner", "outer"), one.arm.primary[0], strict=True))
 
 
-def _is_near_limit(one: ThreeLinks) -> bool:
+def _is_near_limit(one: WristLinks) -> bool:
     return abs(2.0 * max(one) - sum(one)) < 0.05 or abs(one.l1 - one.l2) < 0.05
 
 
@@ -129,7 +129,7 @@ PRIMARY = Exercise(
 )
 
 
-def _secondary_answers(one: ThreeLinks) -> Answers:
+def _secondary_answers(one: WristLinks) -> Answers:
     pieces = one.arm.secondary
     inner = [outer for inner, outer in pieces if inner == 0.0]
     rings = [piece for piece in pieces if piece[0] > 0.0]
@@ -140,7 +140,7 @@ def _secondary_answers(one: ThreeLinks) -> Answers:
     }
 
 
-def _is_useless_secondary(one: ThreeLinks) -> bool:
+def _is_useless_secondary(one: WristLinks) -> bool:
     """Check whether a piece is about to vanish, or two of them meet."""
     gap = abs(one.l1 - one.l2)
     bounds = (one.l1 + one.l2 - 2.0 * one.l3 - gap, one.l3 - gap, one.l1 + one.l2 - one.l3)
