@@ -10,8 +10,8 @@
 - `http`: the HTTP layer. `contract`: the operations and their payloads. `store`: robots on disk.
 - `jobs`: long work in processes of its own.
 - `operations`: the computation of each operation. `pool`: processes for long requests and parts of jobs.
-- `exercises`: exercises that grade themselves. `plots`: pictures. `trajectory`: motions in time. `course`: the
-  course's calculators, which need no robot.
+- `sheets`: homework and its grades. `exercises`: exercises that grade themselves. `plots`: pictures. `trajectory`:
+  motions in time. `course`: the course's calculators, which need no robot.
 - `ik`: from poses to configurations. `dh`: tables ↔ descriptions. `kinematics`: what a robot does. `robot`: what it is.
   These know neither HTTP nor settings. `errors`: every error, as data. `language`: of texts for people.
   `package_data`: where the package's files are.

@@ -322,6 +322,13 @@ class UnknownExercise(NotFound):
     template = "there is no exercise {exercise!q}; the exercises are {known!q}"
 
 
+class NotPrinted(KinematicsError):
+    """A page cannot be printed here."""
+
+    reason: str
+    template = "no PDF: {reason}; `Accept: text/html` gets the page, which any browser prints"
+
+
 class TooLarge(KinematicsError):
     """A call exceeds a size that the service is configured to accept."""
 

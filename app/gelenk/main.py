@@ -34,6 +34,7 @@ from gelenk.http.messages.routes import Application
 from gelenk.http.pictures import pictures_router
 from gelenk.http.robots.robots import documented_routes, robots_router
 from gelenk.http.service import Readiness, service_router
+from gelenk.http.sheets import sheet_routes
 from gelenk.http.workers.pool_client import PARSED_HERE_BYTES, PoolClient
 from gelenk.http.workers.task import Context
 from gelenk.jobs.cluster import Cluster
@@ -126,6 +127,7 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     app.router.routes.extend([*documented_routes(pool_client, size), picture_route(pool_client, size)])
     app.include_router(exercises_router())
     app.router.routes.extend(exercise_routes(pool_client, size))
+    app.router.routes.extend(sheet_routes(pool_client, size, settings.course_secret, settings.data_dir))
     app.include_router(jobs_router(runner))
     app.include_router(pictures_router(pool_client))
     app.include_router(service_router(readiness, metrics))

@@ -69,6 +69,8 @@ class Settings:
         api_keys: A file of keys, or the keys themselves as `./dev keys` writes them; empty if none are needed
             (`GELENK_API_KEYS`).
         open_access: Whether the service may listen beyond this machine without keys (`GELENK_OPEN_ACCESS`).
+        course_secret: Decides the numbers of homework, unless a request brings its own; empty for a random one that is
+            kept in the data folder (`GELENK_COURSE_SECRET`).
         log_level: Lowest level that is logged: `debug`, `info` (each request), `warning` (refusals) or `error`
             (`GELENK_LOG_LEVEL`).
         otlp_endpoint: Address for traces by OpenTelemetry's protocol, such as `http://127.0.0.1:4318`; empty for none
@@ -108,6 +110,7 @@ class Settings:
     max_job_samples: int = 10_000_000
     api_keys: str = ""
     open_access: bool = False
+    course_secret: str = field(default="", repr=False)
     log_level: str = "warning"
     otlp_endpoint: str = ""
     trusted_hosts: tuple[str, ...] = ()
@@ -146,6 +149,7 @@ _LISTS = {
 _TEXTS = {
     "api_keys": (re.compile(".*", re.DOTALL), ""),
     "root_path": (re.compile("(/.*)?", re.DOTALL), "must start with a slash, such as /gelenk"),
+    "course_secret": (re.compile(r"[\x20-\x7e]{16,256}"), "must have 16 to 256 printable ASCII characters"),
     "open_access": (re.compile("yes|no"), "must be yes or no"),
     "log_level": (re.compile("|".join(LEVELS)), f"must be one of {', '.join(LEVELS)}"),
     "ray_lost": (re.compile("wait|local"), "must be one of wait, local"),

@@ -193,6 +193,13 @@ COMMANDS: dict[str, Callable[[dict[str, Any], Files], Arguments]] = {
         *("workspace", f["robot"], "--job", "--kind", f["kind"], "--samples", f["samples"], *chain(f)),
         *rest(f, "robot", "kind", "samples", "tip_frame"),
     ],
+    "list_exercises": lambda f, _: ["exercises", "--lang", f["language"]],
+    "draw_exercise": lambda f, _: ["exercises", f["exercise"], "--seed", f["seed"]],
+    "write_sheets": lambda f, files: [
+        *("sheet", *f["exercises"], "--class", files.of("\n".join(f["participants"]), "class.txt")),
+        *("--title", f["title"], "--secret", f["secret"]),
+    ],
+    "grade_sheets": lambda f, files: ["grade", files.of(f["csv"], "answers.csv"), "--secret", f["secret"]],
     "get_job": lambda f, _: ["jobs", "show", f["job"]],
     "watch_job": lambda f, _: ["jobs", "watch", f["job"]],
     "get_job_result": lambda f, _: ["jobs", "result", f["job"]],

@@ -1,7 +1,7 @@
 """The command `gelenk`: the service in a shell, on a server or without one.
 
 - `main`: the commands and exit codes; `session`: the options that commands share.
-- `robots`, `arms`, `motions`, `jobs`, `tables`, `bench`, `ask`: the commands themselves.
+- `robots`, `arms`, `motions`, `jobs`, `tables`, `homework`, `bench`, `ask`: the commands themselves.
 - `files`: robots, tables and configurations as input, answers as output.
 - `completion`: completion in a shell; `examples`: the examples of `--help`.
 - `batches`: splits a large batch into several calls.

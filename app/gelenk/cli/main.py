@@ -11,7 +11,7 @@ import typer
 from rich.console import Console
 
 import gelenk
-from gelenk.cli import arms, ask, bench, jobs, motions, robots, tables
+from gelenk.cli import arms, ask, bench, homework, jobs, motions, robots, tables
 from gelenk.cli.examples import example_of
 from gelenk.cli.files.outputs import Format, Output, check_place
 from gelenk.cli.session import Session
@@ -95,6 +95,7 @@ for command in (
     *(robots.robots, robots.add, robots.remove),
     *(arms.fk, arms.jacobian, arms.ik, arms.manipulability),
     *(motions.trajectory, motions.workspace),
+    *(homework.exercises, homework.sheet, homework.grade),
     *(bench.bench, ask.ask),
 ):
     cli.command(epilog=example_of(command.__name__))(command)

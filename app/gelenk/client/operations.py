@@ -3,6 +3,7 @@
 The fields of a call are those of the request in the API's reference, by name; types come from the same models.
 """
 
+import inspect
 from collections.abc import Callable
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
@@ -10,8 +11,8 @@ import numpy as np
 from pydantic import BaseModel
 
 from gelenk.client import stored
-from gelenk.client.call import EXERCISE, NPY, ROBOT, Call, Sent
-from gelenk.client.exchange import described_by, fits_query, json_call, packed, query_of, reader, segment
+from gelenk.client.call import EXERCISE, NPY, ROBOT, Call, Sent, documented
+from gelenk.client.exchange import described_by, encoded, fits_query, json_call, packed, query_of, reader, segment
 from gelenk.contract import (
     compare_dh,
     convert_dh,
@@ -57,6 +58,7 @@ from gelenk.contract.ik import InverseAnswer
 from gelenk.contract.jobs import JobInfo
 from gelenk.contract.pose import pose_fields
 from gelenk.contract.robots import NewRobot, RobotInfo, RobotReplacement
+from gelenk.contract.sheets import SheetsGradeRequest, SheetsRequest
 from gelenk.contract.trajectory_answer import TrajectoryAnswer
 from gelenk.contract.workspace import WorkspaceAnswer, WorkspaceRequest
 
@@ -105,6 +107,15 @@ def _without_robot(path: str, request: Callable[P, BaseModel], answer: type[A]) 
     return Sent(described_by(describe, request, answer))
 
 
+def _file(path: str, request: Callable[P, BaseModel], returned: str) -> Sent[P, bytes]:
+    """Define a call that is answered by a file."""
+
+    def describe(*_: P.args, **fields: P.kwargs) -> Call[bytes]:
+        return Call("POST", path, lambda response: response.content, body=encoded(fields), accept="*/*")
+
+    return Sent(documented(describe, request, f"{inspect.getdoc(request)}\n\nReturns:\n    {returned}"))
+
+
 def _calculator(endpoint: Endpoint[P, A]) -> Sent[P, A]:
     return _without_robot(endpoint.path, endpoint.request, endpoint.answer)
 
@@ -147,6 +158,8 @@ class Operations:
     exercises = Sent(stored.exercises)
     draw_exercise = _about_exercise("v1/course/exercises/{exercise}", ExerciseRequest, ExerciseVariant)
     solve_exercise = _about_exercise("v1/course/exercises/{exercise}/solution", ExerciseRequest, ExerciseSolution)
+    write_sheets = _file("v1/course/sheets", SheetsRequest, "The sheets as an HTML page; `picture` gets other forms.")
+    grade_sheets = _file("v1/course/sheets/grade", SheetsGradeRequest, "Points and mistakes as CSV.")
     grade_exercise = _about_exercise("v1/course/exercises/{exercise}/grade", ExerciseGradeRequest, ExerciseGrade)
 
     health = Sent(stored.health)

@@ -128,12 +128,14 @@ def result(answer: type[A]) -> Callable[[str], Call[A]]:
     return describe
 
 
-def picture(path: str, kind: Literal["svg", "png"], fields: Mapping[str, Any] | None = None) -> Call[bytes]:
-    """An answer as a picture, if the operation draws one.
+def picture(
+    path: str, kind: Literal["svg", "png", "pdf", "zip", "xml", "html"], fields: Mapping[str, Any] | None = None
+) -> Call[bytes]:
+    """An answer as a picture, or as a file of another kind, if the operation makes one.
 
     Args:
         path: Path of the operation or of a job's result, such as `v1/robots/panda/trajectory`.
-        kind: Format of the picture.
+        kind: Format of the file.
         fields: Fields of the request; None for a job's result.
     """
     method, body = ("GET", b"") if fields is None else ("POST", encoded(fields))
@@ -189,4 +191,11 @@ def _text(response: Response) -> str:
     return response.content.decode()
 
 
-_PICTURES = {"svg": "image/svg+xml", "png": "image/png"}
+_PICTURES = {
+    "svg": "image/svg+xml",
+    "png": "image/png",
+    "pdf": "application/pdf",
+    "zip": "application/zip",
+    "xml": "application/xml",
+    "html": "text/html",
+}

@@ -26,6 +26,13 @@ MESH_TYPES = {
 
 _BY_WORKER = (429, 500, 503, 504)
 _EXERCISE = (400, 404, 413, 415, 422, *_BY_WORKER)
+_SHEETS = ("text/html", "application/pdf", "application/zip", "application/xml")
+_HOMEWORK = {
+    "exercises": ["mobility.linkage", "actuators.gear"],
+    "participants": ["Ada", "Ben"],
+    "title": "Sheet 1",
+    "secret": "a phrase that only the lecturer knows",
+}
 _EVENT = {
     "type": "object",
     "properties": {
@@ -327,6 +334,43 @@ RESOURCES = (
         its answer differs clearly from the right one and from those of the others, so `mistake` is never ambiguous;
         it is null if none leads to the answer. An answer of the wrong form is no error: `mistake` says what is wrong
         with it.
+        """,
+    ),
+    Resource(
+        name="write_sheets",
+        path="v1/course/sheets",
+        tag="Course",
+        scope=Scope.TEACH,
+        responses={200: {"content": {kind: {} for kind in _SHEETS}, "description": "The sheets, as `Accept` says"}},
+        problems=(*_EXERCISE, 501),
+        example=_HOMEWORK,
+        summary="Sheets for a class",
+        description="""
+        Writes a sheet for each participant, all with numbers of their own, as one page to be printed.
+
+        A PDF with `Accept: application/pdf`, if the service has Chromium; questions for Moodle with `application/xml`,
+        a category for each exercise; with `application/zip` all in one: sheets, booklet of solutions, key, questions
+        for Moodle and PrairieLearn. The numbers follow from the secret, the participant and the exercise, so that
+        nothing is stored. Where keys are on, it needs `teach`.
+        """,
+    ),
+    Resource(
+        name="grade_sheets",
+        path="v1/course/sheets/grade",
+        tag="Course",
+        scope=Scope.TEACH,
+        responses={200: {"content": {"text/csv": {}}, "description": "A row for each field"}},
+        problems=_EXERCISE,
+        example={
+            "csv": "participant,exercise,field,answer\nAda,mobility.linkage,constraints,8\n",
+            "secret": _HOMEWORK["secret"],
+        },
+        summary="Grade the answers of a class",
+        description="""
+        Grades a table of answers, and returns one of points and mistakes; fields without an answer are in it too.
+
+        The table may also be the body itself, as `text/csv`; then the secret is the service's own, and the language
+        follows `Accept-Language`. Where keys are on, it needs `teach`.
         """,
     ),
     Resource(

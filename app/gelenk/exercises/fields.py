@@ -12,33 +12,37 @@ from gelenk.exercises.mistakes.catalogue import Mistake, mistake
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 
-_TURNS = {"rad": 2.0 * math.pi, "°": 360.0}
+TURNS = {"rad": 2.0 * math.pi, "°": 360.0}
 _MOST_DIGITS = 40
 _SHARE = 0.01
 """Usual tolerance of a quantity, as a share of it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _NumberArray(AnswerField):
+class NumberArray(AnswerField):
     """Numbers in a fixed shape; `is_angle` says that whole turns do not count."""
 
     is_angle: bool = False
 
     def read(self, given: Any) -> Any:
+        """Return a number, or an array."""
         found = _numbers(given, self.shape())
         return float(found) if found.ndim == 0 else found
 
     def distance(self, answer: Any, reference: Any) -> float:
+        """Compare the numbers; the farthest counts."""
         apart = np.asarray(answer, float) - np.asarray(reference, float)
         if self.is_angle:
-            turn = _TURNS[self.unit]
+            turn = TURNS[self.unit]
             apart = apart - turn * np.round(apart / turn)
-        return _in_tolerances(apart, self._allowed(reference))
+        return _in_tolerances(apart, self.allowed(reference))
 
-    def _allowed(self, reference: Any) -> float:
+    def allowed(self, reference: Any) -> float:
+        """Return how far a number may be from the right one, where this is the right answer."""
         return self.tolerance * float(np.max(np.abs(reference))) if self.is_relative else self.tolerance
 
     def slips(self, right: Any) -> Iterator[tuple[str, Any]]:
+        """Yield what a wrong sign, factor or unit makes of the answer."""
         if self.tolerance == 0.0:
             return
         right = np.asarray(right, float)
@@ -60,14 +64,14 @@ _OF_UNIT: dict[str, dict[str, float]] = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class NumberField(_NumberArray):
+class NumberField(NumberArray):
     """A number; a tolerance of 0 makes it a whole one."""
 
     kind: ClassVar[FieldKind] = "number"
 
     def slips(self, right: Any) -> Iterator[tuple[str, Any]]:
         """Yield what general mistakes make of the number, a forgotten root among them."""
-        yield from _NumberArray.slips(self, right)
+        yield from NumberArray.slips(self, right)
         if self.tolerance and not self.is_angle:
             yield "square", np.square(right)
             if not self.unit and abs(right) <= 1.0:
@@ -85,7 +89,7 @@ def quantity(name: str, label: str, unit: str = "", points: float = 1.0) -> Numb
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class VectorField(_NumberArray):
+class VectorField(NumberArray):
     """A vector of `size` numbers."""
 
     kind: ClassVar[FieldKind] = "vector"
@@ -97,12 +101,12 @@ class VectorField(_NumberArray):
 
     def slips(self, right: Any) -> Iterator[tuple[str, Any]]:
         """Yield what general mistakes make of the vector, its entries in the opposite order among them."""
-        yield from _NumberArray.slips(self, right)
+        yield from NumberArray.slips(self, right)
         yield "reversed", np.asarray(right)[::-1]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MatrixField(_NumberArray):
+class MatrixField(NumberArray):
     """A matrix of `rows` and `columns`."""
 
     kind: ClassVar[FieldKind] = "matrix"
@@ -115,7 +119,7 @@ class MatrixField(_NumberArray):
 
     def slips(self, right: Any) -> Iterator[tuple[str, Any]]:
         """Yield what general mistakes make of the matrix, its transpose among them."""
-        yield from _NumberArray.slips(self, right)
+        yield from NumberArray.slips(self, right)
         if self.rows == self.columns:
             yield "transposed", np.asarray(right).T
 

@@ -19,7 +19,11 @@ WRITING = {
     ("DELETE", "/v1/jobs/{job}"),
 }
 ADMINISTERING = {("GET", "/metrics")}
-TEACHING = {("POST", "/v1/course/exercises/{exercise}/solution")}
+TEACHING = {
+    ("POST", "/v1/course/exercises/{exercise}/solution"),
+    ("POST", "/v1/course/sheets"),
+    ("POST", "/v1/course/sheets/grade"),
+}
 
 ENTRIES, KEYS = keys_for(
     *("read", "write", "teach", "admin", "read+write", "write+teach+admin", "read+teach+admin", "read+write+teach"),

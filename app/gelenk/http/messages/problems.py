@@ -24,6 +24,7 @@ MEDIA_TYPE = "application/problem+json"
 STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
     errors.InvalidInput: HTTPStatus.UNPROCESSABLE_ENTITY,
     errors.NotFound: HTTPStatus.NOT_FOUND,
+    errors.NotPrinted: HTTPStatus.NOT_IMPLEMENTED,
     errors.TooLarge: HTTPStatus.REQUEST_ENTITY_TOO_LARGE,
     # Waiting does not help, so no client should retry by itself: neither 429 nor a 5xx.
     errors.QuotaExceeded: HTTPStatus.REQUEST_ENTITY_TOO_LARGE,

@@ -1,0 +1,9 @@
+"""Homework: sheets of exercises, each participant with numbers of their own, and the grades of a file of answers.
+
+- `homework`: who gets which variants; a secret decides the numbers, and nothing is kept.
+  `bounds`: how many.
+- `document`: parts of the printed pages; `pages`: the sheets and the booklet of solutions; `pdf`: printed by Chromium.
+- `cloze`, `moodle`: questions for Moodle. `prairielearn`: questions for PrairieLearn.
+- `key`: the right answers as a table. `table`: tables of texts as CSV; `grades`: what a table of answers earns.
+- `bundle`: all of these in one file.
+"""

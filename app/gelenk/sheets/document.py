@@ -1,0 +1,129 @@
+"""Parts of the printed pages: escaped texts, formulas as MathML, pictures, boxes for answers."""
+
+import base64
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
+from html import escape
+from typing import Any
+
+import numpy as np
+from latex2mathml.converter import convert
+
+from gelenk.course.steps import Step
+from gelenk.exercises.answer_field import AnswerField
+from gelenk.exercises.exercise import Variant
+from gelenk.language import current_language
+from gelenk.language import translated as _
+from gelenk.plots.figure import as_bytes
+
+_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
+_MOST_ROWS = 8
+_STYLE = """
+@page { size: A4; margin: 18mm 18mm 20mm; }
+* { box-sizing: border-box; }
+body { font: 10.5pt/1.45 "DejaVu Serif", Georgia, serif; color: #1f2933; margin: 0 auto; max-width: 174mm; }
+.sheet { break-after: page; }
+.sheet:last-of-type { break-after: auto; }
+header { display: flex; justify-content: space-between; align-items: baseline; gap: 8mm;
+  border-bottom: 1.5pt solid #1f2933; padding-bottom: 2mm; margin-bottom: 6mm; }
+h1 { font-size: 15pt; margin: 0; }
+.who { font-size: 11pt; white-space: nowrap; overflow: hidden; text-overflow: ellipsis; max-width: 80mm; }
+h2 { font-size: 12pt; margin: 7mm 0 2mm; break-after: avoid; display: flex; justify-content: space-between; gap: 6mm; }
+h2 .points { font-weight: normal; font-size: 10pt; color: #6b7580; white-space: nowrap; }
+h3 { font-size: 10.5pt; margin: 4mm 0 1mm; break-after: avoid; }
+p { margin: 0 0 2.5mm; white-space: pre-line; overflow-wrap: anywhere; }
+img { display: block; max-width: 130mm; max-height: 95mm; margin: 3mm auto; break-inside: avoid; }
+table.answers { border-collapse: collapse; margin: 2mm 0 0; break-inside: avoid; }
+table.answers > tbody > tr { break-inside: avoid; }
+table.answers th { text-align: left; font-weight: normal; vertical-align: middle; padding: 1.2mm 5mm 1.2mm 0;
+  max-width: 80mm; }
+table.answers td { vertical-align: middle; padding: 1.2mm 0; }
+.box { display: inline-block; border: 0.8pt solid #6b7580; border-radius: 0.8mm; width: 34mm; height: 8mm; }
+.row { display: flex; gap: 1.5mm; margin: 0.8mm 0; }
+.row .box { width: 19mm; }
+.unit { padding-left: 2.5mm; }
+.choice { display: block; padding-left: 5.8mm; text-indent: -5.8mm; margin: 0.8mm 0; }
+.choice::before { content: ""; display: inline-block; width: 3.4mm; height: 3.4mm; border: 0.8pt solid #6b7580;
+  margin-right: 2.2mm; vertical-align: -0.4mm; }
+.task { break-inside: avoid; }
+.right { font-weight: bold; white-space: pre-line; }
+.formula { margin: 1.2mm 0 1.2mm 6mm; text-align: left; break-inside: avoid; max-width: 100%; }
+math { font-family: "STIX Two Math", "Latin Modern Math", math, "DejaVu Serif", serif; font-size: 10.5pt; }
+math[display="block"] { display: inline math; math-style: normal; }
+@media screen { body { padding: 8mm 4mm; } .sheet { margin-bottom: 25mm; } }
+"""
+
+
+def page(title: str, sections: Iterable[str]) -> str:
+    """Return a document of its own, which loads nothing from elsewhere and runs nothing."""
+    return (
+        f'<!DOCTYPE html>\n<html lang="{current_language()}">\n<head>\n<meta charset="utf-8">\n'
+        f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">\n'
+        f"<title>{escape(title)}</title>\n<style>{_STYLE}</style>\n</head>\n<body>\n"
+        + "\n".join(sections)
+        + "\n</body>\n</html>\n"
+    )
+
+
+def paragraphs(text: str) -> str:
+    """Return a text, whose paragraphs are separated by empty lines, as HTML."""
+    return "".join(f"<p>{escape(part.strip())}</p>" for part in text.split("\n\n") if part.strip())
+
+
+@lru_cache(maxsize=4096)  # formulas without numbers come again in every sheet
+def formula(latex: str) -> str:
+    """Return a formula as MathML."""
+    upright = latex.replace(r"^{\circ}", "°").replace(r"^\circ", "°")  # browsers draw it as small as a raised star
+    return f'<div class="formula">{convert(upright, display="block")}</div>'
+
+
+def svg(variant: Variant[Any]) -> bytes | None:
+    """Return the picture of a variant, or None."""
+    draw = variant.exercise.picture
+    return draw and as_bytes(draw(variant.numbers), "svg")
+
+
+def picture(variant: Variant[Any]) -> str:
+    """Return the picture of a variant inside the page, or "": as a file of its own, so that no two ids meet."""
+    drawn = svg(variant)
+    if drawn is None:
+        return ""
+    name = escape(_(variant.exercise.title), quote=True)
+    return f'<img alt="{name}" src="data:image/svg+xml;base64,{base64.b64encode(drawn).decode()}">'
+
+
+def worked(steps: Sequence[Step]) -> str:
+    """Return a worked solution."""
+    return "".join(
+        f"<h3>{escape(one.title)}</h3>{paragraphs(one.text)}{''.join(map(formula, one.latex))}" for one in steps
+    )
+
+
+def boxes(one: AnswerField) -> str:
+    """Return the place for an answer."""
+    if choices := one.choices():
+        return "".join(f'<span class="choice">{escape(text)}</span>' for text in choices.values())
+    shape = one.shape()
+    if one.kind == "set":
+        rows, columns = _MOST_ROWS, shape[0] if shape else 1
+    elif not shape:
+        return '<span class="box"></span>'
+    else:
+        rows, columns = (1, shape[0]) if len(shape) == 1 else shape
+    row = '<span class="box"></span>' * columns
+    return f'<div class="row">{row}</div>' * rows
+
+
+def shown(one: AnswerField, answer: Any) -> str:
+    """Return an answer for people, as text; its rows on lines of their own."""
+    if choices := one.choices():
+        return choices[answer]
+    if np.ndim(answer) == 0:
+        return _number(answer)
+    if np.ndim(answer) == 1:
+        return "(" + ", ".join(map(_number, answer)) + ")"
+    return "\n".join(shown(one, row) for row in answer)
+
+
+def _number(value: Any) -> str:
+    return f"{round(float(value), 10) + 0.0:.6g}".replace("-", "−")

@@ -1,0 +1,114 @@
+"""Questions for PrairieLearn: a folder for each exercise, with the variants of all participants to choose from."""
+
+import json
+from collections.abc import Iterator
+from html import escape
+from typing import Any, cast
+from uuid import NAMESPACE_URL, uuid5
+
+import numpy as np
+
+from gelenk.exercises.answer_field import AnswerField
+from gelenk.exercises.exercise import Exercise, Variant
+from gelenk.exercises.fields import NumberArray, NumberField, SetField
+from gelenk.language import translated as _
+from gelenk.sheets.cloze import fits, in_order, order_note
+from gelenk.sheets.document import paragraphs, picture
+from gelenk.sheets.homework import Homework
+
+_SERVER = '''"""Chooses one of the variants in `variants.json`; PrairieLearn seeds `random` for each of its own."""
+
+import json
+import pathlib
+import random
+
+import numpy as np
+import prairielearn as pl
+
+
+def generate(data):
+    file = pathlib.Path(data["options"]["question_path"]) / "variants.json"
+    variant = random.choice(json.loads(file.read_text(encoding="utf-8")))
+    data["params"].update(variant["params"])
+    for name, answer in variant["answers"].items():
+        data["correct_answers"][name] = pl.to_json(np.array(answer)) if isinstance(answer, list) else answer
+'''
+
+
+def prairielearn_files(homework: Homework) -> Iterator[tuple[str, str]]:
+    """Yield the files of all exercises that PrairieLearn's elements can ask, by their paths."""
+    for exercise, variants in homework.pools():
+        if all(map(fits, variants)):
+            for name, content in _folder(homework, exercise, variants).items():
+                yield f"prairielearn/{exercise.id.replace('.', '_')}/{name}", content
+
+
+def _folder(homework: Homework, exercise: Exercise[Any], variants: tuple[Variant[Any], ...]) -> dict[str, str]:
+    info = {
+        "uuid": str(uuid5(NAMESPACE_URL, f"urn:gelenk:exercise:{exercise.id}:{exercise.version}")),
+        "title": _(exercise.title),
+        "topic": homework.title or exercise.lecture,
+        "tags": [exercise.lecture],
+        "type": "v3",
+    }
+    inputs = "\n".join(map(_input, variants[0].fields))
+    return {
+        "info.json": json.dumps(info, indent=2, ensure_ascii=False) + "\n",
+        "question.html": "<pl-question-panel>\n{{{params.text}}}\n</pl-question-panel>\n" + inputs + "\n"
+        "<pl-answer-panel>\n{{{params.solution}}}\n</pl-answer-panel>\n",
+        "server.py": _SERVER,
+        "variants.json": json.dumps([_variant(one) for one in variants], ensure_ascii=False) + "\n",
+    }
+
+
+def _input(one: AnswerField) -> str:
+    """Return the element for a field; what differs between variants comes from the parameters."""
+    label, name = escape(one.label), escape(one.name)
+    compared = f'answers-name="{name}" comparison="relabs" rtol="0" atol="{{{{params.{name}.tolerance}}}}"'
+    if choices := one.choices():
+        options = "\n".join(
+            f'  <pl-answer correct="{{{{params.{one.name}.c{i}}}}}">{escape(text)}</pl-answer>'
+            for i, text in enumerate(choices.values())
+        )
+        return (
+            f"<p>{label}</p>\n"
+            f'<pl-multiple-choice answers-name="{name}" fixed-order="true">\n{options}\n</pl-multiple-choice>'
+        )
+    if isinstance(one, NumberField):
+        unit = f' suffix="{escape(one.unit)}"' if one.unit else ""
+        return f'<pl-number-input {compared} label="{label}"{unit}></pl-number-input>'
+    unit = f" [{escape(one.unit)}]" if one.unit else ""
+    note = f" {escape(order_note())}" if isinstance(one, SetField) else ""
+    return f"<p>{label}{unit}.{note}</p>\n<pl-matrix-component-input {compared}></pl-matrix-component-input>"
+
+
+def _variant(variant: Variant[Any]) -> dict[str, Any]:
+    fields = {one.name: (one, variant.answers[one.name]) for one in variant.fields}
+    steps = "".join(
+        f"<h5>{escape(one.title)}</h5>{paragraphs(one.text)}"
+        + "".join(f"<p>$${escape(latex, quote=False)}$$</p>" for latex in one.latex)
+        for one in variant.exercise.steps(variant.numbers)
+    )
+    return {
+        "params": {
+            "text": paragraphs(variant.exercise.text(variant.numbers)) + picture(variant),
+            "solution": steps,
+            **{name: _params(one, right) for name, (one, right) in fields.items()},
+        },
+        "answers": {name: _answer(one, right) for name, (one, right) in fields.items() if not one.choices()},
+    }
+
+
+def _params(one: AnswerField, right: Any) -> dict[str, Any]:
+    if choices := one.choices():
+        return {f"c{i}": str(word == right).lower() for i, word in enumerate(choices)}
+    if isinstance(one, SetField):
+        return {"tolerance": min(one.item.allowed(row) for row in in_order(one, right))}
+    return {"tolerance": cast(NumberArray, one).allowed(right)}
+
+
+def _answer(one: AnswerField, right: Any) -> Any:
+    if isinstance(one, SetField):
+        return [row.tolist() for row in in_order(one, right)]
+    array = np.asarray(right, float)
+    return float(array) if array.ndim == 0 else np.atleast_2d(array).tolist()
