@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from gelenk.course.steps import Step
 from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.draw import Draw
+from gelenk.plots.figure import as_bytes
 
 N = TypeVar("N")
 Answers: TypeAlias = Mapping[str, Any]
@@ -81,6 +82,16 @@ class Variant(Generic[N]):
     def fields(self) -> tuple[AnswerField, ...]:
         """What is asked for."""
         return tuple(self.exercise.fields(self.numbers))
+
+    @cached_property
+    def steps(self) -> tuple[Step, ...]:
+        """The worked solution."""
+        return tuple(self.exercise.steps(self.numbers))
+
+    @cached_property
+    def svg(self) -> bytes | None:
+        """The picture of the task, if it has one."""
+        return self.exercise.picture and as_bytes(self.exercise.picture(self.numbers), "svg")
 
     @cached_property
     def wrong(self) -> dict[str, Answers]:

@@ -20,7 +20,6 @@ from gelenk.http.messages.routes import DocumentedRoute, Handler
 from gelenk.http.workers.pool_client import INLINE_BYTES, PoolClient
 from gelenk.http.workers.task import Context, TaskRequest, buffers
 from gelenk.language import Language, language, translated
-from gelenk.plots.figure import as_bytes
 
 ExercisePath = Annotated[
     str, Path(description="Id of an exercise.", openapi_examples={"linkage": {"value": "mobility.linkage"}})
@@ -108,12 +107,11 @@ def _listed(code: Language) -> list[dict[str, Any]]:
 
 
 def _drawn(variant: Variant[Any], _: Any) -> dict[str, Any]:
-    draw, numbers = variant.exercise, variant.numbers
     return {
-        "text": draw.text(numbers),
-        "picture": draw.picture and as_bytes(draw.picture(numbers), "svg").decode(),
+        "text": variant.exercise.text(variant.numbers),
+        "picture": variant.svg and variant.svg.decode(),
         "fields": [_field(one) for one in variant.fields],
-        "hints": [one.title for one in draw.steps(numbers)],
+        "hints": [one.title for one in variant.steps],
     }
 
 
@@ -132,7 +130,7 @@ def _field(one: AnswerField) -> dict[str, Any]:
 
 
 def _solved(variant: Variant[Any], _: Any) -> dict[str, Any]:
-    return {"answers": variant.answers, "steps": variant.exercise.steps(variant.numbers)}
+    return {"answers": variant.answers, "steps": variant.steps}
 
 
 def _graded(variant: Variant[Any], request: ExerciseGradeRequest) -> dict[str, Any]:

@@ -14,7 +14,6 @@ from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.exercise import Variant
 from gelenk.language import current_language
 from gelenk.language import translated as _
-from gelenk.plots.figure import as_bytes
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 _MOST_ROWS = 8
@@ -32,7 +31,7 @@ h2 { font-size: 12pt; margin: 7mm 0 2mm; break-after: avoid; display: flex; just
 h2 .points { font-weight: normal; font-size: 10pt; color: #6b7580; white-space: nowrap; }
 h3 { font-size: 10.5pt; margin: 4mm 0 1mm; break-after: avoid; }
 p { margin: 0 0 2.5mm; white-space: pre-line; overflow-wrap: anywhere; }
-img { display: block; max-width: 130mm; max-height: 95mm; margin: 3mm auto; break-inside: avoid; }
+img { display: block; max-width: 110mm; max-height: 75mm; margin: 3mm auto; break-inside: avoid; }
 table.answers { border-collapse: collapse; margin: 2mm 0 0; break-inside: avoid; }
 table.answers > tbody > tr { break-inside: avoid; }
 table.answers th { text-align: left; font-weight: normal; vertical-align: middle; padding: 1.2mm 5mm 1.2mm 0;
@@ -77,19 +76,12 @@ def formula(latex: str) -> str:
     return f'<div class="formula">{convert(upright, display="block")}</div>'
 
 
-def svg(variant: Variant[Any]) -> bytes | None:
-    """Return the picture of a variant, or None."""
-    draw = variant.exercise.picture
-    return draw and as_bytes(draw(variant.numbers), "svg")
-
-
 def picture(variant: Variant[Any]) -> str:
     """Return the picture of a variant inside the page, or "": as a file of its own, so that no two ids meet."""
-    drawn = svg(variant)
-    if drawn is None:
+    if variant.svg is None:
         return ""
     name = escape(_(variant.exercise.title), quote=True)
-    return f'<img alt="{name}" src="data:image/svg+xml;base64,{base64.b64encode(drawn).decode()}">'
+    return f'<img alt="{name}" src="data:image/svg+xml;base64,{base64.b64encode(variant.svg).decode()}">'
 
 
 def worked(steps: Sequence[Step]) -> str:

@@ -9,7 +9,7 @@ from gelenk.errors import InvalidField
 from gelenk.exercises.exercise import Variant
 from gelenk.language import translated as _
 from gelenk.sheets.cloze import fits, questions
-from gelenk.sheets.document import paragraphs, svg
+from gelenk.sheets.document import paragraphs
 from gelenk.sheets.homework import Homework
 
 _PICTURE = "picture.svg"
@@ -39,7 +39,7 @@ def moodle_xml(homework: Homework, is_partial: bool = False) -> bytes:
 
 
 def _question(variant: Variant[Any], name: str) -> Element:
-    question, drawn = Element("question", type="cloze"), svg(variant)
+    question, drawn = Element("question", type="cloze"), variant.svg
     SubElement(SubElement(question, "name"), "text").text = name
     asked = "".join(
         f"<p>{escape(one.label, quote=False)}{f' [{one.unit}]' if one.unit else ''}: {embedded}</p>"
@@ -69,5 +69,5 @@ def _worked(variant: Variant[Any]) -> str:
     return "".join(
         f"<h5>{escape(one.title, quote=False)}</h5>{paragraphs(one.text)}"
         + "".join(rf"<p>\[{escape(latex, quote=False)}\]</p>" for latex in one.latex)
-        for one in variant.exercise.steps(variant.numbers)
+        for one in variant.steps
     )

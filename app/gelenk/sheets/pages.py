@@ -52,7 +52,7 @@ def _solution(variant: Variant[Any]) -> str:
         f"<td>{_unit(one.unit)}</td></tr>"
         for one in variant.fields
     )
-    steps = worked(variant.exercise.steps(variant.numbers))
+    steps = worked(variant.steps)
     return f'<table class="answers"><tbody>{"".join(rows)}</tbody></table>{steps}'
 
 

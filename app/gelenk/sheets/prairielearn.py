@@ -87,7 +87,7 @@ def _variant(variant: Variant[Any]) -> dict[str, Any]:
     steps = "".join(
         f"<h5>{escape(one.title)}</h5>{paragraphs(one.text)}"
         + "".join(f"<p>$${escape(latex, quote=False)}$$</p>" for latex in one.latex)
-        for one in variant.exercise.steps(variant.numbers)
+        for one in variant.steps
     )
     return {
         "params": {
