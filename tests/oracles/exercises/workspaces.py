@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 TURNS = np.exp(1j * np.linspace(0.0, 2 * pi, 721))
-RADII = np.linspace(0.0, 3.6, 3601)
+RADII = np.linspace(0.0, 4.5, 4501)
 """Every millimetre."""
 
 

@@ -107,7 +107,7 @@ PRIMARY = Exercise(
     title=marked("The primary workspace of three links"),
     difficulty=2,
     draw=_long_link,
-    is_degenerate=lambda one: _is_near_limit(one) or (2.0 * max(one) < sum(one) and int(10.0 * sum(one)) % 3 > 0),
+    is_degenerate=_is_near_limit,
     text=lambda one: _(
         "A planar arm has three links of {l1:g} m, {l2:g} m and {l3:g} m whose joints turn without limits. Between "
         "which distances from the base are the points of its primary workspace WS₁, reached with at least one "
