@@ -33,9 +33,11 @@ def test_each_command_shows_a_call_and_each_call_answers(
         assert program == "gelenk"
         if command == "add":
             shell("-o", "arm.urdf", "robots", "planar_2r", "--urdf")
+        if command == "grade":
+            Path("answers.csv").write_text("participant,exercise,field,answer\n7,actuators.gear,speed,60\n", "utf-8")
         shell(*arguments)
     assert {path.name for path in tmp_path.iterdir()} == {
-        *("arm.urdf", "table.csv", "motion.csv", "points.npy", "ellipse.svg", "reach.png")
+        *("arm.urdf", "table.csv", "motion.csv", "points.npy", "ellipse.svg", "reach.png", "sheets.zip", "answers.csv")
     }
 
 

@@ -28,6 +28,7 @@ from gelenk.pool.pool import WorkerPool
 from gelenk.robot.chain import build_chain
 from gelenk.robot.poses import Poses
 from gelenk.robot.urdf import read_urdf
+from gelenk.sheets.pdf import printed
 from gelenk.store.archive import unpacked
 from gelenk.store.folders import writing
 from gelenk.store.library import Library, Quota, RobotUpload
@@ -114,6 +115,7 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.StorageFull: lambda: refused_by_the_system(errno.ENOSPC),
     errors.JobExists: lambda: in_a_store(lambda store: [store.add("workspace", digest, {}, "one") for digest in "ab"]),
     errors.JobNotFinished: lambda: result_of({}),
+    errors.NotPrinted: lambda: printed_without_a_browser(),  # noqa: PLW0108 - it stands below
     errors.JobFinished: lambda: in_a_store(cancelled_twice),
     errors.JobCancelled: lambda: result_of({"state": "cancelled"}),
     errors.JobFailed: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobFailed("it died"))}),
@@ -131,6 +133,12 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.CertificationFailed: lambda: certify_poses(PLANAR, PLANAR.chain(None, None), np.zeros((1, 2)), WRONG),
 }
 """What needs more than a request, or a state that no request can bring about."""
+
+
+def printed_without_a_browser() -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("shutil.which", lambda _: None)
+        printed("")
 
 
 def beyond_the_quota() -> None:
