@@ -7,6 +7,8 @@ import sys
 from pathlib import Path
 from textwrap import dedent
 
+import pytest
+
 CONTRACT = '''
 from gelenk.contract.common import Answer, ChainOptions
 from gelenk.contract.endpoint import RobotEndpoint
@@ -108,6 +110,7 @@ print(json.dumps(found))
 """
 
 
+@pytest.mark.slow
 def test_two_files_make_an_operation_of_all_parts(tmp_path: Path) -> None:
     for folder, text in (("contract", CONTRACT), ("operations", OPERATION)):
         (tmp_path / folder).mkdir()

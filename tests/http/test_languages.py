@@ -75,6 +75,7 @@ def numbers(step: dict[str, Any]) -> Counter[str]:
     return Counter(NUMBER.findall(" ".join([step["title"], step["text"], *step["latex"]])))
 
 
+@pytest.mark.quick(12)
 @pytest.mark.parametrize(("name", "robot", "request_"), [*((name, "panda", None) for name in SPEAKING), *OTHERS])
 def test_a_solution_reads_without_latex_and_in_german(
     client: TestClient, name: str, robot: str, request_: dict[str, Any] | None

@@ -77,6 +77,7 @@ def test_a_process_that_is_killed_from_outside_is_replaced(workers: Workers) -> 
     assert [workers.submit(double, i, soon()).result(SOON) for i in range(4)] == [0, 2, 4, 6]
 
 
+@pytest.mark.slow
 def test_what_hangs_is_killed_when_it_is_cancelled_and_nothing_else_is(workers: Workers) -> None:
     for future in [workers.submit(sleep, 0.3, soon()) for _ in range(2)]:
         future.result(SOON)

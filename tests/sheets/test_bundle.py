@@ -65,6 +65,7 @@ def written(tmp_path: Path, files: Any) -> Path:
     return tmp_path / "prairielearn"
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("prairielearn")
 def test_prairielearn_gets_the_right_answers(tmp_path: Path) -> None:
     one = homework()

@@ -84,6 +84,7 @@ def numbers(variant: Variant[Any]) -> list[tuple[Any, float]]:
     return found
 
 
+@pytest.mark.slow
 def test_every_answer_is_asked_for_and_right() -> None:
     one = homework()
     asked = {text_of(question, "name"): question for question in questions(moodle_xml(one, is_partial=True))}
@@ -104,6 +105,7 @@ def test_every_answer_is_asked_for_and_right() -> None:
                 assert [shown(one.answer) for one in part.alternatives if one.share == 1.0] == [right_text]
 
 
+@pytest.mark.slow
 def test_a_mistake_has_its_sentence() -> None:
     """For scalar fields Moodle says what grading says."""
     one, count = homework(), 0
@@ -185,12 +187,14 @@ def test_each_exercise_has_a_category() -> None:
     assert [one.get("type") for one in quiz] == ["category", "cloze", "cloze"] * 2
 
 
+@pytest.mark.slow
 def test_names_of_participants_do_not_leave() -> None:
     xml = moodle_xml(homework(participants=("Ada Lovelace", "Grace Hopper")), is_partial=True).decode()
     assert "Lovelace" not in xml
     assert "Hopper" not in xml
 
 
+@pytest.mark.slow
 def test_what_moodle_cannot_ask_is_refused_or_said() -> None:
     one = homework()
     left_out = [exercise.id for exercise, all_of in one.pools() if not all(map(fits, all_of))]

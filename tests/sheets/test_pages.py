@@ -3,6 +3,8 @@
 import re
 from html.parser import HTMLParser
 
+import pytest
+
 from gelenk.language import language
 from gelenk.sheets.document import formula
 from gelenk.sheets.pages import booklet_page, sheets_page
@@ -39,6 +41,7 @@ class Reader(HTMLParser):
         return sum(name == tag and kind in (None, attrs.get("class")) for name, attrs in self.all)
 
 
+@pytest.mark.slow
 def test_each_participant_has_a_sheet_with_all_exercises_and_no_solution() -> None:
     one = homework()
     page = sheets_page(one)

@@ -1,8 +1,11 @@
 """The page to try calls on finds operations by their words, shows no padlock where no key is set, and leads on."""
 
+import pytest
+
 from tests.studio.browser import Studio
 
 
+@pytest.mark.slow
 def test_operations_are_found_by_words_of_path_name_or_description(studio: Studio) -> None:
     page = studio.page
     page.goto(f"{studio.url}/docs")

@@ -130,6 +130,7 @@ def test_the_keyboard_reaches_everything(studio: Studio) -> None:
     assert studio.run("document.activeElement.textContent") == "Robot"
 
 
+@pytest.mark.slow
 def test_the_first_robot_is_there_within_two_seconds(studio: Studio) -> None:
     """The best of a few visits, the first of which has warmed the service: what else the machine does is not ours."""
     times: list[float] = []
