@@ -95,11 +95,13 @@ def requests_of(url: str) -> list[Asked]:
     for path, methods in paths.items():
         for method, operation in methods.items():
             content = operation.get("requestBody", {}).get("content", {}).get("application/json", {})
-            robot = "my_arm" if method == "put" else ROBOT
+            given = [one for one in operation.get("parameters", []) if one["in"] == "path"]
+            names = {one["name"]: next(iter(one["examples"].values()))["value"] for one in given}
+            place = path.format_map({**names, "robot": "my_arm" if method == "put" else ROBOT})
             if (example := example_of(content)) is not None:
-                found.append(Asked(method.upper(), path.format(robot=robot), json.dumps(example).encode()))
+                found.append(Asked(method.upper(), place, json.dumps(example).encode()))
             elif method == "get" and not {"{job}", "{path}"} & set(path.split("/")):
-                found.append(Asked("GET", path.format(robot=robot), None))
+                found.append(Asked("GET", place, None))
     return found
 
 

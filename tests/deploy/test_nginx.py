@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlsplit
+from urllib.parse import urljoin, urlsplit
 
 import httpx2
 import numpy as np
@@ -78,7 +78,7 @@ def test_all_that_a_page_names_is_there(lab: Lab, page: str) -> None:
     files = [name for name in names if not name.startswith(("data:", "#", "http"))]
     assert files
     assert [name for name in files if name.startswith("/")] == []
-    assert {name: lab.ask(f"{PREFIX}/{name}")[0] for name in files} == dict.fromkeys(files, 200)
+    assert {name: lab.ask(urljoin(f"{PREFIX}/{page}", name))[0] for name in files} == dict.fromkeys(files, 200)
 
 
 def test_the_schema_says_where_the_service_is(lab: Lab) -> None:

@@ -110,6 +110,7 @@ def make_real(case: Any, data: st.DataObject) -> None:
         "job": NEW_JOB if of_others else JOB,
         "path": data.draw(st.sampled_from(_MESHES)),
         "exercise": EXAMPLE_EXERCISE,
+        "picture": "joint-pairs",
     }
     case.path_parameters = {name: places[name] for name in case.path_parameters or {}}
     if case.query:
