@@ -2,17 +2,18 @@
 
 import math
 from collections.abc import Sequence
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from gelenk.course.velocity.geometry import ChainGeometry, chain_geometry
 from gelenk.kinematics.velocity.velocity import jacobian_derivatives
-from gelenk.plots.course.planar_arm import PlanarJoint, planar_arm_figure
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain, FlatChain
 from gelenk.robot.dh import DhJoint
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Row: TypeAlias = tuple[bool, float, float, float, float]
 """Whether the joint slides, then a, α, d and ϑ without the variable."""
@@ -96,8 +97,10 @@ def angles_not_summed(lengths: Sequence[float], q: Array) -> Array:
     return np.array([np.cumsum(column[::-1])[::-1] for column in columns])
 
 
-def planar_picture(lengths: Sequence[float], degrees: Sequence[float]) -> Figure:
+def planar_picture(lengths: Sequence[float], degrees: Sequence[float]) -> "Figure":
     """Draw a planar arm with its lengths and angles."""
+    from gelenk.plots.course.planar_arm import PlanarJoint, planar_arm_figure  # noqa: PLC0415
+
     angles = radians(*degrees).tolist()
     joints = [PlanarJoint("R", angle, length) for angle, length in zip(angles, lengths, strict=True)]
     return planar_arm_figure(joints, values=True)

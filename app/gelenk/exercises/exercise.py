@@ -3,14 +3,14 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Generic, TypeAlias, TypeVar
-
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 from gelenk.course.steps import Step
 from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.draw import Draw
-from gelenk.plots.figure import as_bytes
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 N = TypeVar("N")
 Answers: TypeAlias = Mapping[str, Any]
@@ -52,7 +52,7 @@ class Exercise(Generic[N]):
     solve: Callable[[N], Answers]
     steps: Callable[[N], Sequence[Step]]
     wrong: Mapping[str, Callable[[N], Answers]] = field(default_factory=dict)
-    picture: Callable[[N], Figure] | None = None
+    picture: "Callable[[N], Figure] | None" = None
 
     @property
     def lecture(self) -> str:
@@ -91,7 +91,11 @@ class Variant(Generic[N]):
     @cached_property
     def svg(self) -> bytes | None:
         """The picture of the task, if it has one."""
-        return self.exercise.picture and as_bytes(self.exercise.picture(self.numbers), "svg")
+        if self.exercise.picture is None:
+            return None
+        from gelenk.plots.figure import as_bytes  # noqa: PLC0415
+
+        return as_bytes(self.exercise.picture(self.numbers), "svg")
 
     @cached_property
     def wrong(self) -> dict[str, Answers]:

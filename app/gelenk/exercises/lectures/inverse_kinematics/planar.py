@@ -1,10 +1,9 @@
 """Two and three links in a plane."""
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.lectures.inverse_kinematics.by_hand import joints_field, revolute, solutions, steps_by_hand
@@ -13,6 +12,9 @@ from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable
 from gelenk.robot.poses import transform
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _XY = frozenset("xy")
 _GENERIC = (0.6, 0.9, -0.5)
@@ -68,7 +70,7 @@ def _without_quadrant(one: TwoLinks) -> Answers:
     return {"solutions": [q + np.array([turn, 0.0]) for q in one.answers()]}
 
 
-def _pictured(*lengths: float) -> Figure:
+def _pictured(*lengths: float) -> "Figure":
     """Draw an arm with the names of its lengths and angles, elsewhere than it is asked for."""
     from gelenk.plots.course.planar_arm import PlanarJoint, planar_arm_figure  # noqa: PLC0415
 

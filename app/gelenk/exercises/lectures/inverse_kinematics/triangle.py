@@ -1,10 +1,9 @@
 """The triangle of two links, by the law of cosines."""
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from gelenk.course.steps import Step, step, tex
 from gelenk.course.triangle.triangle import SolvedTriangle, solved_triangle
@@ -14,6 +13,9 @@ from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import NumberField
 from gelenk.language import marked
 from gelenk.language import translated as _
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _DIRECTION = math.radians(20.0)
 
@@ -67,7 +69,7 @@ def _steps(one: TwoLinkTriangle) -> list[Step]:
     ]
 
 
-def _picture(one: TwoLinkTriangle) -> Figure:
+def _picture(one: TwoLinkTriangle) -> "Figure":
     from gelenk.plots.course.planar_arm import elbows_figure  # noqa: PLC0415
 
     x, y = one.distance * np.array([math.cos(_DIRECTION), math.sin(_DIRECTION)])
