@@ -93,3 +93,8 @@ def test_what_is_no_triangle_names_the_inequality(given: dict[str, float], field
         solved_triangle(given)
     assert refused.value.field == field
     assert reason in str(refused.value)
+
+
+def test_a_triangle_that_is_nearly_flat_keeps_its_digits() -> None:
+    found = solved_triangle({"alpha": 1e-6, "a": 1e-6, "beta": 1e-6})
+    assert found.triangles[0].sides == pytest.approx((1e-6, 1e-6, 2e-6 * math.cos(1e-6)), rel=1e-14)

@@ -156,8 +156,9 @@ def _from_one_side(parts: Mapping[str, float], sides: list[int], angles: list[in
         total = parts[ANGLES[k]] + parts[ANGLES[m]]
         raise InvalidField(ANGLES[m], f"no triangle: {names} is violated, the sum is {total:.10g}")
     values = {k: parts[ANGLES[k]], m: parts[ANGLES[m]], 3 - k - m: rest}
-    scale = parts[SIDES[i]] / math.sin(values[i])
-    lengths = {n: scale * math.sin(values[n]) for n in range(3)} | {i: parts[SIDES[i]]}
+    # The sine of the sum: that of the third angle would lose digits where it is near π.
+    sines = {n: math.sin(angle) for n, angle in values.items()} | {3 - k - m: math.sin(values[k] + values[m])}
+    lengths = {n: parts[SIDES[i]] * sines[n] / sines[i] for n in range(3)} | {i: parts[SIDES[i]]}
     triangle = Triangle((lengths[0], lengths[1], lengths[2]), (values[0], values[1], values[2]))
     others = [n for n in range(3) if n != i]
     return ("AAS" if i in angles else "ASA"), (i, others[0], others[1]), (triangle,)
