@@ -27,7 +27,7 @@ POSE = frozenset({"x", "y", "z", "rx", "ry", "rz"})
 POSITION = frozenset("xyz")
 
 
-def asked(name: str, qs: Any, **call: Any) -> tuple[list[list[Step]], InverseKinematics]:
+def solved_by_hand(name: str, qs: Any, **call: Any) -> tuple[list[list[Step]], InverseKinematics]:
     """The steps and what is sent, for the poses of some configurations."""
     chain = robot(name).chain(None, None)
     poses = Poses(*chain_poses(chain.flat, np.atleast_2d(np.array(qs, dtype=float))))
@@ -134,7 +134,7 @@ ARMS = [
 def test_by_hand_are_all_the_solutions_of_the_solver(name: str) -> None:
     chain = robot(name).chain(None, None)
     qs = np.random.default_rng(4).uniform(np.maximum(chain.lower, -3.0), np.minimum(chain.upper, 3.0), (6, len(chain)))
-    worked_out, found = asked(name, qs, respect_limits=False)
+    worked_out, found = solved_by_hand(name, qs, respect_limits=False)
     for i, steps in enumerate(worked_out):
         sent = found.qs[found.firsts[i] : found.firsts[i + 1]]
         lines = listed(steps)
@@ -144,7 +144,7 @@ def test_by_hand_are_all_the_solutions_of_the_solver(name: str) -> None:
 
 
 def test_what_is_beyond_the_limits_has_a_star() -> None:
-    (steps,), found = asked("stanford", [0.2, 0.5, 0.6, -0.3, 0.7, 0.1])
+    (steps,), found = solved_by_hand("stanford", [0.2, 0.5, 0.6, -0.3, 0.7, 0.1])
     stars = [line.startswith("*") for line in listed(steps)]
     assert (len(stars), stars.count(False)) == (8, len(found.qs))
 
@@ -200,7 +200,7 @@ def test_a_wrist_in_line_has_only_a_sum(middle: float, known: str) -> None:
 
 def test_a_wrist_centre_on_the_first_axis_is_a_family() -> None:
     third = math.asin(-0.5 * math.cos(1.0) / 0.4) - 1.0
-    (steps,), found = asked("anthropomorphic_wrist", [0.3, 1.0, third, 0.2, 0.9, -0.5], respect_limits=False)
+    (steps,), found = solved_by_hand("anthropomorphic_wrist", [0.3, 1.0, third, 0.2, 0.9, -0.5], respect_limits=False)
     assert len(found.qs) > 8
     assert "A family of solutions" in text(steps)
 
@@ -229,7 +229,7 @@ def test_the_choice_of_the_tables_axes_does_not_matter(turned: int, offset: floa
 
 
 def test_arms_without_a_solution_by_hand_say_so() -> None:
-    (steps,), _ = asked("so100", [0.1, 0.3, 0.2, 0.5, 0.3], solutions="one")
+    (steps,), _ = solved_by_hand("so100", [0.1, 0.3, 0.2, 0.5, 0.3], solutions="one")
     assert [step.title for step in steps] == ["How it was solved"]
 
 

@@ -43,7 +43,7 @@ def exercise(one: AnswerField, right: Any, wrong: dict[str, Callable[[Any], Any]
     )
 
 
-def told(one: AnswerField, right: Any, given: Any, wrong: Any = None) -> tuple[float, str | None]:
+def graded_field(one: AnswerField, right: Any, given: Any, wrong: Any = None) -> tuple[float, str | None]:
     """Points of an answer, and the code of the mistake."""
     (grade,) = graded(exercise(one, right, wrong).variant(0), {"x": given}).fields
     return grade.points, grade.mistake.code if grade.mistake else None
@@ -67,7 +67,7 @@ def told(one: AnswerField, right: Any, given: Any, wrong: Any = None) -> tuple[f
     ],
 )  # fmt: skip
 def test_it_is_the_same(one: AnswerField, right: Any, given: Any) -> None:
-    assert told(one, right, given) == (1.0, None)
+    assert graded_field(one, right, given) == (1.0, None)
 
 
 @pytest.mark.parametrize(
@@ -88,7 +88,7 @@ def test_it_is_the_same(one: AnswerField, right: Any, given: Any) -> None:
     ],
 )
 def test_it_is_another_one(one: AnswerField, right: Any, given: Any, code: str | None) -> None:
-    assert told(one, right, given) == (0.0, code)
+    assert graded_field(one, right, given) == (0.0, code)
 
 
 BRANCHES = [[0.1, 1.6], [1.3, -1.6], [-2.0, 0.4], [3.1, -0.4]]
@@ -108,7 +108,7 @@ BRANCHES = [[0.1, 1.6], [1.3, -1.6], [-2.0, 0.4], [3.1, -0.4]]
     ],
 )
 def test_a_set_earns_what_is_in_it(given: Any, points: float, code: str | None) -> None:
-    assert told(SOLUTIONS, BRANCHES, given) == (points, code)
+    assert graded_field(SOLUTIONS, BRANCHES, given) == (points, code)
 
 
 @pytest.mark.parametrize(
@@ -136,7 +136,7 @@ def test_it_is_no_answer(one: AnswerField, given: Any) -> None:
 
 def test_solutions_of_a_wrong_model_that_coincide_count_once() -> None:
     right = [[0.3, math.pi / 2], [0.3 + math.pi, -math.pi / 2]]
-    assert told(SOLUTIONS, right, [[0.6, math.pi]]) == (0.0, "twice")
+    assert graded_field(SOLUTIONS, right, [[0.6, math.pi]]) == (0.0, "twice")
 
 
 def test_a_wrong_model_is_offered_only_where_it_can_be_told_apart() -> None:
@@ -148,9 +148,9 @@ def test_a_wrong_model_is_offered_only_where_it_can_be_told_apart() -> None:
 
 
 def test_a_model_of_the_exercise_comes_before_a_general_one() -> None:
-    assert told(NUMBER, 1.0, -1.0, {"alpha_sign": lambda x: -x}) == (0.0, "alpha_sign")
+    assert graded_field(NUMBER, 1.0, -1.0, {"alpha_sign": lambda x: -x}) == (0.0, "alpha_sign")
 
 
 def test_a_model_that_does_not_exist_for_some_numbers_is_left_out() -> None:
     wrong = {"quadrant": lambda x: 1.0 / x, "alpha_sign": lambda x: x + 5.0}
-    assert told(NUMBER, 0.0, 5.0, wrong) == (0.0, "alpha_sign")
+    assert graded_field(NUMBER, 0.0, 5.0, wrong) == (0.0, "alpha_sign")

@@ -14,7 +14,7 @@ LINKAGE = f"{PATH}/mobility.linkage"
 RIGHT = {"constraints": 8, "mobility": 1, "verdict": "mechanism"}
 
 
-def asked(client: TestClient, path: str, **body: Any) -> Any:
+def post(client: TestClient, path: str, **body: Any) -> Any:
     answer = client.post(path, json=body)
     assert answer.status_code == 200, answer.text
     return answer.json()
@@ -32,40 +32,40 @@ def test_all_exercises_are_listed_by_lectures(client: TestClient) -> None:
 @pytest.mark.quick(13)
 @pytest.mark.parametrize("exercise", list(exercises()))
 def test_a_variant_is_drawn_solved_and_graded(client: TestClient, exercise: str) -> None:
-    drawn = asked(client, f"{PATH}/{exercise}", seed=3)
+    drawn = post(client, f"{PATH}/{exercise}", seed=3)
     variant = ExerciseVariant.model_validate(drawn)
-    assert drawn == asked(client, f"{PATH}/{exercise}", seed=3)
+    assert drawn == post(client, f"{PATH}/{exercise}", seed=3)
     assert (variant.picture is None) == (exercises()[exercise].picture is None)
-    solved = asked(client, f"{PATH}/{exercise}/solution", seed=3)
+    solved = post(client, f"{PATH}/{exercise}/solution", seed=3)
     solution = ExerciseSolution.model_validate(solved)
     assert solution.answers.keys() == {field.name for field in variant.fields}
     assert [step.title for step in solution.steps] == variant.hints
-    grade = ExerciseGrade.model_validate(asked(client, f"{PATH}/{exercise}/grade", seed=3, answers=solved["answers"]))
+    grade = ExerciseGrade.model_validate(post(client, f"{PATH}/{exercise}/grade", seed=3, answers=solved["answers"]))
     assert grade.points == grade.max_points == sum(field.points for field in variant.fields)
     assert all(field.correct and field.mistake is None for field in grade.fields)
 
 
 def test_texts_are_in_the_language_asked_for(client: TestClient) -> None:
     """Without compiled catalogues the texts stay English; they are the same in no other respect."""
-    german = asked(client, LINKAGE, seed=3, language="de")
+    german = post(client, LINKAGE, seed=3, language="de")
     assert german["fields"][0]["name"] == "constraints"
     assert client.get(PATH, params={"language": "fr"}).status_code == 422
 
 
 def test_answers_of_the_wrong_form_are_explained(client: TestClient) -> None:
     answers = {"constraints": "eight", "mobility": [1], "verdict": "perhaps"}
-    grade = asked(client, f"{LINKAGE}/grade", seed=3, answers=answers)
+    grade = post(client, f"{LINKAGE}/grade", seed=3, answers=answers)
     assert grade["points"] == 0.0
     assert [one["mistake"]["code"] for one in grade["fields"]] == ["not_a_number", "not_a_number", "not_a_choice"]
-    (pairs,) = asked(client, f"{PATH}/mobility.pairs/grade", seed=3, answers={"constraints": [1, 2]})["fields"]
+    (pairs,) = post(client, f"{PATH}/mobility.pairs/grade", seed=3, answers={"constraints": [1, 2]})["fields"]
     assert pairs["mistake"] == {"code": "wrong_shape", "text": "The answer has this shape: 5 numbers."}
-    grade = asked(client, f"{LINKAGE}/grade", seed=3, answers={})
+    grade = post(client, f"{LINKAGE}/grade", seed=3, answers={})
     assert {one["mistake"]["code"] for one in grade["fields"]} == {"missing"}
 
 
 @pytest.mark.parametrize("value", [None, True, 1e308, "nan", "1e999", {}, {"a": []}, [[[]]], "x" * 3000])
 def test_no_answer_is_an_error(client: TestClient, value: Any) -> None:
-    grade = asked(client, f"{LINKAGE}/grade", seed=3, answers=dict.fromkeys(RIGHT, value))
+    grade = post(client, f"{LINKAGE}/grade", seed=3, answers=dict.fromkeys(RIGHT, value))
     assert not any(one["correct"] for one in grade["fields"])
 
 
@@ -78,9 +78,9 @@ def test_numbers_are_finite(client: TestClient, value: str) -> None:
 
 
 def test_a_decimal_comma_is_read(client: TestClient) -> None:
-    right = asked(client, f"{PATH}/actuators.motor/solution", seed=3)["answers"]
+    right = post(client, f"{PATH}/actuators.motor/solution", seed=3)["answers"]
     answers = {name: f" {value:.6f} ".replace(".", ",") for name, value in right.items()}
-    grade = asked(client, f"{PATH}/actuators.motor/grade", seed=3, answers=answers)
+    grade = post(client, f"{PATH}/actuators.motor/grade", seed=3, answers=answers)
     assert grade["points"] == grade["max_points"]
 
 
@@ -98,7 +98,7 @@ def test_what_does_not_exist_is_named(client: TestClient) -> None:
 
 def test_a_large_body_is_graded_by_a_worker(client: TestClient) -> None:
     answers = RIGHT | {"verdict": "m" * 20_000}
-    grade = asked(client, f"{LINKAGE}/grade", seed=3, answers=answers)
+    grade = post(client, f"{LINKAGE}/grade", seed=3, answers=answers)
     assert grade["fields"][2]["mistake"]["code"] == "not_a_choice"
 
 

@@ -67,11 +67,11 @@ def names(scene: DhScene) -> set[str]:
 def drawn(monkeypatch: pytest.MonkeyPatch, arm: tuple[DhTable, list[float]]) -> Figure:
     figures: list[Figure] = []
 
-    def kept(figure: Figure, _: PictureFormat) -> bytes:
+    def captured(figure: Figure, _: PictureFormat) -> bytes:
         figures.append(figure)
         return b""
 
-    monkeypatch.setattr("gelenk.plots.figure.as_bytes", kept)
+    monkeypatch.setattr("gelenk.plots.figure.as_bytes", captured)
     dh_picture(*arm, "svg")
     return figures[0]
 

@@ -24,11 +24,11 @@ def drawn(monkeypatch: pytest.MonkeyPatch, blend: Blend, motion: PiecewisePolyno
     """What is drawn, instead of its bytes."""
     figures: list[Figure] = []
 
-    def kept(figure: Figure, _: PictureFormat) -> bytes:
+    def captured(figure: Figure, _: PictureFormat) -> bytes:
         figures.append(figure)
         return b""
 
-    monkeypatch.setattr("gelenk.plots.figure.as_bytes", kept)
+    monkeypatch.setattr("gelenk.plots.figure.as_bytes", captured)
     fly_over_picture(blend, motion, "svg")
     return figures[0]
 

@@ -19,11 +19,11 @@ def drawn(monkeypatch: pytest.MonkeyPatch, links: Sequence[float], point: Sequen
     """What is drawn, instead of its bytes."""
     figures: list[Figure] = []
 
-    def kept(figure: Figure, _: PictureFormat) -> bytes:
+    def captured(figure: Figure, _: PictureFormat) -> bytes:
         figures.append(figure)
         return b""
 
-    monkeypatch.setattr("gelenk.plots.figure.as_bytes", kept)
+    monkeypatch.setattr("gelenk.plots.figure.as_bytes", captured)
     planar_workspace_picture(planar_workspace(links), point, "svg")
     return figures[0]
 

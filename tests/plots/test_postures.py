@@ -16,11 +16,11 @@ def drawn(monkeypatch: pytest.MonkeyPatch, name: str, qs: Array) -> Figure:
     """What is drawn, instead of its bytes."""
     figures: list[Figure] = []
 
-    def kept(figure: Figure, _: PictureFormat) -> bytes:
+    def captured(figure: Figure, _: PictureFormat) -> bytes:
         figures.append(figure)
         return b""
 
-    monkeypatch.setattr("gelenk.plots.figure.as_bytes", kept)
+    monkeypatch.setattr("gelenk.plots.figure.as_bytes", captured)
     machine = robot(name)
     chain = machine.chain(None, None)
     translation = manipulability(machine, chain, qs).parts["translation"]

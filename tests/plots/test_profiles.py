@@ -23,11 +23,11 @@ def figures(monkeypatch: pytest.MonkeyPatch) -> list[Figure]:
     """What is drawn, instead of its bytes."""
     drawn: list[Figure] = []
 
-    def kept(figure: Figure, _: PictureFormat) -> bytes:
+    def captured(figure: Figure, _: PictureFormat) -> bytes:
         drawn.append(figure)
         return b""
 
-    monkeypatch.setattr("gelenk.plots.figure.as_bytes", kept)
+    monkeypatch.setattr("gelenk.plots.figure.as_bytes", captured)
     return drawn
 
 

@@ -15,11 +15,11 @@ from gelenk.plots.figure import PictureFormat
 def test_both_triangles_are_drawn_with_their_corners(monkeypatch: pytest.MonkeyPatch) -> None:
     figures: list[Figure] = []
 
-    def kept(figure: Figure, _: PictureFormat) -> bytes:
+    def captured(figure: Figure, _: PictureFormat) -> bytes:
         figures.append(figure)
         return b""
 
-    monkeypatch.setattr("gelenk.plots.figure.as_bytes", kept)
+    monkeypatch.setattr("gelenk.plots.figure.as_bytes", captured)
     found = solved_triangle({"a": 3.0, "b": 4.0, "alpha": 0.6})
     triangle_picture(found, "svg")
     for axes, triangle in zip(figures[0].axes, found.triangles, strict=True):
