@@ -1,4 +1,4 @@
-"""Worked solutions of operations about the Jacobian: they agree with the answer beside them, in both languages."""
+"""Worked solutions of operations on a robot: they agree with the answer beside them, in both languages."""
 
 import re
 from typing import Any
@@ -13,6 +13,9 @@ from tests.http.test_velocity import NPY, PLANE, READY, refusal, velocity
 
 BENT = [0.3, 0.8]
 CALLS: list[tuple[str, str, dict[str, Any]]] = [
+    ("fk", "planar_2r", {"joint_positions": [BENT, [0.1, 0.2]], "pose_format": "rpy"}),
+    ("fk", "panda", {"joint_positions": [READY], "frames": ["panda_link4"]}),
+    ("fk", "panda", {"joint_positions": [[]], "base_frame": "panda_hand", "tip_frame": "panda_link8"}),
     ("jacobian", "planar_2r", {"joint_positions": [BENT, [0.1, 0.2]]}),
     (
         "jacobian",

@@ -7,12 +7,12 @@ from pydantic import Field
 from gelenk.contract.common import ChainOptions, FrameName
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import AboutChain
-from gelenk.contract.options import BatchRequest, RespectLimits
+from gelenk.contract.options import BatchRequest, RespectLimits, WithSteps, WorkedSolutions
 from gelenk.contract.pose import AnswerFormat, Pose
 from gelenk.kinematics.judge.words import PoseCertificate
 
 
-class ForwardOptions(ChainOptions):
+class ForwardOptions(ChainOptions, WithSteps):
     """Options of forward kinematics."""
 
     pose_format: AnswerFormat = "quaternion_xyzw"
@@ -35,6 +35,7 @@ class ForwardAnswer(AboutChain):
     frames: list[dict[str, Pose]] | None = Field(
         default=None, description="If frames were requested: T_base_frame by name, one entry per configuration."
     )
+    steps: WorkedSolutions = None
     certificate: PoseCertificate
 
 
@@ -48,7 +49,8 @@ ENDPOINT = RobotEndpoint(
     Pose of the tip, and of other frames on the chain, at each configuration: the direct kinematics T^0_n(q).
 
     Poses are those of `tip_frame` in `base_frame`. Every answer is recomputed through Pinocchio before it is
-    sent (a sample of a large batch), and `certificate` gives the difference.
+    sent (a sample of a large batch), and `certificate` gives the difference. `steps` show the chain as a DH table in
+    the course's convention, A^(i-1)_i and T^0_i in numbers, and how the orientation is read off in `pose_format`.
     """,
     options=ForwardOptions,
     npy_answer="Poses as one array: (N, 7) position and quaternion, (N, 6) with a triple of angles, "

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from gelenk.course.steps import Step, step, tex
 from gelenk.dh.derive.columns import COLUMNS, Column, array_of
+from gelenk.dh.derive.steps import transform_rule
 from gelenk.dh.derive.typeset import multiple_of_pi
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
@@ -32,8 +33,7 @@ def conversion_steps(table: DhTable, other: DhTable, columns: Sequence[Column] =
     steps = [step(_("The given table"), _("Each row has the variable of its joint."), table_array(table, columns))]
     if table.convention == other.convention:
         return steps
-    standard = r"A^{i-1}_i = R_z(\vartheta_i)\, T_z(d_i)\, T_x(a_i)\, R_x(\alpha_i)"
-    modified = r"A^{i-1}_i = R_x(\alpha_{i-1})\, T_x(a_{i-1})\, R_z(\vartheta_i)\, T_z(d_i)"
+    rules = [f"A^{{i-1}}_i = {transform_rule(standard=one)[0]}" for one in (True, False)]
     text = _(
         "Both conventions multiply the same factors and only cut the product at other places: a standard row ends with "
         "a and α of its link, a modified row begins with those of the link before. So a and α move by one row, d and ϑ "
@@ -44,7 +44,7 @@ def conversion_steps(table: DhTable, other: DhTable, columns: Sequence[Column] =
         rf"a_{{{i}}} = {number(row.a)},\quad \alpha_{{{i}}} = {angle_text(rounded(row.alpha))}"
         for i, row in enumerate(rows, start=1)
     ]
-    shift = step(_("Where a and α belong"), text, standard, modified, *moved)
+    shift = step(_("Where a and α belong"), text, *rules, *moved)
     result = _("In the modified convention a and alpha carry the index of the link before the joint.")
     return [*steps, shift, step(_("The table in the other convention"), result, table_array(other, columns))]
 

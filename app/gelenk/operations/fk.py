@@ -3,10 +3,17 @@
 from typing import Any
 
 from gelenk.contract.fk import ForwardRequest
+from gelenk.course.steps import Step
+from gelenk.dh.forward_steps import forward_steps, placement_steps
+from gelenk.dh.tables.from_chain import dh_from_chain
+from gelenk.errors import InvalidField
 from gelenk.kinematics.poses.forward import forward_kinematics
-from gelenk.operations.chains import chain_and_positions, check_numbers, head
+from gelenk.operations.chains import chain_and_positions, check_numbers, check_worked, head
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.pose_arrays import pose_array, pose_list
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot
 
 _QUICK = 100
@@ -19,6 +26,7 @@ def run(loaded: LoadedRobot, call: ForwardRequest, limits: Limits) -> Outcome:
     chain, qs = chain_and_positions(robot, call)
     frames = robot.frames_on(chain) if call.frames == "all" else tuple(dict.fromkeys(call.frames or ()))
     check_numbers(len(qs) * (1 + len(frames)) * 16, limits)
+    check_worked(call, len(qs))
     result = forward_kinematics(robot, chain, qs, frames)
 
     def content() -> dict[str, Any]:
@@ -27,13 +35,22 @@ def run(loaded: LoadedRobot, call: ForwardRequest, limits: Limits) -> Outcome:
         if call.frames is not None:
             lists = {name: pose_list(poses, call.pose_format) for name, poses in result.frames.items()}
             answer["frames"] = [{name: poses[row] for name, poses in lists.items()} for row in range(len(qs))]
-        answer["certificate"] = result.certificate
-        return answer
+        if call.steps:
+            answer["steps"] = _worked(robot, chain, qs, call.pose_format)
+        return answer | {"certificate": result.certificate}
 
-    fits = call.frames is None
+    fits = call.frames is None and not call.steps
     return Outcome(content, (lambda: (pose_array(result.poses, call.pose_format), {})) if fits else None)
 
 
 def is_heavy(call: ForwardRequest) -> bool:
     """Check whether a request takes the event loop more than about a millisecond."""
-    return call.frames is not None or len(call.joint_positions) > _QUICK
+    return call.frames is not None or call.steps or len(call.joint_positions) > _QUICK
+
+
+def _worked(robot: RobotModel, chain: Chain, qs: Array, notation: str) -> list[list[Step]]:
+    try:
+        table = dh_from_chain(robot.description, chain, "standard").table
+    except InvalidField:
+        return [placement_steps(chain.flat, q, notation) for q in qs]
+    return [forward_steps(table, q, notation) for q in qs]

@@ -48,7 +48,7 @@ def orientation_steps(given: Sequence[GivenMotion], path: Composition, found: No
     steps += [_validated(one.validation, one.transform) for one in given if one.validation is not None]
     if len(given) > 1:
         steps.append(composition_step(given, path))
-    steps += [zyz_step(found), rpy_step(found), axis_angle_step(found), _quaternion(found), inverse_step(path)]
+    steps += [zyz_step(found), rpy_step(found), axis_angle_step(found), quaternion_step(found), inverse_step(path)]
     if len(path.points):
         steps.append(points_step(path, given))
     return steps
@@ -198,7 +198,8 @@ def axis_angle_step(found: Notations) -> Step:
     return step(_("Axis and angle"), text, *lines)
 
 
-def _quaternion(found: Notations) -> Step:
+def quaternion_step(found: Notations) -> Step:
+    """Return the step from axis and angle to the quaternion of R."""
     x, y, z, w = found.quaternion_xyzw
     text = _("Half of the angle: cos(ϑ/2), and sin(ϑ/2) times the axis. The negative one is the same rotation.")
     lines = [r"q = \left(\cos\frac{\vartheta}{2},\; r \sin\frac{\vartheta}{2}\right)"]

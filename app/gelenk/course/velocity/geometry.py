@@ -77,12 +77,12 @@ def chain_geometry(flat: FlatChain, q: Array) -> ChainGeometry:
     rows = zip(flat.joints.tolist(), flat.drives.tolist(), strict=True)
     for i, ((slides, variable), (rate, offset)) in enumerate(rows):
         joints.append(JointAxis(variable, slides == 1, rate, T[:3, 2].copy(), T[:3, 3].copy()))
-        T = T @ _moved(slides == 1, rate * float(q[variable]) + offset) @ flat.placement(i + 1)
+        T = T @ joint_motion(slides == 1, rate * float(q[variable]) + offset) @ flat.placement(i + 1)
     return ChainGeometry(tuple(joints), T, len(q))
 
 
-def _moved(slides: bool, value: float) -> Array:
-    """Return the motion along or about z; shape (4, 4)."""
+def joint_motion(slides: bool, value: float) -> Array:
+    """Return the motion along or about z by [m] or [rad]; shape (4, 4)."""
     T = np.eye(4)
     if slides:
         T[2, 3] = value

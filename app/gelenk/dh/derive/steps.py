@@ -57,11 +57,15 @@ def _table(layout: Layout, found: Formulas) -> Step:
     return step(_("Denavit-Hartenberg table"), text, array)
 
 
+def transform_rule(*, standard: bool) -> tuple[str, str]:
+    """Return the product that A_i is in a convention, and its entries."""
+    if standard:
+        return r"R_z(\vartheta_i)\, T_z(d_i)\, T_x(a_i)\, R_x(\alpha_i)", _STANDARD
+    return r"R_x(\alpha_{i-1})\, T_x(a_{i-1})\, R_z(\vartheta_i)\, T_z(d_i)", _MODIFIED
+
+
 def _rows(layout: Layout, found: Formulas) -> Step:
-    rule = (r"R_z(\vartheta_i)\, T_z(d_i)\, T_x(a_i)\, R_x(\alpha_i)", _STANDARD)
-    if not layout.is_standard:
-        rule = (r"R_x(\alpha_{i-1})\, T_x(a_{i-1})\, R_z(\vartheta_i)\, T_z(d_i)", _MODIFIED)
-    product, matrix = rule
+    product, matrix = transform_rule(standard=layout.is_standard)
     numbered = enumerate(found.rows, start=layout.before + 1)
     lines = [rf"A^{{{i - 1}}}_{{{i}}} = {row.latex}" for i, row in numbered if row is not None]
     text = _("Each row put into the rule of the convention gives the pose of frame i in frame i - 1.")
