@@ -2,12 +2,11 @@
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
 from gelenk.course.velocity.geometry import ChainGeometry, chain_geometry
-from gelenk.kinematics.velocity.velocity import jacobian_derivatives
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain, FlatChain
 from gelenk.robot.dh import DhJoint
@@ -15,6 +14,8 @@ from gelenk.robot.dh import DhJoint
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+N = TypeVar("N", bound=NamedTuple)
+_LINKS, _JOINTS = ("l1", "l2", "l3"), ("q1", "q2", "q3")
 Row: TypeAlias = tuple[bool, float, float, float, float]
 """Whether the joint slides, then a, α, d and ϑ without the variable."""
 
@@ -74,33 +75,56 @@ def at(chain: Chain, q: Array) -> ChainGeometry:
     return chain_geometry(chain.flat, q)
 
 
-def in_plane(chain: Chain, q: Array) -> Array:
-    """Return the rows v_x and v_y of J; shape (2, n)."""
-    return at(chain, q).jacobian()[:2]
-
-
-def rates_in_plane(chain: Chain, q: Array, *rates: Array) -> tuple[Array, ...]:
-    """Return J, J̇, J̈, … in the plane, one more than there are rates q̇, q̈, …; shape (2, n) each."""
-    series = jacobian_derivatives(chain, q[None], np.array(rates).reshape(len(rates), 1, len(q)))
-    return tuple(np.asarray(each[0, :2]) for each in series)
-
-
 def lever_from_base(geometry: ChainGeometry) -> Array:
     """Return J as it is if every lever arm begins at the base; shape (6, n)."""
     columns = [joint.column(geometry.position + joint.origin) for joint in geometry.joints]
     return np.array(columns).T
 
 
-def angles_not_summed(lengths: Sequence[float], q: Array) -> Array:
-    """Return J in the plane as it is if each link's angle is counted from the base's x axis; shape (2, n)."""
-    columns = [-np.multiply(lengths, np.sin(q)), np.multiply(lengths, np.cos(q))]
+# A planar arm is any numbers with links `l1`, `l2`, … in metres and joint angles `q1`, `q2`, … in degrees.
+
+
+def lengths(arm: NamedTuple) -> tuple[float, ...]:
+    """Return the links of a planar arm, [m]."""
+    return tuple(value for name, value in arm._asdict().items() if name in _LINKS)
+
+
+def angles(arm: NamedTuple) -> Array:
+    """Return the joint angles of an arm, [rad]."""
+    return radians(*(value for name, value in arm._asdict().items() if name in _JOINTS))
+
+
+def misread(arm: N, *names: str) -> N:
+    """Return the numbers of which a calculator in the wrong mode takes the sines: degrees for radians."""
+    wrong = names or [name for name in arm._fields if name in _JOINTS]
+    return arm._replace(**{name: math.degrees(getattr(arm, name)) for name in wrong})
+
+
+def posture(arm: NamedTuple) -> ChainGeometry:
+    """Return axes and lever arms of a planar arm."""
+    return at(planar(*lengths(arm)), angles(arm))
+
+
+def jacobian(arm: NamedTuple) -> Array:
+    """Return J of v_x and v_y of a planar arm; shape (2, n)."""
+    return posture(arm).jacobian()[:2]
+
+
+def angles_not_summed(arm: NamedTuple) -> Array:
+    """Return J of a planar arm as it is if each link's angle is counted from the base's x axis; shape (2, n)."""
+    q = angles(arm)
+    columns = [-np.multiply(lengths(arm), np.sin(q)), np.multiply(lengths(arm), np.cos(q))]
     return np.array([np.cumsum(column[::-1])[::-1] for column in columns])
 
 
-def planar_picture(lengths: Sequence[float], degrees: Sequence[float]) -> "Figure":
+def own_links(arm: NamedTuple) -> Array:
+    """Return J of a planar arm of two links as it is if each joint moves its own link alone; shape (2, 2)."""
+    return jacobian(arm) @ [[1.0, 0.0], [-1.0, 1.0]]
+
+
+def planar_picture(arm: NamedTuple) -> "Figure":
     """Draw a planar arm with its lengths and angles."""
     from gelenk.plots.course.planar_arm import PlanarJoint, planar_arm_figure  # noqa: PLC0415
 
-    angles = radians(*degrees).tolist()
-    joints = [PlanarJoint("R", angle, length) for angle, length in zip(angles, lengths, strict=True)]
-    return planar_arm_figure(joints, values=True)
+    pairs = zip(angles(arm).tolist(), lengths(arm), strict=True)
+    return planar_arm_figure([PlanarJoint("R", angle, length) for angle, length in pairs], values=True)

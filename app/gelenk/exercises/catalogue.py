@@ -1,4 +1,4 @@
-"""All exercises, in the order of the course: `EXERCISES` of each module in `lectures` and in the folders below it."""
+"""All exercises, in the order of the course: those of each module in `lectures` and in the folders below it."""
 
 import pkgutil
 from functools import cache
@@ -29,7 +29,7 @@ LECTURES = (
 def exercises() -> dict[str, Exercise[Any]]:
     """Return all exercises by id, by lectures in the order of the course, the easier ones first."""
     names = (module.name for module in pkgutil.walk_packages(lectures.__path__, f"{lectures.__name__}."))
-    found = [one for name in names for one in getattr(import_module(name), "EXERCISES", ())]
+    found = [one for name in names for one in vars(import_module(name)).values() if isinstance(one, Exercise)]
     return {one.id: one for one in sorted(found, key=_place)}
 
 

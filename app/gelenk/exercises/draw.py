@@ -4,8 +4,8 @@ Numbers are round, so that a text states exactly what is computed with.
 """
 
 import random
-from collections.abc import Sequence
-from typing import TypeVar
+from collections.abc import Callable, Sequence
+from typing import Annotated, Any, TypeVar, get_origin, get_type_hints
 
 T = TypeVar("T")
 _DIGITS = 10
@@ -37,3 +37,13 @@ class Draw:
         """Return different options, in random order."""
         left = list(options)
         return [left.pop(self.integer(0, len(left) - 1)) for _ in range(count)]
+
+
+def drawn(numbers: type[T], **other: tuple[Any, ...]) -> Callable[[Draw], T]:
+    """Return what draws the fields of a class in their order: each by a method of Draw and its arguments.
+
+    These are what follows the type in `Annotated`, or `other` by name; a field without them has its default.
+    """
+    hints = get_type_hints(numbers, include_extras=True)
+    given = {name: hint.__metadata__ for name, hint in hints.items() if get_origin(hint) is Annotated} | other
+    return lambda draw: numbers(**{name: method(draw, *within) for name, (method, *within) in given.items()})

@@ -37,7 +37,8 @@ class Exercise(Generic[N]):
         fields: Returns what is asked for.
         solve: Returns the right answer to each field, computed by the core.
         steps: Returns the worked solution.
-        wrong: Wrong models by the code of the mistake: each returns its answer to those fields that it affects.
+        wrong: Wrong models by the code of the mistake: each returns its answer to those fields that it affects, or the
+            numbers that are solved in place of the right ones.
         picture: Draws the task, if it has a picture.
     """
 
@@ -51,7 +52,7 @@ class Exercise(Generic[N]):
     fields: Callable[[N], Sequence[AnswerField]]
     solve: Callable[[N], Answers]
     steps: Callable[[N], Sequence[Step]]
-    wrong: Mapping[str, Callable[[N], Answers]] = field(default_factory=dict)
+    wrong: Mapping[str, Callable[[N], Answers | N]] = field(default_factory=dict)
     picture: "Callable[[N], Figure] | None" = None
 
     @property
@@ -103,7 +104,8 @@ class Variant(Generic[N]):
         found = {}
         for code, model in self.exercise.wrong.items():
             try:
-                found[code] = model(self.numbers)
+                answers = model(self.numbers)
+                found[code] = answers if isinstance(answers, Mapping) else self.exercise.solve(answers)
             except (ArithmeticError, ValueError):
                 continue
         return found

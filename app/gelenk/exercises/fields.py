@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -16,6 +16,8 @@ TURNS = {"rad": 2.0 * math.pi, "°": 360.0}
 _MOST_DIGITS = 40
 _SHARE = 0.01
 """Usual tolerance of a quantity, as a share of it."""
+_ANGLE = {"rad": 0.005, "°": 0.5}
+"""Usual tolerances of angles."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,9 +85,18 @@ def whole(name: str, label: str, points: float = 1.0) -> NumberField:
     return NumberField(name=name, label=label, points=points)
 
 
-def quantity(name: str, label: str, unit: str = "", points: float = 1.0) -> NumberField:
-    """Return the field of a quantity that is far from zero, with a tolerance of one per cent."""
-    return NumberField(name=name, label=label, unit=unit, tolerance=_SHARE, is_relative=True, points=points)
+def quantity(name: str, label: str, unit: str = "", points: float = 1.0, *, within: float | None = None) -> NumberField:
+    """Return the field of a quantity, to one per cent or, where it may be near zero, `within` an absolute tolerance."""
+    return NumberField(name=name, label=label, unit=unit, points=points, **_tolerance(within))
+
+
+def angle(name: str, label: str, points: float = 1.0, *, unit: Literal["rad", "°"] = "rad") -> NumberField:
+    """Return the field of an angle, to 0.005 rad or half a degree; whole turns do not count."""
+    return NumberField(name=name, label=label, unit=unit, tolerance=_ANGLE[unit], is_angle=True, points=points)
+
+
+def _tolerance(within: float | None) -> dict[str, Any]:
+    return {"tolerance": _SHARE, "is_relative": True} if within is None else {"tolerance": within}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -124,23 +135,33 @@ class MatrixField(NumberArray):
             yield "transposed", np.asarray(right).T
 
 
-def vector(name: str, label: str, size: int, unit: str = "", points: float = 1.0) -> VectorField:
-    """Return the field of a vector, with a tolerance of one per cent of its largest entry."""
-    return VectorField(name=name, label=label, size=size, unit=unit, tolerance=_SHARE, is_relative=True, points=points)
+def vector(
+    name: str, label: str, size: int, unit: str = "", points: float = 1.0, *, within: float | None = None
+) -> VectorField:
+    """Return the field of a vector, to one per cent of its largest entry, or `within` an absolute tolerance."""
+    return VectorField(name=name, label=label, size=size, unit=unit, points=points, **_tolerance(within))
 
 
-def matrix(name: str, label: str, shape: tuple[int, int], unit: str = "", points: float = 1.0) -> MatrixField:
-    """Return the field of a matrix, with a tolerance of one per cent of its largest entry."""
+def angles(name: str, label: str, size: int, points: float = 1.0) -> VectorField:
+    """Return the field of several angles in radians."""
+    return VectorField(
+        name=name, label=label, size=size, unit="rad", tolerance=_ANGLE["rad"], is_angle=True, points=points
+    )
+
+
+def matrix(
+    name: str,
+    label: str,
+    shape: tuple[int, int],
+    unit: str = "",
+    points: float = 1.0,
+    *,
+    within: float | None = None,
+) -> MatrixField:
+    """Return the field of a matrix, to one per cent of its largest entry, or `within` an absolute tolerance."""
     rows, columns = shape
     return MatrixField(
-        name=name,
-        label=label,
-        rows=rows,
-        columns=columns,
-        unit=unit,
-        tolerance=_SHARE,
-        is_relative=True,
-        points=points,
+        name=name, label=label, rows=rows, columns=columns, unit=unit, points=points, **_tolerance(within)
     )
 
 
@@ -238,6 +259,11 @@ class SetField(AnswerField):
         if missing == 0:
             return mistake("solutions_too_many")
         return mistake("solutions_missing", missing=missing, count=len(right)) if answer and all(is_right) else None
+
+
+def solution_set(item: VectorField | NumberField, points: float = 1.0) -> SetField:
+    """Return the field of a set of solutions, each of them as `item` says."""
+    return SetField(name=item.name, label=item.label, unit=item.unit, item=item, points=points)
 
 
 def basis(name: str, label: str, shape: tuple[int, int], points: float = 1.0) -> BasisField:

@@ -1,4 +1,4 @@
 """Motor, gear, pulse width modulation and encoder.
 
-- `motor`, `gear`, `pulses`, `encoder`: one of them each. `drive`: an exam with all of them.
+- `motor`: a motor and its pulses. `drive`: gear and encoder, and an exam with all of them.
 """

@@ -1,9 +1,10 @@
-"""A motor in the steady state."""
+"""A motor in the steady state, and its voltage by pulse width modulation."""
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 from gelenk.course.actuators.dc_motor import Motor, motor_steps, operating_point, torque_speed_line
-from gelenk.exercises.draw import Draw
+from gelenk.course.actuators.pwm import Pulses, approximate_ripple, pwm_steps
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import quantity
 from gelenk.language import marked
@@ -13,12 +14,12 @@ from gelenk.language import translated as _
 class MotorTask(NamedTuple):
     """A motor with its supply and load, in SI units."""
 
-    resistance: float
-    inductance: float
-    constant: float
-    friction: float
-    voltage: float
-    load: float
+    resistance: Annotated[float, Draw.decimal, 0.5, 3.0, 0.1]
+    inductance: Annotated[float, Draw.decimal, 0.001, 0.005, 0.001]
+    constant: Annotated[float, Draw.decimal, 0.03, 0.12, 0.01]
+    friction: Annotated[float, Draw.decimal, 0.0002, 0.002, 0.0002]
+    voltage: Annotated[float, Draw.choice, (12.0, 24.0, 36.0, 48.0)]
+    load: Annotated[float, Draw.decimal, 0.05, 0.4, 0.05]
 
     @property
     def motor(self) -> Motor:
@@ -26,28 +27,9 @@ class MotorTask(NamedTuple):
         return Motor(self.resistance, self.inductance, self.constant, self.constant, self.friction, 2e-4)
 
 
-def _draw_motor(draw: Draw) -> MotorTask:
-    return MotorTask(
-        draw.decimal(0.5, 3.0, 0.1),
-        draw.decimal(0.001, 0.005, 0.001),
-        draw.decimal(0.03, 0.12, 0.01),
-        draw.decimal(0.0002, 0.002, 0.0002),
-        draw.choice((12.0, 24.0, 36.0, 48.0)),
-        draw.decimal(0.05, 0.4, 0.05),
-    )
-
-
 def _is_useless_motor(task: MotorTask) -> bool:
     line = torque_speed_line(task.motor, task.voltage)
     return not 0.1 * line.stall_torque <= task.load <= 0.7 * line.stall_torque
-
-
-def _motor_text(task: MotorTask) -> str:
-    return _(
-        "A DC motor has R = {resistance:g} Ω, L = {inductance:g} H, k_t = k_e = {constant:g} N m/A and the viscous "
-        "friction b = {friction:g} N m s/rad. At {voltage:g} V it drives a load of {load:g} N m against the motion. "
-        "What are speed and current in the steady state, the speed without load, and the torque at which it stalls?"
-    ).format(**task._asdict())
 
 
 def _motor_answers(task: MotorTask) -> Answers:
@@ -88,9 +70,13 @@ MOTOR = Exercise(
     id="actuators.motor",
     title=marked("A DC motor under load"),
     difficulty=2,
-    draw=_draw_motor,
+    draw=drawn(MotorTask),
     is_degenerate=_is_useless_motor,
-    text=_motor_text,
+    text=lambda one: _(
+        "A DC motor has R = {resistance:g} Ω, L = {inductance:g} H, k_t = k_e = {constant:g} N m/A and the viscous "
+        "friction b = {friction:g} N m s/rad. At {voltage:g} V it drives a load of {load:g} N m against the motion. "
+        "What are speed and current in the steady state, the speed without load, and the torque at which it stalls?"
+    ).format(**one._asdict()),
     fields=lambda _task: (
         quantity("speed", _("Speed ω"), "rad/s"),
         quantity("current", _("Current i"), "A"),
@@ -115,4 +101,65 @@ MOTOR = Exercise(
     },
 )
 
-EXERCISES = (MOTOR,)
+
+class PulseTask(NamedTuple):
+    """A switched supply at a winding."""
+
+    supply: float
+    voltage: float
+    kilohertz: float
+    millihenry: float
+
+    @property
+    def pulses(self) -> Pulses:
+        """The pulses with the wanted average."""
+        return Pulses(self.supply, self.voltage / self.supply, 1e3 * self.kilohertz)
+
+    @property
+    def inductance(self) -> float:
+        """L in H."""
+        return 1e-3 * self.millihenry
+
+
+def _draw_pulses(draw: Draw) -> PulseTask:
+    supply = draw.choice((12.0, 24.0, 36.0, 48.0))
+    return PulseTask(
+        supply, draw.decimal(2.0, supply - 1.0, 0.5), draw.decimal(5.0, 30.0, 5.0), draw.decimal(0.5, 4.0, 0.5)
+    )
+
+
+PULSES = Exercise(
+    id="actuators.pwm",
+    title=marked("Pulse width modulation"),
+    difficulty=2,
+    draw=_draw_pulses,
+    is_degenerate=lambda task: not 0.15 <= task.voltage / task.supply <= 0.8,
+    text=lambda one: _(
+        "A supply of {supply:g} V is switched at {kilohertz:g} kHz, so that a motor sees {voltage:g} V on average. Its "
+        "winding has L = {millihenry:g} mH; its resistance may be neglected. What are the duty D, the root mean square "
+        "of the voltage, the duration of a pulse, and the ripple of the current from peak to peak?"
+    ).format(**one._asdict()),
+    fields=lambda _task: (
+        quantity("duty", _("Duty D")),
+        quantity("rms", _("Root mean square of the voltage"), "V"),
+        quantity("on_time", _("Duration of a pulse"), "s"),
+        quantity("ripple", _("Ripple of the current"), "A", 2.0),
+    ),
+    solve=lambda task: {
+        "duty": task.pulses.duty,
+        "rms": task.pulses.rms_voltage,
+        "on_time": task.pulses.on_time,
+        "ripple": approximate_ripple(task.pulses, task.inductance),
+    },
+    steps=lambda task: pwm_steps(task.pulses, task.inductance, None),
+    wrong={
+        "duty_of_pause": lambda task: {"duty": 1.0 - task.pulses.duty, "on_time": task.pulses.off_time},
+        "ratio_upside_down": lambda task: {"duty": task.supply / task.voltage},
+        "mean_for_rms": lambda task: {"rms": task.voltage},
+        "duty_for_rms": lambda task: {"rms": task.pulses.duty**2 * task.supply},
+        "frequency_forgotten": lambda task: {"on_time": task.pulses.duty},
+        "whole_period": lambda task: {"on_time": 1e-3 / task.kilohertz},
+        "ripple_without_pause": lambda task: {"ripple": task.voltage * 1e-3 / task.kilohertz / task.inductance},
+        "ripple_of_pause": lambda task: {"ripple": task.supply * task.pulses.off_time / task.inductance},
+    },
+)

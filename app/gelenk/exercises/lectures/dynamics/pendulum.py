@@ -1,14 +1,14 @@
 """One link in a vertical plane."""
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from gelenk.course.steps import Step, step, tex
 from gelenk.dh.lagrangian.bodies import STANDARD_GRAVITY, LinkBody
 from gelenk.dh.lagrangian.numeric import NumericMotion, numeric_motion
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import quantity
 from gelenk.exercises.table_field import table_of
@@ -22,11 +22,11 @@ FALL = np.array([0.0, -STANDARD_GRAVITY, 0.0])
 class PendulumTask(NamedTuple):
     """A link: mass, distance and inertia of its centre; its angle in degrees, its acceleration in rad/s²."""
 
-    mass: float
-    center: float
-    inertia: float
-    angle: float
-    acceleration: float
+    mass: Annotated[float, Draw.decimal, 1.0, 6.0, 0.5]
+    center: Annotated[float, Draw.decimal, 0.2, 0.8, 0.05]
+    inertia: Annotated[float, Draw.decimal, 0.05, 0.4, 0.05]
+    angle: Annotated[float, Draw.decimal, 10.0, 80.0, 5.0]
+    acceleration: Annotated[float, Draw.decimal, 2.0, 12.0, 0.5]
 
     @property
     def motion(self) -> NumericMotion:
@@ -43,16 +43,6 @@ class PendulumTask(NamedTuple):
     def terms(self) -> tuple[float, float]:
         """Moment of inertia about the joint, and torque of gravity."""
         return float(self.motion.mass_matrix[0, 0]), float(self.motion.gravity_vector[0])
-
-
-def _draw_pendulum(draw: Draw) -> PendulumTask:
-    return PendulumTask(
-        draw.decimal(1.0, 6.0, 0.5),
-        draw.decimal(0.2, 0.8, 0.05),
-        draw.decimal(0.05, 0.4, 0.05),
-        draw.decimal(10.0, 80.0, 5.0),
-        draw.decimal(2.0, 12.0, 0.5),
-    )
 
 
 def _pendulum_steps(one: PendulumTask) -> list[Step]:
@@ -81,7 +71,7 @@ PENDULUM = Exercise(
     id="dynamics.pendulum",
     title=marked("The torque of one link"),
     difficulty=1,
-    draw=_draw_pendulum,
+    draw=drawn(PendulumTask),
     is_degenerate=lambda one: abs(one.angle - 45.0) < 5.0 or one.mass == 1.0,
     text=lambda one: _(
         "A link of {mass:g} kg turns about a horizontal axis. Its centre of mass is {center:g} m from the axis, its "
@@ -106,5 +96,3 @@ PENDULUM = Exercise(
         "gravity_helps": lambda one: {"torque": one.terms[0] * one.acceleration - one.terms[1]},
     },
 )
-
-EXERCISES = (PENDULUM,)

@@ -1,6 +1,6 @@
 """Two links in a vertical plane: gravity, mass matrix, Coriolis terms, and all together."""
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from gelenk.course.motion.formulas import tex_matrix, tex_vector
 from gelenk.course.steps import Step, step
 from gelenk.dh.lagrangian.bodies import STANDARD_GRAVITY, LinkBody
 from gelenk.dh.lagrangian.numeric import NumericMotion, numeric_motion
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import MatrixField, VectorField
 from gelenk.exercises.lectures.dynamics.pendulum import FALL
@@ -21,19 +21,19 @@ from gelenk.robot.arrays import Array
 class TwoBodies(NamedTuple):
     """Two links with masses, centres and inertias; angles in degrees, rates in rad/s and rad/s²."""
 
-    length: float
-    m1: float
-    m2: float
-    c1: float
-    c2: float
-    i1: float
-    i2: float
-    q1: float
-    q2: float
-    v1: float
-    v2: float
-    a1: float
-    a2: float
+    length: Annotated[float, Draw.decimal, 0.4, 0.9, 0.1]
+    m1: Annotated[float, Draw.decimal, 2.0, 6.0, 0.5]
+    m2: Annotated[float, Draw.decimal, 1.0, 4.0, 0.5]
+    c1: Annotated[float, Draw.decimal, 0.2, 0.35, 0.05]
+    c2: Annotated[float, Draw.decimal, 0.15, 0.4, 0.05]
+    i1: Annotated[float, Draw.decimal, 0.05, 0.3, 0.05]
+    i2: Annotated[float, Draw.decimal, 0.02, 0.1, 0.02]
+    q1: Annotated[float, Draw.signed, 15.0, 70.0, 5.0]
+    q2: Annotated[float, Draw.signed, 30.0, 120.0, 5.0]
+    v1: Annotated[float, Draw.signed, 0.5, 2.5, 0.5]
+    v2: Annotated[float, Draw.signed, 0.5, 2.5, 0.5]
+    a1: Annotated[float, Draw.signed, 1.0, 6.0, 1.0]
+    a2: Annotated[float, Draw.signed, 1.0, 6.0, 1.0]
 
     @property
     def motion(self) -> NumericMotion:
@@ -61,24 +61,6 @@ class TwoBodies(NamedTuple):
     def coupling(self) -> float:
         """H = m_2 a_1 l_c2 s_2."""
         return float(self.m2 * self.length * self.c2 * np.sin(np.radians(self.q2)))
-
-
-def _draw_bodies(draw: Draw) -> TwoBodies:
-    return TwoBodies(
-        draw.decimal(0.4, 0.9, 0.1),
-        draw.decimal(2.0, 6.0, 0.5),
-        draw.decimal(1.0, 4.0, 0.5),
-        draw.decimal(0.2, 0.35, 0.05),
-        draw.decimal(0.15, 0.4, 0.05),
-        draw.decimal(0.05, 0.3, 0.05),
-        draw.decimal(0.02, 0.1, 0.02),
-        draw.signed(15.0, 70.0, 5.0),
-        draw.signed(30.0, 120.0, 5.0),
-        draw.signed(0.5, 2.5, 0.5),
-        draw.signed(0.5, 2.5, 0.5),
-        draw.signed(1.0, 6.0, 1.0),
-        draw.signed(1.0, 6.0, 1.0),
-    )
 
 
 def _is_useless(one: TwoBodies) -> bool:
@@ -162,15 +144,11 @@ def _second_link_unloaded(one: TwoBodies) -> Answers:
     return _gravity_of(first, float(one.answers("gravity")["gravity"][1]))
 
 
-def _center_for_length(one: TwoBodies) -> Answers:
-    return one._replace(length=one.c1).answers("gravity")
-
-
 GRAVITY = Exercise(
     id="dynamics.gravity",
     title=marked("Torques against gravity"),
     difficulty=2,
-    draw=_draw_bodies,
+    draw=drawn(TwoBodies),
     is_degenerate=_is_useless,
     text=lambda one: _text(one, _("Which torques balance gravity?")),
     fields=lambda _one: (_vector("gravity", _("Torques against gravity"), "N m"),),
@@ -179,7 +157,7 @@ GRAVITY = Exercise(
     wrong={
         "angle_of_last_link": _own_angle,
         "second_link_forgotten": _second_link_unloaded,
-        "center_for_length": _center_for_length,
+        "center_for_length": lambda one: one._replace(length=one.c1).answers("gravity"),
     },
 )
 
@@ -192,7 +170,7 @@ MASS = Exercise(
     id="dynamics.mass_matrix",
     title=marked("The mass matrix of two links"),
     difficulty=3,
-    draw=_draw_bodies,
+    draw=drawn(TwoBodies),
     is_degenerate=_is_useless,
     text=lambda one: _text(one, _("What is its mass matrix?")),
     fields=lambda _one: (_mass(),),
@@ -215,7 +193,7 @@ SPEED = Exercise(
     id="dynamics.coriolis",
     title=marked("Coriolis and centrifugal torques"),
     difficulty=4,
-    draw=_draw_bodies,
+    draw=drawn(TwoBodies),
     is_degenerate=_is_useless,
     text=lambda one: _text(one, _("How large are the Coriolis and centrifugal torques C q̇?")),
     fields=lambda _one: (_vector("speed", _("Torques C q̇"), "N m", 3.0),),
@@ -238,7 +216,7 @@ EXAM = Exercise(
     id="dynamics.equations",
     title=marked("Exam: the equations of motion of two links"),
     difficulty=5,
-    draw=_draw_bodies,
+    draw=drawn(TwoBodies),
     is_degenerate=_is_useless,
     text=lambda one: _text(
         one,
@@ -267,5 +245,3 @@ EXAM = Exercise(
         "speeds_forgotten": lambda one: _without(one, "speed"),
     },
 )
-
-EXERCISES = (GRAVITY, MASS, SPEED, EXAM)

@@ -10,7 +10,6 @@ from gelenk.course.inverse.by_hand import prepared, solver_of
 from gelenk.course.inverse.solution import HandTarget
 from gelenk.course.steps import Step
 from gelenk.course.writing import wrapped
-from gelenk.exercises.fields import SetField, VectorField
 from gelenk.exercises.table_field import table_of
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable
@@ -47,9 +46,3 @@ def steps_by_hand(table: DhTable, pose: Array, directions: frozenset[str] = POSE
     if found is None:
         raise ValueError("the solutions by hand are not confirmed")
     return found
-
-
-def joints_field(name: str, label: str, count: int, points: float) -> SetField:
-    """Return the field of all solutions, each of `count` angles in radians."""
-    item = VectorField(name=name, label=label, unit="rad", tolerance=0.005, size=count, is_angle=True)
-    return SetField(name=name, label=label, unit="rad", item=item, points=points)

@@ -1,17 +1,15 @@
 """SCARA and the anthropomorphic arm."""
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from gelenk.course.steps import Step
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
-from gelenk.exercises.fields import NumberField
+from gelenk.exercises.fields import angles, quantity, solution_set
 from gelenk.exercises.lectures.inverse_kinematics.by_hand import (
     POSITION,
-    joints_field,
     revolute,
     solutions,
     steps_by_hand,
@@ -30,14 +28,14 @@ _SQUARE = 0.5 * math.pi
 class Scara(NamedTuple):
     """A SCARA whose tool points down: lengths and position in metres, direction φ of its x axis in degrees."""
 
-    height: float
-    first: float
-    second: float
-    tool: float
-    x: float
-    y: float
-    z: float
-    phi: float
+    height: Annotated[float, Draw.decimal, 0.4, 0.7, 0.05]
+    first: Annotated[float, Draw.decimal, 0.2, 0.6, 0.05]
+    second: Annotated[float, Draw.decimal, 0.2, 0.6, 0.05]
+    tool: Annotated[float, Draw.decimal, 0.05, 0.15, 0.05]
+    x: Annotated[float, Draw.signed, 0.1, 0.7, 0.05]
+    y: Annotated[float, Draw.signed, 0.1, 0.7, 0.05]
+    z: Annotated[float, Draw.decimal, 0.05, 0.4, 0.05]
+    phi: Annotated[float, Draw.signed, 10.0, 170.0, 5.0]
 
     @property
     def table(self) -> DhTable:
@@ -66,24 +64,11 @@ def _is_awkward_scara(one: Scara) -> bool:
     return not 0.15 < abs(cosine) < 0.9 or one.first == one.second or not 0.05 <= slide <= 0.4 or slide == one.z
 
 
-def _counted_upwards(one: Scara) -> Answers:
-    return {"angles": [np.array([*q[:2], -q[2]]) for q in one.angles()]}
-
-
 SCARA = Exercise(
     id="inverse_kinematics.scara",
     title=marked("Inverse kinematics of a SCARA"),
     difficulty=3,
-    draw=lambda draw: Scara(
-        draw.decimal(0.4, 0.7, 0.05),
-        draw.decimal(0.2, 0.6, 0.05),
-        draw.decimal(0.2, 0.6, 0.05),
-        draw.decimal(0.05, 0.15, 0.05),
-        draw.signed(0.1, 0.7, 0.05),
-        draw.signed(0.1, 0.7, 0.05),
-        draw.decimal(0.05, 0.4, 0.05),
-        draw.signed(10.0, 170.0, 5.0),
-    ),
+    draw=drawn(Scara),
     is_degenerate=_is_awkward_scara,
     text=lambda one: _(
         "A SCARA has the standard DH rows (a, α, d, ϑ): ({first:g} m, 0, {height:g} m, ϑ1), ({second:g} m, 180°, 0, "
@@ -92,15 +77,15 @@ SCARA = Exercise(
         "(ϑ1, ϑ2, ϑ4), in radians? Give all solutions."
     ).format(**one._asdict()),
     fields=lambda _one: (
-        NumberField(name="slide", label="d3", unit="m", tolerance=0.002),
-        joints_field("angles", _("All (ϑ1, ϑ2, ϑ4)"), 3, 3.0),
+        quantity("slide", "d3", "m", within=0.002),
+        solution_set(angles("angles", _("All (ϑ1, ϑ2, ϑ4)"), 3), 3.0),
     ),
     solve=lambda one: {"slide": float(solutions(one.table, one.pose)[0][2]), "angles": one.angles()},
     steps=lambda one: steps_by_hand(one.table, one.pose),
     wrong={
         "tool_left_out": lambda one: {"slide": one.height - one.z},
         "base_height_left_out": lambda one: {"slide": -one.z - one.tool},
-        "counted_upwards": _counted_upwards,
+        "counted_upwards": lambda one: {"angles": [np.array([*q[:2], -q[2]]) for q in one.angles()]},
         "other_elbow": lambda one: {"angles": swapped_elbows(one.angles())},
         "inner_for_outer": lambda one: {"angles": inner_elbows(one.angles())},
     },
@@ -113,12 +98,12 @@ SCARA = Exercise(
 class ShoulderArm(NamedTuple):
     """An anthropomorphic arm and a point, [m]."""
 
-    height: float
-    upper: float
-    lower: float
-    x: float
-    y: float
-    z: float
+    height: Annotated[float, Draw.decimal, 0.2, 0.6, 0.05]
+    upper: Annotated[float, Draw.decimal, 0.3, 0.7, 0.05]
+    lower: Annotated[float, Draw.decimal, 0.2, 0.6, 0.05]
+    x: Annotated[float, Draw.signed, 0.1, 0.7, 0.05]
+    y: Annotated[float, Draw.signed, 0.1, 0.7, 0.05]
+    z: Annotated[float, Draw.decimal, 0.1, 0.9, 0.05]
 
     @property
     def table(self) -> DhTable:
@@ -133,11 +118,6 @@ class ShoulderArm(NamedTuple):
     def answers(self) -> list[Array]:
         """Return the four solutions, those that face the point first."""
         return solutions(self.table, self.pose, POSITION)
-
-
-def _draw_shoulder(draw: Draw) -> ShoulderArm:
-    lengths = draw.decimal(0.2, 0.6, 0.05), draw.decimal(0.3, 0.7, 0.05), draw.decimal(0.2, 0.6, 0.05)
-    return ShoulderArm(*lengths, draw.signed(0.1, 0.7, 0.05), draw.signed(0.1, 0.7, 0.05), draw.decimal(0.1, 0.9, 0.05))
 
 
 def is_awkward_reach(upper: float, lower: float, out: float, up: float) -> bool:
@@ -170,19 +150,11 @@ def _tangent_alone(arm: ShoulderArm) -> Answers:
     return {"solutions": turned}
 
 
-def _swapped(arm: ShoulderArm) -> Answers:
-    return {"solutions": [q * [1.0, 1.0, -1.0] for q in arm.answers()]}
-
-
-def _steps(arm: ShoulderArm) -> list[Step]:
-    return steps_by_hand(arm.table, arm.pose, POSITION)
-
-
 ANTHROPOMORPHIC = Exercise(
     id="inverse_kinematics.anthropomorphic",
     title=marked("Four solutions of an anthropomorphic arm"),
     difficulty=4,
-    draw=_draw_shoulder,
+    draw=drawn(ShoulderArm),
     is_degenerate=_is_awkward_shoulder,
     text=lambda arm: _(
         "An anthropomorphic arm has the standard DH rows (a, α, d, ϑ): (0, 90°, {height:g} m, ϑ1), ({upper:g} m, 0, 0, "
@@ -190,17 +162,15 @@ ANTHROPOMORPHIC = Exercise(
         "frame 3, at ({x:g}, {y:g}, {z:g}) m? Give all solutions: shoulder to the front and to the back, elbow up and "
         "down."
     ).format(**arm._asdict()),
-    fields=lambda _arm: (joints_field("solutions", _("All (ϑ1, ϑ2, ϑ3)"), 3, 4.0),),
+    fields=lambda _arm: (solution_set(angles("solutions", _("All (ϑ1, ϑ2, ϑ3)"), 3), 4.0),),
     solve=lambda arm: {"solutions": arm.answers()},
-    steps=_steps,
+    steps=lambda arm: steps_by_hand(arm.table, arm.pose, POSITION),
     wrong={
-        "base_height_left_out": lambda arm: {"solutions": arm._replace(height=0.0).answers()},
+        "base_height_left_out": lambda arm: arm._replace(height=0.0),
         "shoulder_not_mirrored": lambda arm: {"solutions": not_mirrored(arm.answers())},
         "projection_for_distance": _only_x,
         "quadrant": _tangent_alone,
-        "other_elbow": _swapped,
+        "other_elbow": lambda arm: {"solutions": [q * [1.0, 1.0, -1.0] for q in arm.answers()]},
         "inner_for_outer": lambda arm: {"solutions": inner_elbows(arm.answers(), 2)},
     },
 )
-
-EXERCISES = (SCARA, ANTHROPOMORPHIC)

@@ -1,6 +1,7 @@
-"""The angles of a spherical wrist, from what the arm leaves of the rotation."""
+"""The angles of a spherical wrist, and an exam: an arm of six joints with such a wrist, solved by decoupling."""
 
 import math
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -10,13 +11,21 @@ from gelenk.course.steps import Step, step
 from gelenk.course.writing import matrix
 from gelenk.exercises.draw import Draw
 from gelenk.exercises.exercise import Answers, Exercise
-from gelenk.exercises.lectures.inverse_kinematics.by_hand import joints_field, revolute, solutions
-from gelenk.exercises.lectures.poses.frames import rotation_field
+from gelenk.exercises.fields import angles, solution_set
+from gelenk.exercises.lectures.inverse_kinematics.by_hand import (
+    POSITION,
+    revolute,
+    solutions,
+    steps_by_hand,
+)
+from gelenk.exercises.lectures.inverse_kinematics.spatial import is_awkward_reach, not_mirrored
+from gelenk.exercises.lectures.poses.frames import point_field, rotation_field
 from gelenk.exercises.lectures.poses.triples import flipped_without_last, is_plain, without_quadrant
 from gelenk.exercises.rational import RationalRotation, drawn_rotation
 from gelenk.language import marked
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
+from gelenk.robot.dh import DhTable
 from gelenk.robot.poses import transform
 
 _SQUARE = 0.5 * math.pi
@@ -85,7 +94,7 @@ WRIST_ANGLES = Exercise(
     ).format(q1=one.q1, q2=one.q2, q3=one.q3, matrix=one.rotation.text),
     fields=lambda _one: (
         rotation_field("relative", _("Rotation R^3_6"), 2.0),
-        joints_field("wrist", _("All (ϑ4, ϑ5, ϑ6)"), 3, 2.0),
+        solution_set(angles("wrist", _("All (ϑ4, ϑ5, ϑ6)"), 3), 2.0),
     ),
     solve=lambda one: answers_of(one.relative),
     steps=_steps,
@@ -99,4 +108,115 @@ WRIST_ANGLES = Exercise(
     },
 )
 
-EXERCISES = (WRIST_ANGLES,)
+
+class DecouplingTask(NamedTuple):
+    """An arm and the pose of its frame 6, lengths in metres."""
+
+    height: float
+    upper: float
+    lower: float
+    tool: float
+    x: float
+    y: float
+    z: float
+    rotation: RationalRotation
+
+    @property
+    def table(self) -> DhTable:
+        """All six rows."""
+        return revolute(
+            (0.0, _SQUARE, self.height, 0.0),
+            (self.upper, 0.0, 0.0, 0.0),
+            (0.0, _SQUARE, 0.0, 0.0),
+            (0.0, -_SQUARE, self.lower, 0.0),
+            (0.0, _SQUARE, 0.0, 0.0),
+            (0.0, 0.0, self.tool, 0.0),
+        )
+
+    @property
+    def position(self) -> Array:
+        """Origin of frame 6; shape (3,)."""
+        return np.array([self.x, self.y, self.z])
+
+    def centre(self, approach: Array | None = None) -> Array:
+        """Return the wrist's centre, back along the approach, which is the third column of R if it is not given."""
+        return np.asarray(self.position - self.tool * (self.rotation.matrix[:, 2] if approach is None else approach))
+
+    def arm(self, centre: Array) -> list[Array]:
+        """Return the four (ϑ1, ϑ2, ϑ3) that bring the wrist's centre to a point, those that face it first."""
+        end = transform(np.array([0.0, 0.0, self.lower]), np.eye(3))
+        front = replace(self.table, joints=self.table.joints[:3], tool=end)
+        return solutions(front, transform(centre, np.eye(3)), POSITION)
+
+    def relative(self, arm: Array) -> Array:
+        """Return R^3_6 for angles of the arm; shape (3, 3)."""
+        return np.asarray(self.turned(arm).T @ self.rotation.matrix)
+
+    def turned(self, arm: Array) -> Array:
+        """Return R^0_3; shape (3, 3)."""
+        return self.table.frames([*arm.tolist(), 0.0, 0.0, 0.0])[3][:3, :3]
+
+
+def _elbows(arm: list[Array]) -> list[Array]:
+    """Return the two solutions that face the point, the one with the higher elbow first."""
+    return sorted(arm[:2], key=lambda q: -math.sin(q[1]))
+
+
+def _answers(one: DecouplingTask, centre: Array) -> Answers:
+    arm = one.arm(centre)
+    return {"centre": centre, "arm": arm, **answers_of(one.relative(_elbows(arm)[0]))}
+
+
+def _draw_arm(draw: Draw) -> DecouplingTask:
+    lengths = draw.decimal(0.3, 0.6, 0.05), draw.decimal(0.4, 0.7, 0.05), draw.decimal(0.3, 0.6, 0.05)
+    tool = draw.decimal(0.1, 0.2, 0.05)
+    place = draw.signed(0.1, 0.8, 0.05), draw.signed(0.1, 0.8, 0.05), draw.decimal(0.1, 1.0, 0.05)
+    return DecouplingTask(*lengths, tool, *place, drawn_rotation(draw))
+
+
+def _is_awkward(one: DecouplingTask) -> bool:
+    x, y, z = one.centre().tolist()
+    if is_awkward_reach(one.upper, one.lower, math.hypot(x, y), z - one.height):
+        return True
+    up, down = _elbows(one.arm(one.centre()))
+    return is_plain(one.relative(up)) or math.sin(up[1]) - math.sin(down[1]) < 0.1
+
+
+def _best(one: DecouplingTask) -> Array:
+    return _elbows(one.arm(one.centre()))[0]
+
+
+DECOUPLING = Exercise(
+    id="inverse_kinematics.decoupling",
+    title=marked("Exam: six joints by decoupling"),
+    difficulty=5,
+    draw=_draw_arm,
+    is_degenerate=_is_awkward,
+    text=lambda one: _(
+        "An arm of six revolute joints has the standard DH rows (a, α, d, ϑ): (0, 90°, {height:g} m, ϑ1), ({upper:g} "
+        "m, 0, 0, ϑ2), (0, 90°, 0, ϑ3), (0, -90°, {lower:g} m, ϑ4), (0, 90°, 0, ϑ5), (0, 0, {tool:g} m, ϑ6). Frame 6 "
+        "is to be at p = ({x:g}, {y:g}, {z:g}) m with R = {matrix}, rows separated by semicolons.\n\n"
+        "Where is the centre of the wrist? Which angles (ϑ1, ϑ2, ϑ3), in radians, bring it there, all solutions? Take "
+        "the one with ϑ1 = atan2(p_wy, p_wx), so that the arm faces the centre, and with the higher elbow: which "
+        "rotation R^3_6 is left for the wrist? Which angles (ϑ4, ϑ5, ϑ6), in radians, give it, all solutions?"
+    ).format(**{**one._asdict(), "matrix": one.rotation.text}),
+    fields=lambda _one: (
+        point_field("centre", _("Centre of the wrist p_w"), 2.0),
+        solution_set(angles("arm", _("All (ϑ1, ϑ2, ϑ3)"), 3), 4.0),
+        rotation_field("relative", _("Rotation R^3_6"), 2.0),
+        solution_set(angles("wrist", _("All (ϑ4, ϑ5, ϑ6)"), 3), 3.0),
+    ),
+    solve=lambda one: _answers(one, one.centre()),
+    steps=lambda one: steps_by_hand(one.table, transform(one.position, one.rotation.matrix)),
+    wrong={
+        "hand_left_out": lambda one: _answers(one, one.position),
+        "centre_beyond": lambda one: _answers(one, one.centre(-one.rotation.matrix[:, 2])),
+        "row_for_approach": lambda one: _answers(one, one.centre(one.rotation.matrix[2])),
+        "shoulder_not_mirrored": lambda one: {"arm": not_mirrored(one.arm(one.centre()))},
+        "lower_elbow": lambda one: answers_of(one.relative(_elbows(one.arm(one.centre()))[1])),
+        "arm_not_transposed": lambda one: answers_of(one.turned(_best(one)) @ one.rotation.matrix),
+        "arm_left_out": lambda one: answers_of(one.rotation.matrix),
+        "quadrant": lambda one: {"wrist": without_quadrant(one.relative(_best(one)))},
+        "flip_incomplete": lambda one: {"wrist": flipped_without_last(one.relative(_best(one)))},
+    },
+)

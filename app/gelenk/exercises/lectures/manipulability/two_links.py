@@ -1,15 +1,15 @@
 """The planar arm of two links: its measure, its velocity and force ellipses, and its transmission ratios."""
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from gelenk.course.steps import Step, step
 from gelenk.course.velocity.ellipsoid_steps import EllipsoidQuestion, ellipsoid_steps
 from gelenk.course.velocity.writing import number
-from gelenk.exercises.arms import angles_not_summed, in_plane, planar, planar_picture, radians
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.arms import angles_not_summed, jacobian, misread, planar_picture
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import basis, quantity
 from gelenk.language import marked
@@ -24,29 +24,20 @@ _SINGULAR = 1e6
 class TwoLinkPosture(NamedTuple):
     """A planar arm at rest; angles in degrees."""
 
-    l1: float
-    l2: float
-    q1: float
-    q2: float
+    l1: Annotated[float, Draw.decimal, 0.3, 1.2, 0.1]
+    l2: Annotated[float, Draw.decimal, 0.3, 1.0, 0.1]
+    q1: Annotated[float, Draw.decimal, 10.0, 80.0, 5.0]
+    q2: Annotated[float, Draw.signed, 20.0, 150.0, 5.0]
 
 
 class TwoLinkDirection(NamedTuple):
     """A planar arm, and a direction by its angle from the x axis; angles in degrees."""
 
-    l1: float
-    l2: float
-    q1: float
-    q2: float
-    towards: float
-
-
-def _jacobian(task: TwoLinkPosture | TwoLinkDirection, *, calculator: bool = False) -> Array:
-    q = np.array([task.q1, task.q2])
-    return in_plane(planar(task.l1, task.l2), q if calculator else radians(*q))
-
-
-def _not_summed(task: TwoLinkPosture | TwoLinkDirection) -> Array:
-    return angles_not_summed((task.l1, task.l2), radians(task.q1, task.q2))
+    l1: Annotated[float, Draw.decimal, 0.3, 1.2, 0.1]
+    l2: Annotated[float, Draw.decimal, 0.3, 1.0, 0.1]
+    q1: Annotated[float, Draw.decimal, 10.0, 80.0, 5.0]
+    q2: Annotated[float, Draw.signed, 20.0, 150.0, 5.0]
+    towards: Annotated[float, Draw.signed, 10.0, 80.0, 5.0]
 
 
 def worked(J: Array, directions: Array = NO_DIRECTION) -> list[Step]:
@@ -80,22 +71,13 @@ def ratios_exchanged(J: Array, u: Array) -> Answers:
     return {"velocity": found["force"], "force": found["velocity"]}
 
 
-def _draw_posture(draw: Draw) -> TwoLinkPosture:
-    return TwoLinkPosture(
-        draw.decimal(0.3, 1.2, 0.1),
-        draw.decimal(0.3, 1.0, 0.1),
-        draw.decimal(10.0, 80.0, 5.0),
-        draw.signed(20.0, 150.0, 5.0),
-    )
-
-
 def _measure_answers(task: TwoLinkPosture, share: float) -> Answers:
     most = task.l1 * task.l2
     return {"measure": most * share, "area": math.pi * most * share}
 
 
 def _measure_right(task: TwoLinkPosture) -> Answers:
-    measure = float(np.prod(np.linalg.svd(_jacobian(task), compute_uv=False)))
+    measure = float(np.prod(np.linalg.svd(jacobian(task), compute_uv=False)))
     return {"measure": measure, "area": math.pi * measure, "best": task.l1 * task.l2}
 
 
@@ -106,14 +88,14 @@ def _measure_steps(task: TwoLinkPosture) -> list[Step]:
         rf"w = l_1 l_2 \lvert \sin\vartheta_2 \rvert = {number(_measure_right(task)['measure'])}",
         rf"\vartheta_2 = \pm 90^\circ:\quad w = l_1 l_2 = {number(task.l1 * task.l2)}",
     )
-    return [*worked(_jacobian(task)), best]
+    return [*worked(jacobian(task)), best]
 
 
 MEASURE = Exercise(
     id="manipulability.measure",
     title=marked("Yoshikawa's measure of two links"),
     difficulty=1,
-    draw=_draw_posture,
+    draw=drawn(TwoLinkPosture),
     is_degenerate=lambda one: abs(math.sin(math.radians(one.q2))) > 0.97,
     text=lambda one: _(
         "A planar arm has two revolute joints and links of l₁ = {l1:g} m and l₂ = {l2:g} m. It stands at ϑ₁ = "
@@ -136,7 +118,7 @@ MEASURE = Exercise(
         "stretched_for_best": lambda one: {"best": (one.l1 + one.l2) ** 2},
         "calculator_mode": lambda one: _measure_answers(one, abs(math.sin(one.q2))),
     },
-    picture=lambda one: planar_picture((one.l1, one.l2), (one.q1, one.q2)),
+    picture=planar_picture,
 )
 
 
@@ -151,7 +133,7 @@ def _axis(J: Array, which: int, *, of_joints: bool = False) -> Answers:
 
 
 def _is_round(task: TwoLinkPosture | TwoLinkDirection) -> bool:
-    return float(np.linalg.cond(_jacobian(task))) < 1.5
+    return float(np.linalg.cond(jacobian(task))) < 1.5
 
 
 def _reciprocals(J: Array) -> Answers:
@@ -168,7 +150,7 @@ VELOCITY = Exercise(
     id="manipulability.velocity",
     title=marked("The velocity ellipse"),
     difficulty=2,
-    draw=_draw_posture,
+    draw=drawn(TwoLinkPosture),
     is_degenerate=_is_round,
     text=lambda one: _(
         "A planar arm has two revolute joints and links of l₁ = {l1:g} m and l₂ = {l2:g} m. It stands at ϑ₁ = "
@@ -180,17 +162,17 @@ VELOCITY = Exercise(
         quantity("minor", _("Minor semi-axis"), "m/s"),
         basis("axis", _("Direction of the major axis, as a column"), (2, 1)),
     ),
-    solve=lambda one: _velocity_answers(_jacobian(one)),
-    steps=lambda one: worked(_jacobian(one)),
+    solve=lambda one: _velocity_answers(jacobian(one)),
+    steps=lambda one: worked(jacobian(one)),
     wrong={
-        "force_for_velocity": lambda one: _reciprocals(_jacobian(one)),
-        "columns_for_axes": lambda one: _column_norms(_jacobian(one)),
-        "axis_of_joints": lambda one: _axis(_jacobian(one), 0, of_joints=True),
-        "minor_for_major": lambda one: _axis(_jacobian(one), 1),
-        "angle_not_summed": lambda one: _velocity_answers(_not_summed(one)),
-        "calculator_mode": lambda one: _velocity_answers(_jacobian(one, calculator=True)),
+        "force_for_velocity": lambda one: _reciprocals(jacobian(one)),
+        "columns_for_axes": lambda one: _column_norms(jacobian(one)),
+        "axis_of_joints": lambda one: _axis(jacobian(one), 0, of_joints=True),
+        "minor_for_major": lambda one: _axis(jacobian(one), 1),
+        "angle_not_summed": lambda one: _velocity_answers(angles_not_summed(one)),
+        "calculator_mode": misread,
     },
-    picture=lambda one: planar_picture((one.l1, one.l2), (one.q1, one.q2)),
+    picture=planar_picture,
 )
 
 
@@ -204,7 +186,7 @@ FORCE_ELLIPSE = Exercise(
     id="manipulability.force",
     title=marked("The force ellipse"),
     difficulty=3,
-    draw=_draw_posture,
+    draw=drawn(TwoLinkPosture),
     is_degenerate=_is_round,
     text=lambda one: _(
         "A planar arm has two revolute joints and links of l₁ = {l1:g} m and l₂ = {l2:g} m. It stands at ϑ₁ = "
@@ -218,23 +200,23 @@ FORCE_ELLIPSE = Exercise(
         basis("axis", _("Direction in which it is strongest, as a column"), (2, 1)),
         quantity("condition", _("Condition number")),
     ),
-    solve=lambda one: _force_answers(_jacobian(one)),
-    steps=lambda one: worked(_jacobian(one)),
+    solve=lambda one: _force_answers(jacobian(one)),
+    steps=lambda one: worked(jacobian(one)),
     wrong={
-        "velocity_for_force": lambda one: _velocity_answers(_jacobian(one)),
-        "joint_direction": lambda one: _axis(_jacobian(one), 1, of_joints=True),
-        "angle_not_summed": lambda one: _force_answers(_not_summed(one)),
-        "isotropy_for_condition": lambda one: {"condition": 1.0 / _force_answers(_jacobian(one))["condition"]},
-        "calculator_mode": lambda one: _force_answers(_jacobian(one, calculator=True)),
+        "velocity_for_force": lambda one: _velocity_answers(jacobian(one)),
+        "joint_direction": lambda one: _axis(jacobian(one), 1, of_joints=True),
+        "angle_not_summed": lambda one: _force_answers(angles_not_summed(one)),
+        "isotropy_for_condition": lambda one: {"condition": 1.0 / _force_answers(jacobian(one))["condition"]},
+        "calculator_mode": misread,
     },
-    picture=lambda one: planar_picture((one.l1, one.l2), (one.q1, one.q2)),
+    picture=planar_picture,
 )
 
 TRANSMISSION = Exercise(
     id="manipulability.transmission",
     title=marked("Transmission ratios along a direction"),
     difficulty=4,
-    draw=lambda draw: TwoLinkDirection(*_draw_posture(draw), draw.signed(10.0, 80.0, 5.0)),
+    draw=drawn(TwoLinkDirection),
     is_degenerate=_is_round,
     text=lambda one: _(
         "A planar arm has two revolute joints and links of l₁ = {l1:g} m and l₂ = {l2:g} m. It stands at ϑ₁ = "
@@ -246,16 +228,14 @@ TRANSMISSION = Exercise(
         quantity("velocity", _("Velocity along the direction"), "m/s"),
         quantity("force", _("Force along the direction"), "N"),
     ),
-    solve=lambda one: ratios(_jacobian(one), unit(one.towards)),
-    steps=lambda one: worked(_jacobian(one), unit(one.towards)[None]),
+    solve=lambda one: ratios(jacobian(one), unit(one.towards)),
+    steps=lambda one: worked(jacobian(one), unit(one.towards)[None]),
     wrong={
-        "shadow_for_reach": lambda one: ratios_by_shadow(_jacobian(one), unit(one.towards)),
-        "ratios_exchanged": lambda one: ratios_exchanged(_jacobian(one), unit(one.towards)),
-        "angle_not_summed": lambda one: ratios(_not_summed(one), unit(one.towards)),
-        "calculator_mode": lambda one: ratios(_jacobian(one, calculator=True), unit(math.degrees(one.towards))),
-        "joints_for_tip": lambda one: ratios(_jacobian(one).T, unit(one.towards)),
+        "shadow_for_reach": lambda one: ratios_by_shadow(jacobian(one), unit(one.towards)),
+        "ratios_exchanged": lambda one: ratios_exchanged(jacobian(one), unit(one.towards)),
+        "angle_not_summed": lambda one: ratios(angles_not_summed(one), unit(one.towards)),
+        "calculator_mode": lambda one: misread(one, "q1", "q2", "towards"),
+        "joints_for_tip": lambda one: ratios(jacobian(one).T, unit(one.towards)),
     },
-    picture=lambda one: planar_picture((one.l1, one.l2), (one.q1, one.q2)),
+    picture=planar_picture,
 )
-
-EXERCISES = (MEASURE, VELOCITY, FORCE_ELLIPSE, TRANSMISSION)

@@ -1,4 +1,4 @@
 """Links, pairs and Grübler's count.
 
-- `linkages`: in the plane. `pairs`: their table. `chains`: open, closed, mixed. `platform`: an exam in space.
+- `plane`: chains, linkages. `space`: the table of pairs, and an exam about a platform on legs.
 """

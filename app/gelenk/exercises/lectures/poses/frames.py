@@ -1,7 +1,7 @@
 """Two rotations composed, and a homogeneous transform inverted."""
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -16,9 +16,10 @@ from gelenk.course.orientation.orientation_steps import (
 from gelenk.course.orientation.rotations import AxisName, elementary
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import vector
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.arms import misread
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
-from gelenk.exercises.fields import MatrixField, VectorField
+from gelenk.exercises.fields import MatrixField, VectorField, matrix
 from gelenk.language import marked
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
@@ -91,10 +92,6 @@ def _fixed_axes(one: TwoTurns) -> Answers:
     return _turned(second @ first, one.point)
 
 
-def _in_degrees(one: TwoTurns) -> Answers:
-    return _turned(elementary(one.first_axis, one.first) @ elementary(one.second_axis, one.second), one.point)
-
-
 def _minus_above(one: TwoTurns) -> Answers:
     """Take the matrix about y with the minus sign where those about x and z have it."""
     first, second = (
@@ -130,11 +127,11 @@ TURNS = Exercise(
     steps=_turn_steps,
     wrong={
         "fixed_for_moving": _fixed_axes,
-        "turned_clockwise": lambda one: one._replace(first=-one.first, second=-one.second).answers(),
-        "degrees_in_radians": _in_degrees,
+        "turned_clockwise": lambda one: one._replace(first=-one.first, second=-one.second),
+        "degrees_in_radians": lambda one: misread(one, "first", "second"),
         "minus_of_y": _minus_above,
         "turned_back": lambda one: {"point": one.answers()["rotation"].T @ one.point},
-        "second_turn_forgotten": lambda one: one._replace(second=0.0).answers(),
+        "second_turn_forgotten": lambda one: one._replace(second=0.0),
     },
 )
 
@@ -145,14 +142,14 @@ TURNS = Exercise(
 class TurnedFrame(NamedTuple):
     """A frame that is turned by degrees and stands elsewhere, and a point of frame 0, [m]."""
 
-    axis: AxisName
-    angle: float
-    x: float
-    y: float
-    z: float
-    u: float
-    v: float
-    w: float
+    axis: Annotated[AxisName, Draw.choice, AXES]
+    angle: Annotated[float, Draw.signed, 20.0, 160.0, 5.0]
+    x: Annotated[float, Draw.signed, 0.2, 0.9, 0.1]
+    y: Annotated[float, Draw.signed, 0.2, 0.9, 0.1]
+    z: Annotated[float, Draw.signed, 0.2, 0.9, 0.1]
+    u: Annotated[float, Draw.signed, 0.1, 0.9, 0.1]
+    v: Annotated[float, Draw.signed, 0.1, 0.9, 0.1]
+    w: Annotated[float, Draw.signed, 0.1, 0.9, 0.1]
 
     @property
     def rotation(self) -> Array:
@@ -167,14 +164,6 @@ class TurnedFrame(NamedTuple):
     def through(self, R: Array, p: Array) -> Answers:
         """Return a transform, and what it makes of the point."""
         return {"inverse": transform(p, R), "point": R @ np.array([self.u, self.v, self.w]) + p}
-
-
-def _draw_frame(draw: Draw) -> TurnedFrame:
-    axis, angle = draw.choice(AXES), draw.signed(20.0, 160.0, 5.0)
-    origin = (draw.signed(0.2, 0.9, 0.1), draw.signed(0.2, 0.9, 0.1), draw.signed(0.2, 0.9, 0.1))
-    return TurnedFrame(
-        axis, angle, *origin, draw.signed(0.1, 0.9, 0.1), draw.signed(0.1, 0.9, 0.1), draw.signed(0.1, 0.9, 0.1)
-    )
 
 
 def _inverse_answers(one: TurnedFrame) -> Answers:
@@ -196,14 +185,14 @@ INVERSE = Exercise(
     id="poses.inverse",
     title=marked("Inverse of a homogeneous transform"),
     difficulty=1,
-    draw=_draw_frame,
+    draw=drawn(TurnedFrame),
     text=lambda one: _(
         "Frame 1 has its origin at ({x:g}, {y:g}, {z:g}) m in frame 0, and is turned against it about the {axis} axis "
         "by {angle:g}°. Which matrix is the inverse of T^0_1, so that it leads from coordinates in frame 0 to those in "
         "frame 1? Which coordinates has the point ({u:g}, {v:g}, {w:g}) m of frame 0 in frame 1?"
     ).format(**one._asdict()),
     fields=lambda _one: (
-        MatrixField(name="inverse", label=_("Inverse of T^0_1"), tolerance=0.003, rows=4, columns=4, points=2.0),
+        matrix("inverse", _("Inverse of T^0_1"), (4, 4), points=2.0, within=0.003),
         point_field("point", _("Point in frame 1")),
     ),
     solve=_inverse_answers,
@@ -215,5 +204,3 @@ INVERSE = Exercise(
         "inverse_transform": lambda one: one.through(one.rotation, one.origin),
     },
 )
-
-EXERCISES = (TURNS, INVERSE)

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable
-from typing import Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 
@@ -11,30 +11,15 @@ from gelenk.course.orientation.orientation_steps import GivenMotion, given_step,
 from gelenk.course.orientation.rotations import elementary
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import number
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
-from gelenk.exercises.fields import ChoiceField, NumberField, SetField, VectorField
+from gelenk.exercises.fields import ChoiceField, angle, angles, solution_set
 from gelenk.exercises.lectures.poses.frames import AXES, rotation_field
 from gelenk.exercises.rational import RationalRotation, drawn_rotation
 from gelenk.language import marked
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import transform
-
-
-def angles_field(name: str, label: str, points: float = 1.0) -> VectorField:
-    """Return the field of three angles, in radians."""
-    return VectorField(name=name, label=label, unit="rad", tolerance=0.005, size=3, is_angle=True, points=points)
-
-
-def solutions_field(name: str, label: str, points: float) -> SetField:
-    """Return the field of a set of three angles each, in radians."""
-    return SetField(name=name, label=label, unit="rad", item=angles_field(name, label), points=points)
-
-
-def angle_field(name: str, label: str, points: float = 1.0) -> NumberField:
-    """Return the field of an angle in radians."""
-    return NumberField(name=name, label=label, unit="rad", tolerance=0.005, is_angle=True, points=points)
 
 
 def zyz_solutions(R: Array) -> list[tuple[float, float, float]]:
@@ -76,7 +61,7 @@ ZYZ = Exercise(
         "A rotation matrix is R = {matrix}, its rows separated by semicolons. Which ZYZ angles (φ, ϑ, ψ) with R = "
         "Rz(φ) Ry(ϑ) Rz(ψ) does it have? Give all solutions with angles between -π and π."
     ).format(matrix=one.text),
-    fields=lambda _one: (solutions_field("angles", _("All (φ, ϑ, ψ)"), 2.0),),
+    fields=lambda _one: (solution_set(angles("angles", _("All (φ, ϑ, ψ)"), 3), 2.0),),
     solve=lambda one: {"angles": zyz_solutions(one.matrix)},
     steps=lambda one: [given_matrix(one.matrix), zyz_step(notations(one.matrix))],
     wrong={
@@ -94,9 +79,9 @@ ZYZ = Exercise(
 class RollPitchYaw(NamedTuple):
     """Angles about the fixed axes x, y and z, in degrees."""
 
-    roll: float
-    pitch: float
-    yaw: float
+    roll: Annotated[float, Draw.signed, 20.0, 150.0, 5.0]
+    pitch: Annotated[float, Draw.signed, 15.0, 70.0, 5.0]
+    yaw: Annotated[float, Draw.signed, 20.0, 150.0, 5.0]
 
     @property
     def radians(self) -> Array:
@@ -127,10 +112,6 @@ def _other_rpy(one: RollPitchYaw) -> tuple[float, float, float]:
     return max(found, key=lambda angles: float(np.abs(np.sin(0.5 * (np.array(angles) - one.radians))).max()))
 
 
-def _rpy_steps(one: RollPitchYaw) -> list[Step]:
-    return [given_step(rpy_motion(one.radians), 1, 1), rpy_step(notations(one.rotation))]
-
-
 def _flipped(one: RollPitchYaw, *signs: float) -> Answers:
     roll, pitch, yaw = one.radians
     return {"other": [roll + signs[0] * math.pi, signs[1] * math.pi - pitch, yaw + signs[2] * math.pi]}
@@ -140,9 +121,7 @@ RPY = Exercise(
     id="poses.rpy",
     title=marked("Roll, pitch and yaw"),
     difficulty=2,
-    draw=lambda draw: RollPitchYaw(
-        draw.signed(20.0, 150.0, 5.0), draw.signed(15.0, 70.0, 5.0), draw.signed(20.0, 150.0, 5.0)
-    ),
+    draw=drawn(RollPitchYaw),
     is_degenerate=lambda one: abs(one.roll) == abs(one.yaw),
     text=lambda one: _(
         "A body is turned about the fixed axes: first by {roll:g}° about x (roll), then by {pitch:g}° about y (pitch), "
@@ -151,10 +130,10 @@ RPY = Exercise(
     ).format(**one._asdict()),
     fields=lambda _one: (
         rotation_field("rotation", _("Rotation matrix R"), 2.0),
-        angles_field("other", _("The other (roll, pitch, yaw)")),
+        angles("other", _("The other (roll, pitch, yaw)"), 3),
     ),
     solve=lambda one: {"rotation": one.rotation, "other": _other_rpy(one)},
-    steps=_rpy_steps,
+    steps=lambda one: [given_step(rpy_motion(one.radians), 1, 1), rpy_step(notations(one.rotation))],
     wrong={
         "moving_for_fixed": lambda one: {"rotation": rpy_rotation(one.radians, reverse=True)},
         "roll_and_yaw_exchanged": lambda one: {"rotation": one._replace(roll=one.yaw, yaw=one.roll).rotation},
@@ -234,14 +213,14 @@ DEGENERATE = Exercise(
         "and which value has it? What is φ if ψ = {psi:g}° is chosen?"
     ).format(matrix=one.rotation.text, psi=one.psi),
     fields=lambda _one: (
-        angle_field("theta", "ϑ"),
+        angle("theta", "ϑ"),
         ChoiceField(
             name="known",
             label=_("What is determined?"),
             options={"sum": _("the sum φ + ψ"), "difference": _("the difference φ - ψ")},
         ),
-        angle_field("value", _("Its value")),
-        angle_field("phi", _("φ for this ψ")),
+        angle("value", _("Its value")),
+        angle("phi", _("φ for this ψ")),
     ),
     solve=_flat_answers,
     steps=_flat_steps,
@@ -254,5 +233,3 @@ DEGENERATE = Exercise(
         "psi_added": lambda one: {"phi": one._replace(psi=-one.psi).rule(one.sign)["phi"]},
     },
 )
-
-EXERCISES = (ZYZ, RPY, DEGENERATE)

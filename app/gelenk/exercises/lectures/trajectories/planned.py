@@ -1,7 +1,7 @@
 """An exam: from the joints to a straight line of the tip, and back to the joints."""
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -10,9 +10,9 @@ from gelenk.course.cartesian.line_steps import line_steps
 from gelenk.course.cartesian.planar_line import PlanarLine
 from gelenk.course.motion.formulas import tex_matrix, tex_vector
 from gelenk.course.steps import Step, step, tex
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
-from gelenk.exercises.fields import VectorField, quantity
+from gelenk.exercises.fields import VectorField, quantity, vector
 from gelenk.language import marked
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
@@ -21,15 +21,15 @@ from gelenk.robot.arrays import Array
 class PlannedTask(NamedTuple):
     """A planar arm that moves its tip along a line: lengths in metres, angles in degrees, limits per second."""
 
-    l1: float
-    l2: float
-    q1: float
-    q2: float
-    x: float
-    y: float
-    velocity: float
-    acceleration: float
-    joint_limit: float
+    l1: Annotated[float, Draw.decimal, 0.4, 1.0, 0.1]
+    l2: Annotated[float, Draw.decimal, 0.4, 1.0, 0.1]
+    q1: Annotated[float, Draw.signed, 10.0, 80.0, 5.0]
+    q2: Annotated[float, Draw.signed, 30.0, 120.0, 5.0]
+    x: Annotated[float, Draw.signed, 0.1, 1.5, 0.1]
+    y: Annotated[float, Draw.signed, 0.1, 1.5, 0.1]
+    velocity: Annotated[float, Draw.decimal, 0.3, 0.9, 0.1]
+    acceleration: Annotated[float, Draw.decimal, 0.5, 2.0, 0.5]
+    joint_limit: Annotated[float, Draw.decimal, 0.2, 1.0, 0.1]
 
     @property
     def line(self) -> PlanarLine:
@@ -64,20 +64,6 @@ class PlannedTask(NamedTuple):
         """Return the answers about the joints in the middle of the line, from q, [rad], and q̇, [rad/s]."""
         k = max(1.0, float(np.abs(rates).max()) / self.joint_limit if ratio is None else ratio)
         return {"joints": q, "rates": rates, "factor": k, "slowed": k * self.motion.law.duration}
-
-
-def _draw_planned(draw: Draw) -> PlannedTask:
-    return PlannedTask(
-        draw.decimal(0.4, 1.0, 0.1),
-        draw.decimal(0.4, 1.0, 0.1),
-        draw.signed(10.0, 80.0, 5.0),
-        draw.signed(30.0, 120.0, 5.0),
-        draw.signed(0.1, 1.5, 0.1),
-        draw.signed(0.1, 1.5, 0.1),
-        draw.decimal(0.3, 0.9, 0.1),
-        draw.decimal(0.5, 2.0, 0.5),
-        draw.decimal(0.2, 1.0, 0.1),
-    )
 
 
 def _is_useless_plan(one: PlannedTask) -> bool:
@@ -174,7 +160,7 @@ PLANNED = Exercise(
     id="trajectories.planned",
     title=marked("Exam: a line of the tip and its joints"),
     difficulty=5,
-    draw=_draw_planned,
+    draw=drawn(PlannedTask),
     is_degenerate=_is_useless_plan,
     text=lambda one: _(
         "A planar arm with l1 = {l1:g} m, l2 = {l2:g} m stands at q1 = {q1:g}°, q2 = {q2:g}°. Its tip has to move on a "
@@ -185,13 +171,12 @@ PLANNED = Exercise(
         "k has the motion to be slowed down so that they keep this limit there, and how long does it take then?"
     ).format(**one._asdict()),
     fields=lambda _one: (
-        VectorField(name="start", label=_("Tip at the start"), unit="m", tolerance=0.005, size=2, points=2.0),
+        vector("start", _("Tip at the start"), 2, "m", 2.0, within=0.005),
         quantity("length", _("Length of the line"), "m"),
         quantity("total", _("Time in all"), "s"),
         VectorField(name="joints", label=_("Joints in the middle"), unit="rad", tolerance=0.01, size=2, points=3.0,
                     is_angle=True),
-        VectorField(name="rates", label=_("Joint velocities in the middle"), unit="rad/s", tolerance=0.01, size=2,
-                    points=3.0),
+        vector("rates", _("Joint velocities in the middle"), 2, "rad/s", 3.0, within=0.01),
         quantity("factor", _("Factor k")),
         quantity("slowed", _("Time of the slowed motion"), "s"),
     ),
@@ -213,5 +198,3 @@ PLANNED = Exercise(
         "time_divided": lambda one: {"slowed": one.motion.law.duration / _planned_answers(one)["factor"]},
     },
 )  # fmt: skip
-
-EXERCISES = (PLANNED,)

@@ -1,14 +1,14 @@
 """Bang-coast-bang: speed up, coast, brake; of one joint, and of two in step."""
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from gelenk.course.motion.trapezoid_steps import trapezoid_steps
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
-from gelenk.exercises.fields import VectorField, quantity
+from gelenk.exercises.fields import quantity, vector
 from gelenk.language import marked
 from gelenk.language import translated as _
 from gelenk.trajectory.laws.trapezoid import JointMove, PointToPoint, Profile, fastest, point_to_point
@@ -123,12 +123,12 @@ PROFILE = Exercise(
 class PairTask(NamedTuple):
     """Displacements of two joints in degrees, with the limits of both in degrees per second and per second squared."""
 
-    d1: float
-    d2: float
-    v1: float
-    v2: float
-    a1: float
-    a2: float
+    d1: Annotated[float, Draw.signed, 20.0, 120.0, 5.0]
+    d2: Annotated[float, Draw.signed, 20.0, 120.0, 5.0]
+    v1: Annotated[float, Draw.decimal, 30.0, 90.0, 10.0]
+    v2: Annotated[float, Draw.decimal, 30.0, 90.0, 10.0]
+    a1: Annotated[float, Draw.decimal, 40.0, 150.0, 10.0]
+    a2: Annotated[float, Draw.decimal, 40.0, 150.0, 10.0]
 
     @property
     def moves(self) -> list[JointMove]:
@@ -151,16 +151,6 @@ class PairTask(NamedTuple):
         """The quicker joint's own profile, and k."""
         own = self.plan.own
         return own[self.quick], own[1 - self.quick].duration / own[self.quick].duration
-
-
-def _draw_pair(draw: Draw) -> PairTask:
-    ways = draw.signed(20.0, 120.0, 5.0), draw.signed(20.0, 120.0, 5.0)
-    speeds = draw.decimal(30.0, 90.0, 10.0), draw.decimal(30.0, 90.0, 10.0)
-    return PairTask(*ways, *speeds, draw.decimal(40.0, 150.0, 10.0), draw.decimal(40.0, 150.0, 10.0))
-
-
-def _is_useless_pair(one: PairTask) -> bool:
-    return not 1.15 < one.own[1] < 3.0
 
 
 def _pair_answers(one: PairTask) -> Answers:
@@ -190,8 +180,8 @@ PAIR = Exercise(
     id="trajectories.pair",
     title=marked("Two joints in step"),
     difficulty=3,
-    draw=_draw_pair,
-    is_degenerate=_is_useless_pair,
+    draw=drawn(PairTask),
+    is_degenerate=lambda one: not 1.15 < one.own[1] < 3.0,
     text=lambda one: _(
         "Two joints move by {d1:g}° and {d2:g}° from rest to rest, by bang-coast-bang. Their limits are {v1:g}°/s and "
         "{v2:g}°/s, {a1:g}°/s² and {a2:g}°/s². How long would each take alone? Both have to start and end together in "
@@ -199,7 +189,7 @@ PAIR = Exercise(
         "the quicker joint slower, and which largest speed and which acceleration has it then?"
     ).format(**one._asdict()),
     fields=lambda _one: (
-        VectorField(name="times", label=_("Times of both alone"), unit="s", tolerance=0.01, size=2, points=2.0),
+        vector("times", _("Times of both alone"), 2, "s", 2.0, within=0.01),
         quantity("total", _("Time of the motion"), "s"),
         quantity("factor", _("Factor k")),
         quantity("velocity", _("Largest speed of the quicker joint"), "°/s"),
@@ -219,5 +209,3 @@ PAIR = Exercise(
         "times_added": lambda one: {"total": sum(own.duration for own in one.plan.own)},
     },
 )
-
-EXERCISES = (PROFILE, PAIR)

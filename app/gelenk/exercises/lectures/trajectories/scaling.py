@@ -1,11 +1,11 @@
 """How far a motion has to be slowed down for its limits."""
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from gelenk.course.motion.time_scaling_steps import scaling_steps
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import quantity
 from gelenk.language import marked
@@ -19,13 +19,13 @@ from gelenk.trajectory.motion.time_laws import between
 class ScalingTask(NamedTuple):
     """Two joints by a cubic, from rest to rest: displacements, time, limits; radians and seconds."""
 
-    d1: float
-    d2: float
-    time: float
-    v1: float
-    v2: float
-    a1: float
-    a2: float
+    d1: Annotated[float, Draw.signed, 0.4, 2.4, 0.1]
+    d2: Annotated[float, Draw.signed, 0.4, 2.4, 0.1]
+    time: Annotated[float, Draw.decimal, 0.6, 2.0, 0.2]
+    v1: Annotated[float, Draw.decimal, 0.5, 4.0, 0.5]
+    v2: Annotated[float, Draw.decimal, 0.5, 4.0, 0.5]
+    a1: Annotated[float, Draw.decimal, 1.0, 12.0, 1.0]
+    a2: Annotated[float, Draw.decimal, 1.0, 12.0, 1.0]
 
     @property
     def motion(self) -> PiecewisePolynomial:
@@ -55,18 +55,6 @@ class ScalingTask(NamedTuple):
         """|q̇|/v and |q̈|/a of both joints."""
         d, (v, a) = np.abs([self.d1, self.d2]), self.limits
         return 1.5 * d / self.time / v, 6.0 * d / self.time**2 / a
-
-
-def _draw_scaling(draw: Draw) -> ScalingTask:
-    return ScalingTask(
-        draw.signed(0.4, 2.4, 0.1),
-        draw.signed(0.4, 2.4, 0.1),
-        draw.decimal(0.6, 2.0, 0.2),
-        draw.decimal(0.5, 4.0, 0.5),
-        draw.decimal(0.5, 4.0, 0.5),
-        draw.decimal(1.0, 12.0, 1.0),
-        draw.decimal(1.0, 12.0, 1.0),
-    )
 
 
 def _is_useless_scaling(one: ScalingTask) -> bool:
@@ -101,7 +89,7 @@ SCALING = Exercise(
     id="trajectories.scaling",
     title=marked("Slowing a motion down for its limits"),
     difficulty=3,
-    draw=_draw_scaling,
+    draw=drawn(ScalingTask),
     is_degenerate=_is_useless_scaling,
     text=lambda one: _(
         "Two joints move by {d1:g} rad and {d2:g} rad in T = {time:g} s, each by a cubic from rest to rest. They allow "
@@ -126,5 +114,3 @@ SCALING = Exercise(
         "time_divided": lambda one: {"time": one.time / one.scaling.course_factor},
     },
 )
-
-EXERCISES = (SCALING,)

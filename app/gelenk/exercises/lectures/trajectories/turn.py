@@ -1,16 +1,16 @@
 """An orientation that turns about one axis."""
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from gelenk.course.cartesian.turn import Turn
 from gelenk.course.cartesian.turn_steps import turn_steps
 from gelenk.course.orientation.rotations import elementary
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
-from gelenk.exercises.fields import NumberField, VectorField
+from gelenk.exercises.fields import quantity, vector
 from gelenk.language import marked
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
@@ -21,16 +21,21 @@ from gelenk.trajectory.motion.time_laws import rest_to_rest
 class TurnTask(NamedTuple):
     """From Rz(first) to Rz(second) Rx(tilt), in degrees, by a cubic in a time in seconds."""
 
-    first: float
-    second: float
-    tilt: float
-    time: float
+    first: Annotated[float, Draw.signed, 10.0, 90.0, 10.0]
+    second: Annotated[float, Draw.signed, 10.0, 180.0, 10.0]
+    tilt: Annotated[float, Draw.signed, 20.0, 150.0, 10.0]
+    time: Annotated[float, Draw.decimal, 1.0, 4.0, 0.5]
 
     @property
     def turn(self) -> Turn:
         """Both orientations."""
         first, second, tilt = map(math.radians, (self.first, self.second, self.tilt))
         return Turn(elementary("z", first), elementary("z", second) @ elementary("x", tilt))
+
+    @property
+    def between(self) -> float:
+        """Angle about z from the first orientation to the second one, [°]."""
+        return math.remainder(self.second - self.first, 360.0)
 
     @property
     def share(self) -> PiecewisePolynomial:
@@ -42,22 +47,13 @@ class TurnTask(NamedTuple):
         return {"angle": angle, "axis": axis, "velocity": peak * angle / self.time * base_axis}
 
 
-def _draw_turn(draw: Draw) -> TurnTask:
-    angles = draw.signed(10.0, 90.0, 10.0), draw.signed(10.0, 180.0, 10.0), draw.signed(20.0, 150.0, 10.0)
-    return TurnTask(*angles, draw.decimal(1.0, 4.0, 0.5))
-
-
-def _is_useless_turn(one: TurnTask) -> bool:
-    return not 0.5 < one.turn.by_axis.angle < 2.9 or abs(math.remainder(one.second - one.first, 360.0)) < 15.0
-
-
 def _turn_answers(one: TurnTask) -> Answers:
     path = one.turn.by_axis
     return one.answers(path.angle, path.axis, one.turn.base_axis)
 
 
 def _as_vector(one: TurnTask) -> Answers:
-    vector = np.radians([one.tilt, 0.0, math.remainder(one.second - one.first, 360.0)])
+    vector = np.radians([one.tilt, 0.0, one.between])
     angle = float(np.linalg.norm(vector))
     return one.answers(angle, vector / angle, one.turn.start @ vector / angle)
 
@@ -77,8 +73,8 @@ TURN = Exercise(
     id="trajectories.turn",
     title=marked("A turn about one axis"),
     difficulty=4,
-    draw=_draw_turn,
-    is_degenerate=_is_useless_turn,
+    draw=drawn(TurnTask),
+    is_degenerate=lambda one: not 0.5 < one.turn.by_axis.angle < 2.9 or abs(one.between) < 15.0,
     text=lambda one: _(
         "A hand has the orientation R_i = Rz({first:g}°) and has to reach R_f = Rz({second:g}°) Rx({tilt:g}°) in "
         "{time:g} s, by turning about one axis; the angle is a cubic of time from rest to rest. With R_i^T R_f = "
@@ -86,10 +82,9 @@ TURN = Exercise(
         "frame when it is largest?"
     ).format(**one._asdict()),
     fields=lambda _one: (
-        NumberField(name="angle", label=_("Angle θ"), unit="rad", tolerance=0.005, points=2.0),
-        VectorField(name="axis", label=_("Axis r in the frame of R_i"), tolerance=0.005, size=3, points=2.0),
-        VectorField(name="velocity", label=_("Largest angular velocity in the base frame"), unit="rad/s",
-                    tolerance=0.01, size=3, points=2.0),
+        quantity("angle", _("Angle θ"), "rad", 2.0, within=0.005),
+        vector("axis", _("Axis r in the frame of R_i"), 3, points=2.0, within=0.005),
+        vector("velocity", _("Largest angular velocity in the base frame"), 3, "rad/s", 2.0, within=0.01),
     ),
     solve=_turn_answers,
     steps=lambda one: turn_steps(one.turn, one.share),
@@ -109,5 +104,3 @@ TURN = Exercise(
         },
     },
 )  # fmt: skip
-
-EXERCISES = (TURN,)

@@ -1,5 +1,5 @@
 """Velocities: the Jacobian, its singularities and inverses, and what follows from it by differentiating.
 
-- `two_links`: the planar arm, its inverse, its damped inverse. `columns`: arms in space, and where they are singular.
-- `redundant`: the pseudo-inverse. `motion`: an exam, from velocity to jerk.
+- `planar`: planar arms, their inverse, damped inverse and pseudo-inverse. `columns`: arms in space, and where they are
+  singular. `motion`: an exam, from velocity to jerk.
 """

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -11,10 +11,10 @@ from gelenk.course.velocity.geometry import ChainGeometry
 from gelenk.course.velocity.jacobian_steps import JacobianQuestion, jacobian_steps
 from gelenk.course.velocity.tip_motion_steps import tip_motion_steps
 from gelenk.course.velocity.writing import number, row
-from gelenk.exercises.arms import anthropomorphic, at, lever_from_base, radians, scara
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.arms import anthropomorphic, at, lever_from_base, misread, radians, scara
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
-from gelenk.exercises.fields import NumberField, SetField, basis, matrix, quantity, vector
+from gelenk.exercises.fields import angle, basis, matrix, quantity, solution_set, vector
 from gelenk.language import marked
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
@@ -26,46 +26,28 @@ _DIGITS = 12
 class ScaraTask(NamedTuple):
     """A SCARA whose joints move; lengths in metres, angles in degrees, velocities in rad/s, the third in m/s."""
 
-    a1: float
-    a2: float
-    d1: float
-    d4: float
-    q1: float
-    q2: float
-    q3: float
-    q4: float
-    rate1: float
-    rate2: float
-    rate3: float
-    rate4: float
+    a1: Annotated[float, Draw.decimal, 0.2, 0.6, 0.05]
+    a2: Annotated[float, Draw.decimal, 0.2, 0.5, 0.05]
+    d1: Annotated[float, Draw.decimal, 0.3, 0.6, 0.1]
+    d4: Annotated[float, Draw.decimal, 0.05, 0.15, 0.05]
+    q1: Annotated[float, Draw.signed, 10.0, 80.0, 5.0]
+    q2: Annotated[float, Draw.signed, 30.0, 130.0, 5.0]
+    q3: Annotated[float, Draw.decimal, 0.1, 0.25, 0.05]
+    q4: Annotated[float, Draw.signed, 10.0, 90.0, 10.0]
+    rate1: Annotated[float, Draw.signed, 0.5, 2.0, 0.1]
+    rate2: Annotated[float, Draw.signed, 0.5, 2.0, 0.1]
+    rate3: Annotated[float, Draw.signed, 0.1, 0.6, 0.1]
+    rate4: Annotated[float, Draw.signed, 0.5, 2.0, 0.1]
 
-    def geometry(self, *, calculator: bool = False) -> ChainGeometry:
-        """Return axes and lever arms; `calculator` takes the degrees for radians."""
-        q = np.array([self.q1, self.q2, self.q4])
-        q1, q2, q4 = q if calculator else radians(*q)
+    def geometry(self) -> ChainGeometry:
+        """Return axes and lever arms."""
+        q1, q2, q4 = radians(self.q1, self.q2, self.q4)
         return at(scara(self.a1, self.a2, self.d1, self.d4), np.array([q1, q2, self.q3, q4]))
 
     @property
     def rates(self) -> Array:
         """Joint velocities."""
         return np.array([self.rate1, self.rate2, self.rate3, self.rate4])
-
-
-def _draw_scara(draw: Draw) -> ScaraTask:
-    return ScaraTask(
-        draw.decimal(0.2, 0.6, 0.05),
-        draw.decimal(0.2, 0.5, 0.05),
-        draw.decimal(0.3, 0.6, 0.1),
-        draw.decimal(0.05, 0.15, 0.05),
-        draw.signed(10.0, 80.0, 5.0),
-        draw.signed(30.0, 130.0, 5.0),
-        draw.decimal(0.1, 0.25, 0.05),
-        draw.signed(10.0, 90.0, 10.0),
-        draw.signed(0.5, 2.0, 0.1),
-        draw.signed(0.5, 2.0, 0.1),
-        draw.signed(0.1, 0.6, 0.1),
-        draw.signed(0.5, 2.0, 0.1),
-    )
 
 
 def _scara_answers(task: ScaraTask, J: Array) -> Answers:
@@ -102,7 +84,7 @@ SCARA = Exercise(
     id="velocities.scara",
     title=marked("The columns of a SCARA's Jacobian"),
     difficulty=2,
-    draw=_draw_scara,
+    draw=drawn(ScaraTask),
     text=lambda one: _(
         "A SCARA has these rows of a standard DH table, each as (a, α, d, ϑ) with lengths in metres: ({a1:g}, 0, "
         "{d1:g}, ϑ₁), ({a2:g}, 180°, 0, ϑ₂), (0, 0, d₃, 0), (0, 0, {d4:g}, ϑ₄). It stands at ϑ₁ = {q1:g}°, ϑ₂ = "
@@ -125,7 +107,7 @@ SCARA = Exercise(
         "next_axis": lambda one: _scara_answers(one, _next_axes(one)),
         "lever_from_base": lambda one: _scara_answers(one, lever_from_base(one.geometry())),
         "axis_not_turned": lambda one: _scara_answers(one, _scara_up(one)),
-        "calculator_mode": lambda one: _scara_answers(one, one.geometry(calculator=True).jacobian()),
+        "calculator_mode": lambda one: misread(one, "q1", "q2", "q4"),
     },
 )
 
@@ -133,16 +115,15 @@ SCARA = Exercise(
 class AnthropomorphicTask(NamedTuple):
     """An anthropomorphic arm; angles in degrees."""
 
-    a2: float
-    a3: float
-    q1: float
-    q2: float
-    q3: float
+    a2: Annotated[float, Draw.decimal, 0.3, 0.8, 0.05]
+    a3: Annotated[float, Draw.decimal, 0.3, 0.8, 0.05]
+    q1: Annotated[float, Draw.signed, 10.0, 80.0, 5.0]
+    q2: Annotated[float, Draw.signed, 10.0, 80.0, 5.0]
+    q3: Annotated[float, Draw.signed, 30.0, 140.0, 5.0]
 
-    def geometry(self, *, calculator: bool = False, bend: float | None = None) -> ChainGeometry:
-        """Return axes and lever arms, perhaps with another third angle; `calculator` takes degrees for radians."""
-        q = np.array([self.q1, self.q2, self.q3 if bend is None else bend])
-        return at(anthropomorphic(self.a2, self.a3), q if calculator else radians(*q))
+    def geometry(self) -> ChainGeometry:
+        """Return axes and lever arms."""
+        return at(anthropomorphic(self.a2, self.a3), radians(self.q1, self.q2, self.q3))
 
     @property
     def factors(self) -> tuple[float, float]:
@@ -151,23 +132,8 @@ class AnthropomorphicTask(NamedTuple):
         return math.sin(third), self.a2 * math.cos(second) + self.a3 * math.cos(second + third)
 
 
-def _draw_anthropomorphic(draw: Draw) -> AnthropomorphicTask:
-    return AnthropomorphicTask(
-        draw.decimal(0.3, 0.8, 0.05),
-        draw.decimal(0.3, 0.8, 0.05),
-        draw.signed(10.0, 80.0, 5.0),
-        draw.signed(10.0, 80.0, 5.0),
-        draw.signed(30.0, 140.0, 5.0),
-    )
-
-
 def _linear_answers(J: Array) -> Answers:
     return {"jacobian": J[:3].round(_DIGITS), "determinant": float(np.linalg.det(J[:3]))}
-
-
-def _third_not_summed(task: AnthropomorphicTask) -> Array:
-    """J if the angle of the last link is ϑ₃ and not ϑ₂ + ϑ₃."""
-    return task.geometry(bend=task.q3 - task.q2).jacobian()
 
 
 def _factored(task: AnthropomorphicTask) -> Step:
@@ -183,7 +149,7 @@ ANTHROPOMORPHIC = Exercise(
     id="velocities.anthropomorphic",
     title=marked("The Jacobian of an anthropomorphic arm"),
     difficulty=3,
-    draw=_draw_anthropomorphic,
+    draw=drawn(AnthropomorphicTask),
     is_degenerate=lambda one: abs(one.factors[1]) < 0.15,
     text=lambda one: _(
         "An anthropomorphic arm has the standard DH rows (a, α, d, ϑ) = (0, 90°, 0, ϑ₁), ({a2:g} m, 0, 0, ϑ₂), "
@@ -198,8 +164,8 @@ ANTHROPOMORPHIC = Exercise(
     steps=lambda one: [*_derivation(one.geometry()), _factored(one)],
     wrong={
         "lever_from_base": lambda one: {"jacobian": lever_from_base(one.geometry())[:3]},
-        "angle_not_summed": lambda one: _linear_answers(_third_not_summed(one)),
-        "calculator_mode": lambda one: _linear_answers(one.geometry(calculator=True).jacobian()),
+        "angle_not_summed": lambda one: one._replace(q3=one.q3 - one.q2),
+        "calculator_mode": misread,
         "own_link_only": lambda one: {
             "jacobian": one.geometry().jacobian()[:3] @ np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 1.0]])
         },
@@ -211,10 +177,10 @@ ANTHROPOMORPHIC = Exercise(
 class ShoulderTask(NamedTuple):
     """An anthropomorphic arm whose third angle is asked for; angles in degrees."""
 
-    a2: float
-    a3: float
-    q1: float
-    q2: float
+    a2: Annotated[float, Draw.decimal, 0.3, 0.6, 0.05]
+    a3: Annotated[float, Draw.decimal, 0.4, 0.8, 0.05]
+    q1: Annotated[float, Draw.signed, 10.0, 80.0, 5.0]
+    q2: Annotated[float, Draw.signed, 20.0, 70.0, 5.0]
 
     @property
     def cosine(self) -> float:
@@ -230,15 +196,6 @@ class ShoulderTask(NamedTuple):
         posture = AnthropomorphicTask(*self, self.bends(math.acos(self.cosine))[0])
         left, _sigmas, _right = np.linalg.svd(posture.geometry().jacobian()[:3])
         return np.asarray(left[:, 2:].round(_DIGITS))
-
-
-def _draw_shoulder(draw: Draw) -> ShoulderTask:
-    return ShoulderTask(
-        draw.decimal(0.3, 0.6, 0.05),
-        draw.decimal(0.4, 0.8, 0.05),
-        draw.signed(10.0, 80.0, 5.0),
-        draw.signed(20.0, 70.0, 5.0),
-    )
 
 
 def _meets_elbow(task: ShoulderTask) -> bool:
@@ -274,16 +231,11 @@ def _shoulder_steps(task: ShoulderTask) -> list[Step]:
     ]
 
 
-def _angles(name: str, label: str) -> SetField:
-    item = NumberField(name=name, label=label, unit="°", tolerance=0.5, is_angle=True)
-    return SetField(name=name, label=label, unit="°", item=item)
-
-
 SINGULARITIES = Exercise(
     id="velocities.singularities",
     title=marked("Singularities of an anthropomorphic arm"),
     difficulty=4,
-    draw=_draw_shoulder,
+    draw=drawn(ShoulderTask),
     is_degenerate=lambda one: abs(one.cosine) > 0.9 or _meets_elbow(one),
     text=lambda one: _(
         "An anthropomorphic arm has the standard DH rows (a, α, d, ϑ) = (0, 90°, 0, ϑ₁), ({a2:g} m, 0, 0, ϑ₂), "
@@ -292,8 +244,8 @@ SINGULARITIES = Exercise(
         "not move in the second case?"
     ).format(**one._asdict()),
     fields=lambda _one: (
-        _angles("elbow", _("All ϑ₃ of elbow singularities")),
-        _angles("shoulder", _("All ϑ₃ with the tip on the first axis")),
+        solution_set(angle("elbow", _("All ϑ₃ of elbow singularities"), unit="°")),
+        solution_set(angle("shoulder", _("All ϑ₃ with the tip on the first axis"), unit="°")),
         basis("lost", _("The lost direction, as a column"), (3, 1)),
     ),
     solve=lambda one: {
@@ -315,5 +267,3 @@ SINGULARITIES = Exercise(
         "axis_for_direction": lambda _one: {"lost": [[0.0], [0.0], [1.0]]},
     },
 )
-
-EXERCISES = (SCARA, ANTHROPOMORPHIC, SINGULARITIES)

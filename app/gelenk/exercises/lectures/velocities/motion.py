@@ -1,17 +1,18 @@
 """An exam: from the Jacobian to the jerk, and joint accelerations for a tip that moves uniformly."""
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from gelenk.course.steps import Step, step
 from gelenk.course.velocity.tip_motion_steps import tip_motion_steps
 from gelenk.course.velocity.writing import number, row
-from gelenk.exercises.arms import angles_not_summed, planar, planar_picture, radians, rates_in_plane
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.arms import angles, angles_not_summed, lengths, misread, planar, planar_picture
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import matrix, quantity, vector
-from gelenk.exercises.lectures.velocities.two_links import picked_steps
+from gelenk.exercises.lectures.velocities.planar import picked_steps
+from gelenk.kinematics.velocity.velocity import jacobian_derivatives
 from gelenk.language import marked
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
@@ -20,41 +21,26 @@ from gelenk.robot.arrays import Array
 class TwoLinkMotion(NamedTuple):
     """A planar arm in motion; angles in degrees, derivatives in rad/s, rad/s² and rad/s³."""
 
-    l1: float
-    l2: float
-    q1: float
-    q2: float
-    rate1: float
-    rate2: float
-    acceleration1: float
-    acceleration2: float
-    jerk1: float
-    jerk2: float
-
-    @property
-    def lengths(self) -> tuple[float, float]:
-        """Both links."""
-        return self.l1, self.l2
+    l1: Annotated[float, Draw.decimal, 0.4, 1.0, 0.1]
+    l2: Annotated[float, Draw.decimal, 0.3, 0.8, 0.1]
+    q1: Annotated[float, Draw.signed, 10.0, 80.0, 5.0]
+    q2: Annotated[float, Draw.signed, 40.0, 120.0, 5.0]
+    rate1: Annotated[float, Draw.signed, 0.4, 1.5, 0.1]
+    rate2: Annotated[float, Draw.signed, 0.4, 1.5, 0.1]
+    acceleration1: Annotated[float, Draw.signed, 0.4, 1.5, 0.1]
+    acceleration2: Annotated[float, Draw.signed, 0.4, 1.5, 0.1]
+    jerk1: Annotated[float, Draw.signed, 0.4, 1.5, 0.1]
+    jerk2: Annotated[float, Draw.signed, 0.4, 1.5, 0.1]
 
     @property
     def rates(self) -> Array:
         """The first, second and third derivative of the angles; shape (3, 2)."""
         return np.reshape(self[4:], (3, 2))
 
-    def jacobians(self, *, calculator: bool = False) -> tuple[Array, ...]:
+    def jacobians(self) -> tuple[Array, ...]:
         """Return J and its first two derivatives in the plane; shape (2, 2) each."""
-        q = np.array([self.q1, self.q2])
-        return rates_in_plane(planar(*self.lengths), q if calculator else radians(*q), *self.rates[:2])
-
-
-def _draw_motion(draw: Draw) -> TwoLinkMotion:
-    return TwoLinkMotion(
-        draw.decimal(0.4, 1.0, 0.1),
-        draw.decimal(0.3, 0.8, 0.1),
-        draw.signed(10.0, 80.0, 5.0),
-        draw.signed(40.0, 120.0, 5.0),
-        *(draw.signed(0.4, 1.5, 0.1) for _derivative in range(3) for _joint in range(2)),
-    )
+        series = jacobian_derivatives(planar(*lengths(self)), angles(self)[None], self.rates[:2, None])
+        return tuple(np.asarray(each[0, :2]) for each in series)
 
 
 def _motion_answers(task: TwoLinkMotion, Js: tuple[Array, ...]) -> Answers:
@@ -106,12 +92,11 @@ def _motion_steps(task: TwoLinkMotion) -> list[Step]:
         rf"\det J = {number(found['determinant'])},\quad \dot J \dot q = {row(Js[1] @ task.rates[0])}",
         rf"\ddot q = -J^{{-1}} \dot J \dot q = {row(found['uniform'])}",
     )
-    q = radians(task.q1, task.q2)
-    return [*picked_steps(task.lengths, q), *tip_motion_steps(Js, task.rates), uniform]
+    return [*picked_steps(task), *tip_motion_steps(Js, task.rates), uniform]
 
 
 def _not_summed(task: TwoLinkMotion) -> Answers:
-    J = angles_not_summed(task.lengths, radians(task.q1, task.q2))
+    J = angles_not_summed(task)
     return {"jacobian": J, "determinant": float(np.linalg.det(J)), "velocity": J @ task.rates[0]}
 
 
@@ -119,7 +104,7 @@ MOTION = Exercise(
     id="velocities.motion",
     title=marked("Exam: from velocity to jerk"),
     difficulty=5,
-    draw=_draw_motion,
+    draw=drawn(TwoLinkMotion),
     is_degenerate=_cancels,
     text=lambda one: _(
         "A planar arm has two revolute joints and links of l₁ = {l1:g} m and l₂ = {l2:g} m. At this moment ϑ = "
@@ -147,9 +132,7 @@ MOTION = Exercise(
         "angle_not_summed": _not_summed,
         "rates_not_summed": _second_rate_only,
         "transpose_for_inverse": lambda one: {"uniform": -one.jacobians()[0].T @ one.jacobians()[1] @ one.rates[0]},
-        "calculator_mode": lambda one: _motion_answers(one, one.jacobians(calculator=True)),
+        "calculator_mode": misread,
     },
-    picture=lambda one: planar_picture(one.lengths, (one.q1, one.q2)),
+    picture=planar_picture,
 )
-
-EXERCISES = (MOTION,)

@@ -1,15 +1,15 @@
 """A point in the workspace: with which orientations it is reached, and by which links."""
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from gelenk.course.planar import PlanarWorkspace, orientations, planar_workspace, share, workspace_steps
 from gelenk.course.steps import Step, step, tex
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
-from gelenk.exercises.fields import NumberField, VectorField, quantity
+from gelenk.exercises.fields import quantity, vector
 from gelenk.exercises.lectures.workspaces.rings import CLOSE, WristLinks, shape_field
 from gelenk.language import marked
 from gelenk.language import translated as _
@@ -18,10 +18,10 @@ from gelenk.language import translated as _
 class PointTask(NamedTuple):
     """Three links and a point on the x axis, [m]."""
 
-    l1: float
-    l2: float
-    l3: float
-    x: float
+    l1: Annotated[float, Draw.decimal, 0.4, 1.2, 0.1]
+    l2: Annotated[float, Draw.decimal, 0.3, 1.0, 0.1]
+    l3: Annotated[float, Draw.decimal, 0.2, 0.6, 0.1]
+    x: Annotated[float, Draw.decimal, 0.5, 2.4, 0.1]
 
     @property
     def arm(self) -> PlanarWorkspace:
@@ -35,11 +35,6 @@ class PointTask(NamedTuple):
     def answers(self, limit: float) -> Answers:
         """Return the answers from the largest |φ|."""
         return {"limit": limit, "share": limit / math.pi}
-
-
-def _draw_point(draw: Draw) -> PointTask:
-    lengths = draw.decimal(0.4, 1.2, 0.1), draw.decimal(0.3, 1.0, 0.1), draw.decimal(0.2, 0.6, 0.1)
-    return PointTask(*lengths, draw.decimal(0.5, 2.4, 0.1))
 
 
 def _is_useless_point(one: PointTask) -> bool:
@@ -79,7 +74,7 @@ ORIENTATIONS = Exercise(
     id="workspaces.orientations",
     title=marked("The orientations at a point"),
     difficulty=4,
-    draw=_draw_point,
+    draw=drawn(PointTask),
     is_degenerate=_is_useless_point,
     text=lambda one: _(
         "A planar arm has three links of {l1:g} m, {l2:g} m and {l3:g} m whose joints turn without limits. Its tip is "
@@ -87,7 +82,7 @@ ORIENTATIONS = Exercise(
         "and which share of all orientations is that?"
     ).format(**one._asdict()),
     fields=lambda _one: (
-        NumberField(name="limit", label=_("Largest |φ|"), unit="rad", tolerance=0.005, points=3.0),
+        quantity("limit", _("Largest |φ|"), "rad", 3.0, within=0.005),
         quantity("share", _("Share of all orientations")),
     ),
     solve=_point_answers,
@@ -107,9 +102,9 @@ ORIENTATIONS = Exercise(
 class DesignTask(NamedTuple):
     """A ring that has to be the workspace of two links, [m], and a third link for these."""
 
-    inner: float
-    outer: float
-    l3: float
+    inner: Annotated[float, Draw.decimal, 0.1, 0.6, 0.1]
+    outer: Annotated[float, Draw.decimal, 1.0, 2.4, 0.1]
+    l3: Annotated[float, Draw.decimal, 0.15, 0.65, 0.1]
 
     @property
     def links(self) -> tuple[float, float]:
@@ -164,13 +159,11 @@ def _secondary_of(inner: float, outer: float) -> Answers:
     return {"secondary": np.array([inner, outer]), "area": math.pi * (outer**2 - inner**2)}
 
 
-DESIGN = Exercise(
+DESIGN: Exercise[DesignTask] = Exercise(
     id="workspaces.design",
     title=marked("Exam: links for a workspace"),
     difficulty=5,
-    draw=lambda draw: DesignTask(
-        draw.decimal(0.1, 0.6, 0.1), draw.decimal(1.0, 2.4, 0.1), draw.decimal(0.15, 0.65, 0.1)
-    ),
+    draw=drawn(DesignTask),
     is_degenerate=_is_useless_design,
     text=lambda one: _(
         "A planar arm with two links has to reach exactly the ring of points between {inner:g} m and {outer:g} m from "
@@ -181,10 +174,10 @@ DESIGN = Exercise(
         "of this ring?"
     ).format(**one._asdict()),
     fields=lambda _one: (
-        VectorField(name="links", label=_("Lengths of the two links"), unit="m", tolerance=CLOSE, size=2, points=2.0),
-        VectorField(name="primary", label=_("Radii of WS₁"), unit="m", tolerance=CLOSE, size=2, points=2.0),
+        vector("links", _("Lengths of the two links"), 2, "m", 2.0, within=CLOSE),
+        vector("primary", _("Radii of WS₁"), 2, "m", 2.0, within=CLOSE),
         shape_field(),
-        VectorField(name="secondary", label=_("Radii of the ring"), unit="m", tolerance=CLOSE, size=2, points=3.0),
+        vector("secondary", _("Radii of the ring"), 2, "m", 3.0, within=CLOSE),
         quantity("area", _("Area"), "m²"),
     ),
     solve=_design_answers,
@@ -201,5 +194,3 @@ DESIGN = Exercise(
         "disc_without_pi": lambda one: {"area": _design_answers(one)["area"] / math.pi},
     },
 )
-
-EXERCISES = (ORIENTATIONS, DESIGN)

@@ -1,15 +1,15 @@
 """The two workspaces of planar arms, as rings around the base."""
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from gelenk.course.planar import PlanarWorkspace, area, planar_workspace, workspace_steps
 from gelenk.course.steps import Step, step, tex
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
-from gelenk.exercises.fields import ChoiceField, NumberField, VectorField, quantity
+from gelenk.exercises.fields import ChoiceField, quantity, vector
 from gelenk.language import marked
 from gelenk.language import translated as _
 
@@ -20,8 +20,8 @@ CLOSE = 0.002
 class RingLinks(NamedTuple):
     """Lengths of a planar arm with two links, [m]."""
 
-    l1: float
-    l2: float
+    l1: Annotated[float, Draw.decimal, 0.3, 1.2, 0.05]
+    l2: Annotated[float, Draw.decimal, 0.2, 1.0, 0.05]
 
     @property
     def arm(self) -> PlanarWorkspace:
@@ -46,15 +46,15 @@ RING = Exercise(
     id="workspaces.ring",
     title=marked("What two links reach"),
     difficulty=1,
-    draw=lambda draw: RingLinks(draw.decimal(0.3, 1.2, 0.05), draw.decimal(0.2, 1.0, 0.05)),
+    draw=drawn(RingLinks),
     is_degenerate=lambda one: abs(one.l1 - one.l2) < 0.1 or abs(one.l1 - 1.0) < 0.01,
     text=lambda one: _(
         "A planar arm has two links of {l1:g} m and {l2:g} m whose joints turn without limits. Between which distances "
         "from the base are the points that its tip reaches, and how large is the area of the ring?"
     ).format(**one._asdict()),
     fields=lambda _one: (
-        NumberField(name="inner", label=_("Smallest distance"), unit="m", tolerance=CLOSE),
-        NumberField(name="outer", label=_("Largest distance"), unit="m", tolerance=CLOSE),
+        quantity("inner", _("Smallest distance"), "m", within=CLOSE),
+        quantity("outer", _("Largest distance"), "m", within=CLOSE),
         quantity("area", _("Area"), "m²"),
     ),
     solve=lambda one: {
@@ -76,9 +76,9 @@ RING = Exercise(
 class WristLinks(NamedTuple):
     """Lengths of a planar arm with three links, [m]."""
 
-    l1: float
-    l2: float
-    l3: float
+    l1: Annotated[float, Draw.decimal, 0.2, 1.6, 0.1]
+    l2: Annotated[float, Draw.decimal, 0.2, 1.6, 0.1]
+    l3: Annotated[float, Draw.decimal, 0.1, 1.2, 0.1]
 
     @property
     def arm(self) -> PlanarWorkspace:
@@ -86,36 +86,24 @@ class WristLinks(NamedTuple):
         return planar_workspace(self)
 
 
-def _lengths(draw: Draw) -> WristLinks:
-    return WristLinks(draw.decimal(0.4, 1.2, 0.1), draw.decimal(0.3, 1.0, 0.1), draw.decimal(0.1, 0.7, 0.1))
-
-
-def _long_link(draw: Draw) -> WristLinks:
-    return WristLinks(*(draw.decimal(low, high, 0.1) for low, high in ((0.2, 1.6), (0.2, 1.6), (0.1, 1.2))))
-
-
 def _primary(one: WristLinks) -> Answers:
     return dict(zip(("inner", "outer"), one.arm.primary[0], strict=True))
-
-
-def _is_near_limit(one: WristLinks) -> bool:
-    return abs(2.0 * max(one) - sum(one)) < 0.05 or abs(one.l1 - one.l2) < 0.05
 
 
 PRIMARY = Exercise(
     id="workspaces.primary",
     title=marked("The primary workspace of three links"),
     difficulty=2,
-    draw=_long_link,
-    is_degenerate=_is_near_limit,
+    draw=drawn(WristLinks),
+    is_degenerate=lambda one: abs(2.0 * max(one) - sum(one)) < 0.05 or abs(one.l1 - one.l2) < 0.05,
     text=lambda one: _(
         "A planar arm has three links of {l1:g} m, {l2:g} m and {l3:g} m whose joints turn without limits. Between "
         "which distances from the base are the points of its primary workspace WS₁, reached with at least one "
         "orientation, and how large is its area?"
     ).format(**one._asdict()),
     fields=lambda _one: (
-        NumberField(name="inner", label=_("Smallest distance"), unit="m", tolerance=CLOSE, points=2.0),
-        NumberField(name="outer", label=_("Largest distance"), unit="m", tolerance=CLOSE),
+        quantity("inner", _("Smallest distance"), "m", 2.0, within=CLOSE),
+        quantity("outer", _("Largest distance"), "m", within=CLOSE),
         quantity("area", _("Area"), "m²"),
     ),
     solve=lambda one: {**_primary(one), "area": area(one.arm.primary)},
@@ -168,7 +156,12 @@ SECONDARY = Exercise(
     id="workspaces.secondary",
     title=marked("The secondary workspace of three links"),
     difficulty=3,
-    draw=_lengths,
+    draw=drawn(
+        WristLinks,
+        l1=(Draw.decimal, 0.4, 1.2, 0.1),
+        l2=(Draw.decimal, 0.3, 1.0, 0.1),
+        l3=(Draw.decimal, 0.1, 0.7, 0.1),
+    ),
     is_degenerate=_is_useless_secondary,
     text=lambda one: _(
         "A planar arm has three links of {l1:g} m, {l2:g} m and {l3:g} m whose joints turn without limits. What does "
@@ -177,8 +170,8 @@ SECONDARY = Exercise(
     ).format(**one._asdict()),
     fields=lambda _one: (
         shape_field(),
-        NumberField(name="disc", label=_("Radius of the disc"), unit="m", tolerance=CLOSE, points=2.0),
-        VectorField(name="ring", label=_("Radii of the ring"), unit="m", tolerance=CLOSE, size=2, points=3.0),
+        quantity("disc", _("Radius of the disc"), "m", 2.0, within=CLOSE),
+        vector("ring", _("Radii of the ring"), 2, "m", 3.0, within=CLOSE),
     ),
     solve=_secondary_answers,
     steps=lambda one: workspace_steps(one.arm),
@@ -194,5 +187,3 @@ SECONDARY = Exercise(
         "last_link_only_outside": lambda one: _ring_of(abs(one.l1 - one.l2), one.l1 + one.l2 - one.l3),
     },
 )
-
-EXERCISES = (RING, PRIMARY, SECONDARY)

@@ -1,26 +1,86 @@
-"""An exam: a platform on legs."""
+"""The table of kinematic pairs in space, and an exam: a platform on legs."""
 
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 from gelenk.course.mobility.mechanism import GivenPair, Mechanism, mechanism
 from gelenk.course.mobility.mobility import tally
-from gelenk.course.mobility.pairs import FREEDOMS, KINDS
+from gelenk.course.mobility.pairs import FREEDOMS, KINDS, Space
 from gelenk.course.mobility.steps import steps as mobility_steps
-from gelenk.exercises.answer_field import AnswerField
+from gelenk.course.steps import Step, step
+from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
-from gelenk.exercises.fields import whole
-from gelenk.exercises.lectures.mobility.pairs import pair_names
+from gelenk.exercises.fields import VectorField, whole
 from gelenk.language import marked
 from gelenk.language import translated as _
+
+
+def pair_names() -> dict[str, str]:
+    """Return the names of the kinds of pairs, in the current language."""
+    return {
+        "revolute": _("revolute"),
+        "prismatic": _("prismatic"),
+        "screw": _("screw"),
+        "universal": _("universal"),
+        "cylindrical": _("cylindrical"),
+        "spherical": _("spherical"),
+        "planar": _("planar"),
+        "sphere_in_groove": _("sphere in a groove"),
+        "point_contact": _("point contact"),
+    }
+
+
+def _constraints(kinds: tuple[str, ...], space: Space = "spatial") -> list[int]:
+    return [KINDS[kind].constraints(space) or 0 for kind in kinds]
+
+
+def _table_steps(kinds: tuple[str, ...]) -> list[Step]:
+    names = pair_names()
+    formulas = [rf"c_{i} = 6 - {6 - c} = {c}" for i, c in enumerate(_constraints(kinds), start=1)]
+    text = _("A free body has 6 freedoms in space; the pairs are, in this order: {kinds}.")
+    return [step(_("Freedoms that are left"), text.format(kinds=", ".join(names[kind] for kind in kinds)), *formulas)]
+
+
+TABLE = Exercise(
+    id="mobility.pairs",
+    title=marked("Constraints of kinematic pairs"),
+    difficulty=1,
+    draw=lambda draw: tuple(
+        draw.sample(("revolute", "prismatic", "screw", "universal", "cylindrical", "spherical", "planar",
+                     "sphere_in_groove", "point_contact"), 5)
+    ),
+    is_degenerate=lambda kinds: len(set(_constraints(kinds))) < 4,
+    text=lambda kinds: _(
+        "How many of the 6 freedoms of a body in space does each of these pairs remove? In this order: {kinds}."
+    ).format(kinds=", ".join(pair_names()[kind] for kind in kinds)),
+    fields=lambda kinds: (VectorField(name="constraints", label=_("Constraints c of the pairs"), size=len(kinds)),),
+    solve=lambda kinds: {"constraints": _constraints(kinds)},
+    steps=_table_steps,
+    wrong={
+        "freedoms_for_constraints": lambda kinds: {"constraints": [6 - c for c in _constraints(kinds)]},
+        "universal_as_two": lambda kinds: {"constraints": _table_with(kinds, universal=5)},
+        "spherical_as_universal": lambda kinds: {"constraints": _table_with(kinds, spherical=4)},
+        "plane_for_space": lambda kinds: {"constraints": [c - 3 for c in _constraints(kinds)]},
+    },
+)  # fmt: skip
+
+
+def _table_with(kinds: tuple[str, ...], **other: int) -> list[int]:
+    return [other.get(kind, c) for kind, c in zip(kinds, _constraints(kinds), strict=True)]
+
+
+_KINDS = {"P": "prismatic", "R": "revolute", "U": "universal", "S": "spherical", "C": "cylindrical"}
+_LEGS = tuple(
+    tuple(_KINDS[letter] for letter in leg) for leg in ["UPS", "SPS", "RPS", "RRS", "PSS", "RSS", "PUS", "CPS"]
+)
 
 
 class Platform(NamedTuple):
     """A platform on equal legs; `leg` has the pairs of each from the ground up."""
 
-    legs: int
-    leg: tuple[str, ...]
+    legs: Annotated[int, Draw.integer, 3, 6]
+    leg: Annotated[tuple[str, ...], Draw.choice, _LEGS]
 
     @property
     def mechanism(self) -> Mechanism:
@@ -34,19 +94,6 @@ class Platform(NamedTuple):
         return mechanism("spatial", links, 0, given)
 
 
-_LETTERS = {"prismatic": "P", "revolute": "R", "universal": "U", "spherical": "S", "cylindrical": "C"}
-_LEGS: tuple[tuple[str, ...], ...] = (
-    ("universal", "prismatic", "spherical"),
-    ("spherical", "prismatic", "spherical"),
-    ("revolute", "prismatic", "spherical"),
-    ("revolute", "revolute", "spherical"),
-    ("prismatic", "spherical", "spherical"),
-    ("revolute", "spherical", "spherical"),
-    ("prismatic", "universal", "spherical"),
-    ("cylindrical", "prismatic", "spherical"),
-)
-
-
 def _platform_text(numbers: Platform) -> str:
     names = pair_names()
     return _(
@@ -57,19 +104,8 @@ def _platform_text(numbers: Platform) -> str:
         "else? What mobility remains without them?"
     ).format(
         legs=numbers.legs,
-        letters="".join(_LETTERS[kind] for kind in numbers.leg),
+        letters="".join(kind[0].upper() for kind in numbers.leg),
         pairs=", ".join(names[kind] for kind in numbers.leg),
-    )
-
-
-def _platform_fields(_numbers: Platform) -> tuple[AnswerField, ...]:
-    return (
-        whole("links", _("Links n")),
-        whole("pairs", _("Pairs j")),
-        whole("constraints", _("Constraints Σc")),
-        whole("mobility", _("Mobility M"), 2.0),
-        whole("idle", _("Idle freedoms")),
-        whole("remaining", _("Mobility without idle freedoms")),
     )
 
 
@@ -108,9 +144,16 @@ PLATFORM = Exercise(
     id="mobility.platform",
     title=marked("Exam: a platform on legs"),
     difficulty=5,
-    draw=lambda draw: Platform(draw.integer(3, 6), draw.choice(_LEGS)),
+    draw=drawn(Platform),
     text=_platform_text,
-    fields=_platform_fields,
+    fields=lambda _numbers: (
+        whole("links", _("Links n")),
+        whole("pairs", _("Pairs j")),
+        whole("constraints", _("Constraints Σc")),
+        whole("mobility", _("Mobility M"), 2.0),
+        whole("idle", _("Idle freedoms")),
+        whole("remaining", _("Mobility without idle freedoms")),
+    ),
     solve=_platform_answers,
     steps=lambda one: mobility_steps(tally(one.mechanism), one.mechanism),
     wrong={
@@ -125,5 +168,3 @@ PLATFORM = Exercise(
         "ground_moves": lambda one: {"mobility": _platform_answers(one)["mobility"] + 6},
     },
 )
-
-EXERCISES = (PLATFORM,)
