@@ -7,7 +7,7 @@ from pydantic import Field
 from gelenk.contract.common import Answer, ChainOptions
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import AboutChain
-from gelenk.contract.options import BatchRequest, Directions, Positive, RankTolerance
+from gelenk.contract.options import BatchRequest, Directions, Positive, RankTolerance, WithSteps, WorkedSolutions
 from gelenk.ik.search.words import Direction
 from gelenk.kinematics.judge.words import Reference, SingularityCertificate
 from gelenk.kinematics.velocity.words import SingularityKind
@@ -22,7 +22,7 @@ MAX_NEAREST = 100
 """Maximum number of configurations of up to seven joints for the nearest singularity; of n joints (7/n)² as many."""
 
 
-class SingularityOptions(ChainOptions):
+class SingularityOptions(ChainOptions, WithSteps):
     """Options of a singularity report."""
 
     task: Directions | None = Field(
@@ -198,6 +198,7 @@ class SingularityAnswer(AboutChain):
     )
     singularities: list[SingularityEntry]
     path: SingularPathInfo | None = Field(default=None, description="If requested.")
+    steps: WorkedSolutions = None
     certificate: SingularityCertificate
 
 
@@ -219,6 +220,9 @@ ENDPOINT = RobotEndpoint(
     singularities), and `certificate` gives the difference: singular values differ by no more than √(6n) times that.
     Pinocchio's Jacobian is also multiplied by each internal motion and each lost direction; the product must
     vanish.
+
+    `steps` show determinant, rank, lost directions and internal motions at each given configuration, and before that,
+    for up to six joints whose Jacobian has a square block, the determinant in symbols, factorised and solved.
 
     The rows that count are those of the Jacobian in `reference`. What an `ik` task leaves free, such as a turn
     about the tool (`x y z rx ry`), is free about the tip's axes: use `local` for that.

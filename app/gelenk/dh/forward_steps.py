@@ -57,9 +57,7 @@ def placement_steps(flat: FlatChain, q: Array, notation: str) -> list[Step]:
             rf"P_{{{i}}} = {matrix(P)},\quad q_{{{i}}} = {number(position)},\quad "
             rf"A^{{{i - 1}}}_{{{i}}} = {product} = {matrix(transforms[-1])}"
         )
-    text = _(
-        "No table describes this chain: each joint turns about or slides along z of its placement P in the URDF."
-    )
+    text = _("No table describes this chain: each joint turns about or slides along z of its placement P in the URDF.")
     neighbours = [step(_("Transforms between neighbours"), text, *lines)] if lines else []
     return [*neighbours, *_from_base_to_tip(transforms, np.eye(4), flat.placement(len(lines)), notation)]
 

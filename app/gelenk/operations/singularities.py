@@ -15,8 +15,9 @@ from gelenk.kinematics.singularity.path import PathMinimum, places_along
 from gelenk.kinematics.singularity.report import SingularityReport, certify_reports, singularity_report
 from gelenk.kinematics.velocity.jacobian import jacobians, singular_values
 from gelenk.kinematics.velocity.task_space import TaskSpace, slides, structure
-from gelenk.operations.chains import chain_and_positions, check_numbers, head, task_of
+from gelenk.operations.chains import chain_and_positions, check_numbers, check_worked, head, task_of
 from gelenk.operations.outcome import Limits, Outcome
+from gelenk.operations.singularity_steps import worked_singularities
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
@@ -33,8 +34,9 @@ def run(loaded: LoadedRobot, call: SingularityRequest, limits: Limits) -> Outcom
     chain, qs = chain_and_positions(loaded.robot, call)
     space = TaskSpace(task_of(call.task), call.characteristic_length, call.reference)
     _check_size(call, len(qs), len(chain), limits)
+    check_worked(call, len(qs))
     certificate = jacobians(loaded.robot, chain, qs).certificate
-    fits = not (call.nearest or call.path)
+    fits = not (call.nearest or call.path or call.steps)
     return Outcome(
         lambda: _content(loaded.robot, chain, call, qs, space, certificate),
         (lambda: (singular_values(space.jacobians(chain, qs)), {})) if fits else None,
@@ -43,7 +45,7 @@ def run(loaded: LoadedRobot, call: SingularityRequest, limits: Limits) -> Outcom
 
 def is_heavy(call: SingularityRequest) -> bool:
     """Check whether a request takes the event loop more than about a millisecond."""
-    return call.nearest or call.path or len(call.joint_positions) > _QUICK_REPORTS
+    return call.nearest or call.path or call.steps or len(call.joint_positions) > _QUICK_REPORTS
 
 
 def singularity_info(chain: Chain, report: SingularityReport) -> dict[str, Any]:
@@ -112,6 +114,8 @@ def _content(
         "units_mixed": _units_are_mixed(chain, space),
         "singularities": entries,
     }
+    if call.steps:
+        answer["steps"] = worked_singularities(robot, chain, space, qs, reports)
     if call.nearest:
         radius, tolerance, limited = call.search_radius, call.rank_tolerance, call.respect_limits
         found = [

@@ -39,9 +39,15 @@ def steps(layout: Layout, found: Formulas, singular: Singularities | None) -> li
     """Return the solution in sections: table, A_i, position, pose, Jacobian, determinant, singular configurations."""
     parts = (_table, _rows, _position, _pose, _jacobian)
     all_ = [part(layout, found) for part in parts]
-    if singular is not None and singular.block is not None:
-        all_ += [_determinant(singular, singular.block, layout.before), _singular(singular)]
-    return [step for step in all_ if step is not None]
+    return [*(step for step in all_ if step is not None), *determinant_steps(singular, layout.before)]
+
+
+def determinant_steps(singular: Singularities | None, before: int = 0) -> list[Step]:
+    """Return determinant and singular configurations; none without a square block. `before` is as in `Layout`."""
+    if singular is None or singular.block is None:
+        return []
+    where = _singular(singular)
+    return [_determinant(singular, singular.block, before), *([] if where is None else [where])]
 
 
 def _table(layout: Layout, found: Formulas) -> Step:
