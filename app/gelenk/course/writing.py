@@ -1,7 +1,8 @@
-"""Numbers, vectors and matrices in formulas, without what rounding leaves of a zero."""
+"""Numbers, vectors, matrices and tables in formulas, without what rounding leaves of a zero."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from typing import TypeAlias
 
 import numpy as np
 
@@ -10,6 +11,8 @@ from gelenk.robot.arrays import Array
 
 ROUNDING = 1e-12
 """Numbers below this count as zero, [rad, m, no unit]."""
+
+Write: TypeAlias = Callable[[float], str]
 
 
 def number(value: float) -> str:
@@ -22,14 +25,38 @@ def term(value: float) -> str:
     return "" if abs(value) < ROUNDING else f" {'-' if value < 0.0 else '+'} {tex(abs(value))}"
 
 
-def vector(values: Iterable[float]) -> str:
+def rounded(value: float, decimals: int = 9) -> float:
+    """Return a number with some decimals; never -0."""
+    return round(float(value), decimals) + 0.0
+
+
+def decimal(value: float) -> str:
+    """Format a number that is known to nine decimals."""
+    return tex(rounded(value))
+
+
+def vector(values: Iterable[float], write: Write = number) -> str:
     """Format the coordinates of a vector, in brackets."""
-    return "(" + r",\; ".join(map(number, values)) + ")"
+    return "(" + r",\; ".join(map(write, values)) + ")"
 
 
-def matrix(rows: Array) -> str:
-    """Format a matrix as a LaTeX `bmatrix`."""
-    return r"\begin{bmatrix}" + r" \\ ".join(" & ".join(map(number, row)) for row in rows.tolist()) + r"\end{bmatrix}"
+def matrix(values: Array, write: Write = number) -> str:
+    """Format rows of numbers, or a column; 0 if there are none."""
+    return bmatrix(map(write, row) for row in values.reshape(len(values), -1).tolist()) if values.size else "0"
+
+
+def bmatrix(rows: Iterable[Iterable[str]]) -> str:
+    """Return a LaTeX `bmatrix` of entries that are already formulas."""
+    return rf"\begin{{bmatrix}} {_lines(rows)} \end{{bmatrix}}"
+
+
+def table(head: Iterable[str], rows: Iterable[Iterable[str]], columns: str) -> str:
+    """Return a LaTeX `array` with a line below its head; `columns` such as `c|cc`."""
+    return rf"\begin{{array}}{{{columns}}} {_lines([head])} \\ \hline {_lines(rows)} \end{{array}}"
+
+
+def _lines(rows: Iterable[Iterable[str]]) -> str:
+    return r" \\ ".join(map(" & ".join, rows))
 
 
 def theta(index: int) -> str:

@@ -8,9 +8,9 @@ from gelenk.course.orientation.orientation import notations
 from gelenk.course.orientation.orientation_steps import axis_angle_step, quaternion_step, rpy_step, zyz_step
 from gelenk.course.steps import Step, step
 from gelenk.course.velocity.geometry import joint_motion
-from gelenk.course.writing import matrix, number, vector
+from gelenk.course.writing import matrix, number, rounded, vector
 from gelenk.dh.derive.steps import transform_rule
-from gelenk.dh.table_steps import angle_text, rounded, table_array, with_variable
+from gelenk.dh.table_steps import angle_text, table_array, with_variable
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import FlatChain

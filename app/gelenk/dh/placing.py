@@ -8,13 +8,15 @@ those of the base, with every joint at zero.
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal, TypeAlias
 
 import numpy as np
 
 from gelenk.course.steps import Step, step
+from gelenk.course.writing import decimal, rounded, vector
 from gelenk.dh.derive.columns import COLUMNS, Column
-from gelenk.dh.table_steps import angle_text, number, rounded, table_array, vector, with_variable
+from gelenk.dh.table_steps import angle_text, table_array, with_variable
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -26,6 +28,8 @@ _SQUARE = 1e-4
 """Tilt [rad] of the tip's z against the last axis up to which the two are taken as parallel."""
 _ILL = 1e-8
 """Sine of the angle of two axes below which rounding may move their common normal by nanometres or more."""
+
+_vector = partial(vector, write=decimal)
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,7 +165,7 @@ def _turn(start: Array, end: Array, about: Array) -> float:
 def _axes(chain: Chain, table: DhTable) -> Step:
     shift = 1 if table.convention == "standard" else 0
     lines = [
-        rf"z_{{{i - shift}}} = {vector(direction)},\quad P_{{{i}}} = {vector(point)}"
+        rf"z_{{{i - shift}}} = {_vector(direction)},\quad P_{{{i}}} = {_vector(point)}"
         for i, (point, direction) in enumerate(_lines(chain), start=1)
     ]
     text = _(
@@ -178,7 +182,7 @@ def _first(table: DhTable) -> Step:
         "Frame 0 may be anywhere on axis 1 as long as z_0 lies along it. Its origin is the foot of the base's origin "
         "on that axis; the transform from the base to frame 0 is kept beside the table."
     )
-    lines = rf"O_0 = {vector(T[:3, 3])},\quad x_0 = {vector(T[:3, 0])},\quad z_0 = {vector(T[:3, 2])}"
+    lines = rf"O_0 = {_vector(T[:3, 3])},\quad x_0 = {_vector(T[:3, 0])},\quad z_0 = {_vector(T[:3, 2])}"
     return step(_("Frame 0"), text, lines)
 
 
@@ -232,19 +236,19 @@ def _formulas(i: int, pair: AxisPair, table: DhTable) -> Iterator[str]:
         foot, end, arrival = rf"O_{{{i}}}", rf"E_{{{i}}}", rf"E_{{{i - 1}}}" if i > 1 else "O_0"
     crossed = np.cross(pair.z, pair.z_next)
     if pair.kind in ("skew", "intersecting"):
-        yield rf"{z} \times {after} = {vector(crossed)}"
+        yield rf"{z} \times {after} = {_vector(crossed)}"
         sign = "" if crossed @ pair.x > 0.0 else "-"
-        yield rf"{x} = {sign}\frac{{{z} \times {after}}}{{\lVert {z} \times {after} \rVert}} = {vector(pair.x)}"
+        yield rf"{x} = {sign}\frac{{{z} \times {after}}}{{\lVert {z} \times {after} \rVert}} = {_vector(pair.x)}"
     else:
-        yield rf"{z} \times {after} = 0,\quad {x} = {vector(pair.x)}"
-    yield rf"{foot} = {vector(pair.foot)},\quad {end} = {vector(pair.end)}"
-    yield rf"a_{{{i}}} = {x} \cdot ({end} - {foot}) = {number(pair.a)}"
+        yield rf"{z} \times {after} = 0,\quad {x} = {_vector(pair.x)}"
+    yield rf"{foot} = {_vector(pair.foot)},\quad {end} = {_vector(pair.end)}"
+    yield rf"a_{{{i}}} = {x} \cdot ({end} - {foot}) = {decimal(pair.a)}"
     angle = r"\operatorname{atan2}"
     turned = rf"{angle}({x} \cdot ({z} \times {after}),\, {z} \cdot {after})"
     yield rf"\alpha_{{{i}}} = {turned} = {angle_text(rounded(pair.alpha))}"
     slides = table.joints[i - 1].type == "prismatic"
     variable = rf"q_{{{i}}} + "
-    offset = f" = {with_variable(i, rounded(pair.d), number(pair.d))}" if slides else f" = {number(pair.d)}"
+    offset = f" = {with_variable(i, rounded(pair.d), decimal(pair.d))}" if slides else f" = {decimal(pair.d)}"
     yield rf"d_{{{i}}} = {variable if slides else ''}{z} \cdot ({foot} - {arrival}){offset}"
     theta = rounded(pair.theta)
     offset = angle_text(theta) if slides else with_variable(i, theta, angle_text(theta))

@@ -4,14 +4,15 @@ import math
 from collections.abc import Sequence
 
 from gelenk.course.steps import Step, step, tex
+from gelenk.course.writing import decimal, rounded
 from gelenk.dh.derive.columns import COLUMNS, Column, array_of
 from gelenk.dh.derive.steps import transform_rule
 from gelenk.dh.derive.typeset import multiple_of_pi
 from gelenk.language import translated as _
-from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhJoint, DhTable
 
-_DECIMALS = 9
+_SAME_ANGLE = 2e-9
+"""Two units of the last decimal shown, [rad]."""
 
 
 def table_array(table: DhTable, columns: Sequence[Column] = COLUMNS) -> str:
@@ -41,7 +42,7 @@ def conversion_steps(table: DhTable, other: DhTable, columns: Sequence[Column] =
     )
     rows = other.joints if other.convention == "standard" else table.joints
     moved = [
-        rf"a_{{{i}}} = {number(row.a)},\quad \alpha_{{{i}}} = {angle_text(rounded(row.alpha))}"
+        rf"a_{{{i}}} = {decimal(row.a)},\quad \alpha_{{{i}}} = {angle_text(rounded(row.alpha))}"
         for i, row in enumerate(rows, start=1)
     ]
     shift = step(_("Where a and α belong"), text, *rules, *moved)
@@ -56,24 +57,8 @@ def with_variable(i: int, value: float, text: str) -> str:
     return rf"q_{{{i}}} - {text[1:]}" if text.startswith("-") else rf"q_{{{i}}} + {text}"
 
 
-def rounded(value: float) -> float:
-    """Return a number without what rounding has left; never -0."""
-    return round(value, _DECIMALS) + 0.0
-
-
-def number(value: float) -> str:
-    """Write a number without what rounding has left."""
-    return tex(rounded(value))
-
-
-def vector(numbers: Array) -> str:
-    """Write a vector as a row."""
-    entries = r",\, ".join(number(float(value)) for value in numbers)
-    return rf"\left({entries}\right)"
-
-
 def angle_text(value: float) -> str:
     """Return an angle as a multiple of π if it is one up to the shown digits, else in radians."""
-    known = multiple_of_pi(round(value * 12 / math.pi) * math.pi / 12)
-    is_known = abs(value - round(value * 12 / math.pi) * math.pi / 12) < 2.0 * 10.0**-_DECIMALS
-    return known.latex if known is not None and is_known else tex(value)
+    multiple = round(value * 12 / math.pi) * math.pi / 12
+    known = multiple_of_pi(multiple)
+    return known.latex if known is not None and abs(value - multiple) < _SAME_ANGLE else tex(value)

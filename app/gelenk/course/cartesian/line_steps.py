@@ -4,9 +4,10 @@ import numpy as np
 
 from gelenk.course.cartesian.axes import AxesComparison, AxisLimits
 from gelenk.course.cartesian.line import LineLaw, LineMotion, line_move
-from gelenk.course.motion.formulas import tex_polynomial, tex_vector
+from gelenk.course.motion.formulas import tex_polynomial
 from gelenk.course.motion.trapezoid_steps import trapezoid_steps
 from gelenk.course.steps import Step, step, tex, tex_factor
+from gelenk.course.writing import vector
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.extremes import peaks
@@ -31,13 +32,13 @@ def _length(found: LineMotion) -> Step:
     squares = " + ".join(f"{tex_factor(part)}^2" for part in delta.tolist())
     text = _("The length of the line, and its unit vector.")
     formulas = [
-        rf"p_f - p_i = {tex_vector(found.end)} - {tex_vector(found.start)} = {tex_vector(delta)}",
+        rf"p_f - p_i = {vector(found.end)} - {vector(found.start)} = {vector(delta)}",
         rf"L = \lVert p_f - p_i \rVert = \sqrt{{{squares}}} = {tex(found.length, 'm')}",
     ]
     if found.direction is None:
         text = _("Both points are the same: s = σ/L is not defined, and p stays where it is.")
     else:
-        formulas.append(rf"K = \frac{{p_f - p_i}}{{L}} = {tex_vector(found.direction)}")
+        formulas.append(rf"K = \frac{{p_f - p_i}}{{L}} = {vector(found.direction)}")
     return step(_("The line"), text, *formulas)
 
 
@@ -66,12 +67,12 @@ def sigma_pieces(law: PiecewisePolynomial) -> list[str]:
 
 def line_derivatives(start: Array, end: Array) -> Step:
     """Return p(s), ṗ and p̈ of a line that has a length."""
-    direction = tex_vector((end - start) / np.linalg.norm(end - start))
+    direction = vector((end - start) / np.linalg.norm(end - start))
     return step(
         _("Along the line"),
         _("s = σ/L runs from 0 to 1. The line has no curvature, so of p̈ only the part along it is left."),
         r"s = \frac{\sigma}{L},\quad \dot s = \frac{\dot\sigma}{L},\quad \ddot s = \frac{\ddot\sigma}{L}",
-        rf"p(s) = p_i + s\,(p_f - p_i) = {tex_vector(start)} + s\,{tex_vector(end - start)}",
+        rf"p(s) = p_i + s\,(p_f - p_i) = {vector(start)} + s\,{vector(end - start)}",
         rf"\dot p = \frac{{dp}}{{ds}}\,\dot s = \frac{{p_f - p_i}}{{L}}\,\dot\sigma = {direction}\,\dot\sigma",
         r"\ddot p = \frac{d^2 p}{ds^2}\,\dot s^2 + \frac{dp}{ds}\,\ddot s,\quad \frac{d^2 p}{ds^2} = 0",
         rf"\ddot p = \frac{{p_f - p_i}}{{L}}\,\ddot\sigma = {direction}\,\ddot\sigma",

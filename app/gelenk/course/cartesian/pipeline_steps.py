@@ -4,8 +4,9 @@ import numpy as np
 
 from gelenk.course.cartesian.pipeline import Deviation, Pipeline
 from gelenk.course.cartesian.planar_line import PlanarLine
-from gelenk.course.motion.formulas import tex_polynomial, tex_row, tex_vector
+from gelenk.course.motion.formulas import tex_polynomial, tex_row
 from gelenk.course.steps import Step, step, tex, tex_factor
+from gelenk.course.writing import vector
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 
@@ -24,7 +25,7 @@ def pipeline_steps(found: Pipeline, deviation: Deviation | None) -> tuple[Step, 
 
 
 def _point(p: complex) -> str:
-    return tex_vector(np.array([p.real, p.imag]))
+    return vector(np.array([p.real, p.imag]))
 
 
 def _knots(line: PlanarLine) -> Step:
@@ -33,7 +34,7 @@ def _knots(line: PlanarLine) -> Step:
         _("1. Knots"),
         _("The line begins where the tip is, by forward kinematics, and ends at the target: two knots are enough."),
         r"p = (l_1 c_1 + l_2 c_{12},\; l_1 s_1 + l_2 s_{12})",
-        rf"q_i = {tex_vector(line.angles)}",
+        rf"q_i = {vector(line.angles)}",
         rf"p_i = ({tex(l1)} \cos {tex_factor(q1)} + {tex(l2)} \cos {tex_factor(q1 + q2)},\; "
         rf"{tex(l1)} \sin {tex_factor(q1)} + {tex(l2)} \sin {tex_factor(q1 + q2)}) = {_point(line.start)}",
         rf"p_f = {_point(line.target)}",

@@ -7,8 +7,8 @@ agree with q(s(t)) in between. So the peaks of the polynomial are those of the m
 import numpy as np
 
 from gelenk.course.cartesian.planar_line import PlanarLine, tips
-from gelenk.course.motion.formulas import tex_matrix, tex_vector
 from gelenk.course.steps import Step, step, tex
+from gelenk.course.writing import matrix, vector
 from gelenk.errors import CertificationFailed, InvalidField
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
@@ -79,17 +79,17 @@ def planar_motion_steps(line: PlanarLine, law: PiecewisePolynomial, bound: Bound
     by_path = step(
         _("Joints along the line"),
         _("Derivatives by s, with p'' = 0 on a line; numbers where the limit is reached."),
-        rf"s = {tex(s)},\quad q = {tex_vector(q)}",
-        rf"J = {tex_matrix(J)},\quad p_f - p_i = {tex_vector(way)}",
-        rf"p' = J q' \Rightarrow q' = J^{{-1}} (p_f - p_i) = {tex_vector(first)}",
-        rf"p'' = J q'' + J' q' = 0 \Rightarrow q'' = -J^{{-1}} J' q' = {tex_vector(second)}",
+        rf"s = {tex(s)},\quad q = {vector(q)}",
+        rf"J = {matrix(J)},\quad p_f - p_i = {vector(way)}",
+        rf"p' = J q' \Rightarrow q' = J^{{-1}} (p_f - p_i) = {vector(first)}",
+        rf"p'' = J q'' + J' q' = 0 \Rightarrow q'' = -J^{{-1}} J' q' = {vector(second)}",
     )
     in_time = step(
         _("In time"),
         _("The chain rule with the time law."),
         rf"t = {tex(bound.time, 's')}:\quad \dot s = {tex(v)},\quad \ddot s = {tex(a)}",
-        rf"\dot q = q'\,\dot s = {tex_vector(first * v)}",
-        rf"\ddot q = q'\,\ddot s + q''\,\dot s^2 = {tex_vector(first * a + second * v**2)}",
+        rf"\dot q = q'\,\dot s = {vector(first * v)}",
+        rf"\ddot q = q'\,\ddot s + q''\,\dot s^2 = {vector(first * a + second * v**2)}",
     )
     return by_path, in_time
 

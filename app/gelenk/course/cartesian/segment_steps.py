@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.course.cartesian.line_steps import line_derivatives, sigma_pieces
-from gelenk.course.motion.formulas import SHOWN_JOINTS, tex_row, tex_vector
+from gelenk.course.motion.formulas import SHOWN_JOINTS, tex_row
 from gelenk.course.steps import Step, step, tex
+from gelenk.course.writing import vector
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.audit.words import Law
@@ -133,9 +134,9 @@ def arc_segment_step(arc: Arc) -> Step:
     return step(
         _("Along the circle"),
         _("The second derivative points to the centre: the speed alone makes a centripetal acceleration σ̇²/r."),
-        rf"c = {tex_vector(arc.centre)},\quad r = {tex(arc.radius, 'm')},\quad L = r\,\varphi_f = "
+        rf"c = {vector(arc.centre)},\quad r = {tex(arc.radius, 'm')},\quad L = r\,\varphi_f = "
         rf"{tex(arc.radius)} \cdot {tex(arc.angle)} = {tex(arc.length, 'm')}",
-        rf"x = {tex_vector(arc.x)},\quad y = {tex_vector(arc.y)}",
+        rf"x = {vector(arc.x)},\quad y = {vector(arc.y)}",
         r"p = c + r\,(\cos\varphi\,x + \sin\varphi\,y),\quad \varphi = \frac{\sigma}{r} = s\,\varphi_f",
         r"\dot p = \frac{dp}{ds}\,\dot s = (-\sin\varphi\,x + \cos\varphi\,y)\,\dot\sigma",
         r"\ddot p = \frac{d^2 p}{ds^2}\,\dot s^2 + \frac{dp}{ds}\,\ddot s = "
@@ -150,9 +151,9 @@ def corner_step(corner: Array, directions: tuple[Array, Array], radius: float, d
     return step(
         _("Blend into the next line"),
         _("A parabola that begins and ends at the distance d from the corner B, without a stop."),
-        rf"B = {tex_vector(corner)},\quad d = {tex(radius, 'm')},\quad \Delta T = {tex(duration, 's')}",
-        rf"A' = B - d\,K_{{AB}} = {tex_vector(corner - radius * before)}",
-        rf"C' = B + d\,K_{{BC}} = {tex_vector(corner + radius * after)}",
+        rf"B = {vector(corner)},\quad d = {tex(radius, 'm')},\quad \Delta T = {tex(duration, 's')}",
+        rf"A' = B - d\,K_{{AB}} = {vector(corner - radius * before)}",
+        rf"C' = B + d\,K_{{BC}} = {vector(corner + radius * after)}",
     )
 
 

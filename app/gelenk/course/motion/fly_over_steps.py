@@ -5,6 +5,7 @@ import math
 from gelenk.course.motion.blended_motion import BlendedMotion
 from gelenk.course.motion.fly_over import Blend, Given
 from gelenk.course.steps import Step, step, tex
+from gelenk.course.writing import vector
 from gelenk.language import marked
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
@@ -32,8 +33,8 @@ def fly_over_steps(blend: Blend, given: Given, value: float, whole: BlendedMotio
         _("With constant acceleration the mean speed along each leg is half of the speed there."),
         _distance("1", corner.speed_before, blend.time, blend.distance_before, "B - A"),
         _distance("2", corner.speed_after, blend.time, blend.distance_after, "C - B"),
-        rf"A' = B - d_1 K_{{AB}} = {_vector(blend.entry)}",
-        rf"C' = B + d_2 K_{{BC}} = {_vector(blend.exit)}",
+        rf"A' = B - d_1 K_{{AB}} = {vector(blend.entry)}",
+        rf"C' = B + d_2 K_{{BC}} = {vector(blend.exit)}",
     )
     closest = step(
         _("Closest to B"),
@@ -61,9 +62,9 @@ def fly_over_warnings(blend: Blend) -> list[str]:
     return [text for text, applies in texts.items() if applies]
 
 
-def _direction(symbol: str, leg: str, vector: Array, length: float, direction: Array) -> str:
-    fraction = rf"\frac{{{leg}}}{{\lVert {leg} \rVert}} = \frac{{{_vector(vector)}}}{{{tex(length)}}}"
-    return rf"{symbol} = {fraction} = {_vector(direction)}"
+def _direction(symbol: str, leg: str, way: Array, length: float, direction: Array) -> str:
+    fraction = rf"\frac{{{leg}}}{{\lVert {leg} \rVert}} = \frac{{{vector(way)}}}{{{tex(length)}}}"
+    return rf"{symbol} = {fraction} = {vector(direction)}"
 
 
 def _quotient(blend: Blend, given: Given, value: float) -> str:
@@ -99,8 +100,8 @@ def _parabola(blend: Blend) -> Step:
         _("The blend"),
         text,
         r"p(t) = A' + v_1 K_{AB}\,t + \frac{v_2 K_{BC} - v_1 K_{AB}}{2 \Delta T}\,t^2 = "
-        rf"{_vector(blend.entry)} + {_vector(velocity)}\,t + {_vector(half)}\,t^2",
-        rf"\ddot p = \frac{{v_2 K_{{BC}} - v_1 K_{{AB}}}}{{\Delta T}} = {_vector(blend.acceleration)}, \quad "
+        rf"{vector(blend.entry)} + {vector(velocity)}\,t + {vector(half)}\,t^2",
+        rf"\ddot p = \frac{{v_2 K_{{BC}} - v_1 K_{{AB}}}}{{\Delta T}} = {vector(blend.acceleration)}, \quad "
         rf"\lVert \ddot p \rVert = {tex(math.hypot(*blend.acceleration), 'm/s^2')}",
     )
 
@@ -115,7 +116,3 @@ def _whole(whole: BlendedMotion) -> Step:
         rf"T = {' + '.join(tex(phase.duration) for phase in whole.phases)} = {tex(whole.duration, 's')}",
         rf"T_{{\mathrm{{stop}}}} = {tex(whole.stopping_duration, 's')}",
     )
-
-
-def _vector(values: Array) -> str:
-    return "(" + r",\; ".join(map(tex, values.tolist())) + ")"

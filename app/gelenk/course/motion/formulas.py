@@ -30,17 +30,6 @@ def tex_row(values: Array) -> str:
     return shown if len(values) <= _SHOWN_NUMBERS else shown + r", \dots"
 
 
-def tex_vector(values: Array) -> str:
-    """Format the coordinates of a vector, in brackets."""
-    return "(" + r",\; ".join(map(tex, (values + 0.0).tolist())) + ")"
-
-
-def tex_matrix(rows: Array) -> str:
-    """Format rows of numbers, or a column, as a LaTeX `bmatrix`."""
-    lines = (" & ".join(map(tex, row)) for row in rows.reshape(len(rows), -1).tolist())
-    return r"\begin{bmatrix}" + r" \\ ".join(lines) + r"\end{bmatrix}"
-
-
 def of_joint(step: Step, joint: int, joints: int) -> Step:
     """Return the step with its joint in the title, if there are several joints."""
     if joints == 1:

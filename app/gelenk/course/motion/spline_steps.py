@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from gelenk.course.motion.formulas import SHOWN_JOINTS, of_joint, tex_matrix, tex_polynomial, tex_row
+from gelenk.course.motion.formulas import SHOWN_JOINTS, of_joint, tex_polynomial, tex_row
 from gelenk.course.steps import Step, step, tex
+from gelenk.course.writing import matrix
 from gelenk.language import marked
 from gelenk.language import translated as _
 from gelenk.trajectory.motion.splines import Boundary, Spline
@@ -76,7 +77,7 @@ def spline_steps(spline: Spline, boundary: Boundary) -> tuple[Step, ...]:
         _boundary_step(spline, boundary),
     ]
     if spline.matrix is not None and len(spline.matrix) <= _SHOWN_UNKNOWNS:
-        shown = rf"A = {tex_matrix(spline.matrix.dense())}"
+        shown = rf"A = {matrix(spline.matrix.dense(), tex)}"
         steps.append(step("A", _("It depends on the times alone, and is the same for all joints."), shown))
     for j in range(min(joints, SHOWN_JOINTS)):
         steps += [of_joint(_velocities(spline, j), j, joints), of_joint(_pieces(spline, j), j, joints)]
@@ -96,7 +97,7 @@ def _velocities(spline: Spline, joint: int) -> Step:
     formulas = []
     if spline.matrix is not None and len(spline.matrix) <= _SHOWN_UNKNOWNS:
         unknown = spline.velocities[list(spline.unknowns), joint]
-        formulas += [rf"b = {tex_matrix(spline.right_side[:, joint])}", rf"A^{{-1}} b = {tex_matrix(unknown)}"]
+        formulas += [rf"b = {matrix(spline.right_side[:, joint], tex)}", rf"A^{{-1}} b = {matrix(unknown, tex)}"]
     formulas.append(rf"v = ({tex_row(spline.velocities[:, joint])})")
     if spline.fictitious:
         formulas.append(rf"q_f = ({', '.join(map(tex, spline.knots[list(spline.fictitious), joint].tolist()))})")

@@ -6,8 +6,9 @@ from math import factorial, perm
 
 import numpy as np
 
-from gelenk.course.motion.formulas import SHOWN_JOINTS, of_joint, tex_matrix, tex_polynomial, tex_row
+from gelenk.course.motion.formulas import SHOWN_JOINTS, of_joint, tex_polynomial, tex_row
 from gelenk.course.steps import Step, step, tex, tex_factor
+from gelenk.course.writing import matrix
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.extremes import Peaks
@@ -162,7 +163,7 @@ def _lift_system(motion: PiecewisePolynomial, knots: Array, j: int) -> str:
     travel = 6.0 * delta[1] / h[1] ** 2
     before = travel + 12.0 * delta[0] / h[0] ** 2 - 6.0 * v0 / h[0] - a0
     after = travel + 12.0 * delta[2] / h[2] ** 2 - 6.0 * v3 / h[2] + a3
-    return rf"{tex_matrix(A)} \begin{{bmatrix}} v_1 \\ v_2 \end{{bmatrix}} = {tex_matrix(np.array([before, after]))}"
+    return rf"{matrix(A)} \begin{{bmatrix}} v_1 \\ v_2 \end{{bmatrix}} = {matrix(np.array([before, after]))}"
 
 
 def peak_step(velocity: Peaks, acceleration: Peaks) -> Step:

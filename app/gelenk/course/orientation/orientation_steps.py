@@ -11,7 +11,7 @@ from gelenk.course.orientation.orientation import Notations, Triple
 from gelenk.course.orientation.rotations import Validation
 from gelenk.course.orientation.symbols import product
 from gelenk.course.steps import Step, step
-from gelenk.course.writing import atan2, matrix, number, vector
+from gelenk.course.writing import atan2, bmatrix, matrix, number, vector
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 
@@ -91,12 +91,13 @@ def given_step(one: GivenMotion, index: int, count: int) -> Step:
     else:
         text = _("A unit quaternion: w = cos(ϑ/2), and x, y, z are sin(ϑ/2) times the axis.")
         x, y, z, w = values if one.notation == "quaternion_xyzw" else (*values[1:], values[0])
-        rows = (
-            r"1 - 2(y^2 + z^2) & 2(x y - z w) & 2(x z + y w)",
-            r"2(x y + z w) & 1 - 2(x^2 + z^2) & 2(y z - x w)",
-            r"2(x z - y w) & 2(y z + x w) & 1 - 2(x^2 + y^2)",
+        entries = bmatrix(
+            (
+                ("1 - 2(y^2 + z^2)", "2(x y - z w)", "2(x z + y w)"),
+                ("2(x y + z w)", "1 - 2(x^2 + z^2)", "2(y z - x w)"),
+                ("2(x z - y w)", "2(y z + x w)", "1 - 2(x^2 + y^2)"),
+            )
         )
-        entries = r"\begin{bmatrix} " + r" \\ ".join(rows) + r" \end{bmatrix}"
         lines = [f"(w, x, y, z) = {vector((w, x, y, z))}", f"{name} = {entries}"]
     return step(_("Rotation matrix"), text, *lines, f"{name} = {matrix(R)}")
 

@@ -3,6 +3,8 @@ r"""Products of elementary rotations in symbols: entries such as c_1 s_2 of R_z(
 from functools import lru_cache
 from typing import TypeAlias
 
+from gelenk.course.writing import bmatrix
+
 _Term: TypeAlias = tuple[int, tuple[str, ...]]
 """A sign, and the factors of a product."""
 _Entry: TypeAlias = list[_Term]
@@ -15,8 +17,7 @@ def product(turns: tuple[tuple[str, str], ...]) -> str:
     rows: _Matrix = [[[(1, ())] if i == j else [] for j in range(3)] for i in range(3)]
     for axis, angle in turns:
         rows = _times(rows, _elementary(axis, angle))
-    lines = (" & ".join(map(_written, row)) for row in rows)
-    return r"\begin{bmatrix} " + r" \\ ".join(lines) + r" \end{bmatrix}"
+    return bmatrix(map(_written, row) for row in rows)
 
 
 def _elementary(axis: str, angle: str) -> _Matrix:

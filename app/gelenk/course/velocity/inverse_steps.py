@@ -5,7 +5,7 @@ from gelenk.course.velocity.damping_steps import damping_steps
 from gelenk.course.velocity.inverse_question import InverseQuestion
 from gelenk.course.velocity.null_space_steps import wish_steps
 from gelenk.course.velocity.pseudo_inverse_steps import pseudo_inverse_steps
-from gelenk.course.velocity.writing import column, largest, matrix, row
+from gelenk.course.velocity.writing import largest, matrix, row
 from gelenk.language import translated as _
 
 _X = (r"\dot q", r"\ddot q", "q^{(3)}")
@@ -102,9 +102,9 @@ def _result(question: InverseQuestion) -> Step:
     name = r"J^{\#}" if not question.is_damped else r"J^{\#}_\lambda"
     first = (question.inverse.damped_inverse if question.is_damped else question.inverse.pseudo_inverse) @ question.b
     if question.wish is None:
-        lines = [f"{x} = {name} {v} = {column(found)}"]
+        lines = [f"{x} = {name} {v} = {matrix(found)}"]
     else:
         added = question.wish.share * (question.inverse.projector @ question.wish.xi)
-        lines = [rf"{x} = {name} {v} + P\, \xi = {column(first)} + {column(added, largest(first))} = {column(found)}"]
+        lines = [rf"{x} = {name} {v} + P\, \xi = {matrix(first)} + {matrix(added, largest(first))} = {matrix(found)}"]
     lines.append(f"{v} - J {x} = {row(question.b - question.inverse.J @ found, size)}")
     return step(_("Result"), text, *lines)

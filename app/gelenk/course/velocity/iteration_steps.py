@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.course.steps import Step, step
-from gelenk.course.velocity.writing import matrix, number, row, table
+from gelenk.course.velocity.writing import matrix, number, row
+from gelenk.course.writing import table
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 
@@ -126,4 +127,4 @@ def _table(turns: Sequence[IterationTurn], total: int) -> Step:
     text = _("All configurations of the iteration.")
     if len(turns) < total:
         text = _("The first configurations of the iteration, and the last one.")
-    return step(_("Table of the iteration"), text, table(head, lines))
+    return step(_("Table of the iteration"), text, table(head, lines, "r" * len(head)))

@@ -6,7 +6,7 @@ import numpy as np
 
 from gelenk.course.steps import Step, step
 from gelenk.course.velocity.geometry import ChainGeometry
-from gelenk.course.velocity.writing import column, largest, matrix, number, row, summand
+from gelenk.course.velocity.writing import largest, matrix, number, row, summand
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array, Indices
 
@@ -104,7 +104,7 @@ def _torques(question: StaticsQuestion) -> Step:
     torques = question.J.T @ _given(question)
     lines = [
         rf"J^{{\mathsf T}} = {matrix(question.J.T)}",
-        rf"J^{{\mathsf T}} \gamma = J^{{\mathsf T}} {column(_given(question))} = {row(torques)}",
+        rf"J^{{\mathsf T}} \gamma = J^{{\mathsf T}} {matrix(_given(question))} = {row(torques)}",
     ]
     text = _("The same for all joints at once.")
     if question.weight is not None:

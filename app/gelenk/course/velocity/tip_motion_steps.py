@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from gelenk.course.steps import Step, step
-from gelenk.course.velocity.writing import column, matrix, row
+from gelenk.course.velocity.writing import matrix, row
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 
@@ -53,8 +53,8 @@ def _derivative(order: int, Js: Sequence[Array], rates: Array) -> Step:
     parts = [math.comb(order - 1, j) * (Js[j] @ rates[order - 1 - j]) for j in range(order)]
     lines = [f"{_Q[order - 1]} = {row(rates[order - 1])}"]
     lines += [f"{_J[order - 1]} = {matrix(Js[order - 1])}"]
-    numbers = " + ".join(map(column, parts))
-    lines.append(f"{_R[order - 1]} = {sums} = {numbers}" + (f" = {column(sum(parts))}" if order > 1 else ""))
+    numbers = " + ".join(map(matrix, parts))
+    lines.append(f"{_R[order - 1]} = {sums} = {numbers}" + (f" = {matrix(sum(parts))}" if order > 1 else ""))
     title, text = {
         1: (_("Twist"), _("The tip's linear and angular velocity are linear in the joint velocities.")),
         2: (_("Acceleration"), _("The product rule gives a second term: the Jacobian changes as the joints move.")),

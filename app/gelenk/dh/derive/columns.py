@@ -3,6 +3,8 @@
 from collections.abc import Mapping, Sequence
 from typing import Literal, TypeAlias
 
+from gelenk.course.writing import table
+
 Column: TypeAlias = Literal["a", "alpha", "d", "theta"]
 
 COLUMNS: tuple[Column, ...] = ("a", "alpha", "d", "theta")
@@ -12,6 +14,5 @@ _HEADS = {"a": "a", "alpha": r"\alpha", "d": "d", "theta": r"\vartheta"}
 def array_of(rows: Sequence[Mapping[Column, str]], link: str, columns: Sequence[Column], first: int = 1) -> str:
     """Return a table of cells in LaTeX; `link` is the index of a and α, `first` that of the first row."""
     heads = [rf"{_HEADS[column]}_{{{link if column in ('a', 'alpha') else 'i'}}}" for column in columns]
-    lines = [" & ".join((str(i), *(row[column] for column in columns))) for i, row in enumerate(rows, start=first)]
-    body = r" \\ ".join(lines)
-    return rf"\begin{{array}}{{c|cccc}} i & {' & '.join(heads)} \\ \hline {body} \end{{array}}"
+    lines = ((str(i), *(row[column] for column in columns)) for i, row in enumerate(rows, start=first))
+    return table(("i", *heads), lines, "c|cccc")

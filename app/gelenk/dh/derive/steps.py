@@ -3,7 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from gelenk.course.steps import Step, step, tex
+import numpy as np
+
+from gelenk.course.steps import Step, step
+from gelenk.course.writing import decimal, matrix
 from gelenk.dh.derive.columns import COLUMNS, Column, array_of
 from gelenk.dh.derive.jacobian import Block
 from gelenk.dh.derive.numeric import NumericSolution
@@ -11,7 +14,6 @@ from gelenk.dh.derive.texts import Formulas, SingularCondition, Singularities
 from gelenk.language import translated as _
 from gelenk.robot.dh import DhTable
 
-_DECIMALS = 9
 _STANDARD = (
     r"\begin{bmatrix} c_{\vartheta_i} & -s_{\vartheta_i} c_{\alpha_i} & s_{\vartheta_i} s_{\alpha_i} & "
     r"a_i c_{\vartheta_i} \\ s_{\vartheta_i} & c_{\vartheta_i} c_{\alpha_i} & -c_{\vartheta_i} s_{\alpha_i} & "
@@ -71,11 +73,11 @@ def transform_rule(*, standard: bool) -> tuple[str, str]:
 
 
 def _rows(layout: Layout, found: Formulas) -> Step:
-    product, matrix = transform_rule(standard=layout.is_standard)
+    product, entries = transform_rule(standard=layout.is_standard)
     numbered = enumerate(found.rows, start=layout.before + 1)
     lines = [rf"A^{{{i - 1}}}_{{{i}}} = {row.latex}" for i, row in numbered if row is not None]
     text = _("Each row put into the rule of the convention gives the pose of frame i in frame i - 1.")
-    return step(_("Transforms between neighbours"), text, rf"A^{{i-1}}_{{i}} = {product} = {matrix}", *lines)
+    return step(_("Transforms between neighbours"), text, rf"A^{{i-1}}_{{i}} = {product} = {entries}", *lines)
 
 
 def _position(layout: Layout, found: Formulas) -> Step | None:
@@ -193,17 +195,16 @@ def _solved(condition: SingularCondition) -> str:
 def numbers_step(layout: Layout, table: DhTable, one: NumericSolution) -> Step:
     """Return the position of the tip in numbers at one configuration, from the right, then T of the whole table."""
     first, last = layout.before, layout.before + len(one.rows)
-    point = [*table.tool[:3, 3].tolist(), 1.0]
-    lines = [rf"q = {_matrix([[value] for value in one.q.tolist()])}", _product(layout, len(one.rows))]
-    lines.append(rf"{{}}^{{{last}}}p = {_matrix([[value] for value in point])}")
+    point = np.append(table.tool[:3, 3], 1.0)
+    lines = [f"q = {matrix(one.q, decimal)}", _product(layout, len(one.rows))]
+    lines.append(rf"{{}}^{{{last}}}p = {matrix(point, decimal)}")
     for i, A in zip(range(last, first, -1), reversed(one.rows), strict=True):
-        after = (A @ point).tolist()
-        product = rf"{_matrix(A.tolist())} {_matrix([[value] for value in point])}"
+        product = f"{matrix(A, decimal)} {matrix(point, decimal)}"
+        point = A @ point
         lines.append(
-            rf"{{}}^{{{i - 1}}}p = A^{{{i - 1}}}_{{{i}}}\, {{}}^{{{i}}}p = {product} = {_matrix([[v] for v in after])}"
+            rf"{{}}^{{{i - 1}}}p = A^{{{i - 1}}}_{{{i}}}\, {{}}^{{{i}}}p = {product} = {matrix(point, decimal)}"
         )
-        point = after
-    lines.append(rf"T^{{{first}}}_{{{last}}} = {_matrix(one.frames[-1].tolist())}")
+    lines.append(rf"T^{{{first}}}_{{{last}}} = {matrix(one.frames[-1], decimal)}")
     text = _(
         "The same at the first of the given configurations. A point is written with a 1 below, so that one product "
         "turns and shifts it; the last column of T is the origin of the last frame."
@@ -215,8 +216,3 @@ def _product(layout: Layout, count: int) -> str:
     first, last = layout.before, layout.before + count
     product = r"\, ".join(f"A^{{{i - 1}}}_{{{i}}}" for i in range(first + 1, last + 1))
     return rf"{{}}^{{{first}}}p = {product}\, {{}}^{{{last}}}p"
-
-
-def _matrix(rows: Sequence[Sequence[float]]) -> str:
-    body = r" \\ ".join(" & ".join(tex(round(value, _DECIMALS) + 0.0) for value in row) for row in rows)
-    return rf"\begin{{bmatrix}} {body} \end{{bmatrix}}"

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Literal, TypeAlias
 
+from gelenk.course.writing import bmatrix
 from gelenk.dh.derive.algebra import (
     ONE,
     ROOT,
@@ -256,8 +257,7 @@ class Notation:
 def matrix_of(name: str, rows: Sequence[Sequence[Polynomial]], write: Callable[[Polynomial], Formula]) -> MatrixFormula:
     """Write a matrix, entry by entry."""
     texts = [[write(entry) for entry in row] for row in rows]
-    body = r" \\ ".join(" & ".join(text.latex for text in row) for row in texts)
-    latex = rf"\begin{{bmatrix}} {body} \end{{bmatrix}}"
+    latex = bmatrix((text.latex for text in row) for row in texts)
     return MatrixFormula(name, latex, [[text.plain for text in row] for row in texts])
 
 

@@ -6,6 +6,8 @@ from typing import Annotated, NamedTuple
 import numpy as np
 
 from gelenk.course.steps import Step, step, tex
+from gelenk.course.writing import matrix as written
+from gelenk.course.writing import rounded
 from gelenk.exercises.arms import misread
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Exercise
@@ -44,8 +46,7 @@ def _is_too_plain(row: MatrixRow) -> bool:
 
 def typeset(matrix: Array) -> str:
     """Return a matrix in LaTeX, rounded to six decimals."""
-    rows = (" & ".join(tex(round(float(entry), 6) + 0.0) for entry in row) for row in matrix)
-    return r"\begin{bmatrix} " + r" \\ ".join(rows) + r" \end{bmatrix}"
+    return written(matrix, lambda entry: tex(rounded(entry, 6)))
 
 
 MATRIX = Exercise(

@@ -7,6 +7,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from gelenk.course.steps import Step, step, tex
+from gelenk.course.writing import decimal, table
 from gelenk.dh.tables.convert import converted
 from gelenk.exercises.draw import Draw
 from gelenk.exercises.exercise import Answers, Exercise
@@ -75,10 +76,10 @@ def standard_rows(one: CraigTable) -> Array:
 
 def table_steps(rows: Array) -> Step:
     """Return the step with a table in the course's order, angles in radians."""
-    lines = (" & ".join([str(i), *(tex(round(float(x), 9) + 0.0) for x in row)]) for i, row in enumerate(rows, start=1))
-    table = r"\begin{array}{c|cccc} i & a_i & \alpha_i & d_i & \vartheta_i \\ \hline "
+    lines = ((str(i), *map(decimal, row)) for i, row in enumerate(rows, start=1))
+    array = table(("i", "a_i", r"\alpha_i", "d_i", r"\vartheta_i"), lines, "c|cccc")
     text = _("Lengths in metres, angles in radians, all at the zeros of the joints.")
-    return step(_("Table"), text, table + r" \\ ".join(lines) + r" \end{array}")
+    return step(_("Table"), text, array)
 
 
 def _craig_steps(one: CraigTable) -> list[Step]:

@@ -4,8 +4,8 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from gelenk.course.motion.formulas import tex_matrix, tex_vector
 from gelenk.course.steps import Step, step
+from gelenk.course.writing import matrix, vector
 from gelenk.dh.lagrangian.bodies import STANDARD_GRAVITY, LinkBody
 from gelenk.dh.lagrangian.numeric import NumericMotion, numeric_motion
 from gelenk.exercises.draw import Draw, drawn
@@ -77,25 +77,25 @@ def _steps(one: TwoBodies) -> list[Step]:
             _("From the kinetic energy; the second link moves with both joints."),
             r"M_{11} = m_1 l_{c1}^2 + I_1 + m_2 (a_1^2 + l_{c2}^2 + 2 a_1 l_{c2} c_2) + I_2",
             r"M_{12} = m_2 (l_{c2}^2 + a_1 l_{c2} c_2) + I_2,\quad M_{22} = m_2 l_{c2}^2 + I_2",
-            rf"M = {tex_matrix(found['mass'])}",
+            rf"M = {matrix(found['mass'])}",
         ),
         step(
             _("Coriolis and centrifugal torques"),
             _("From the derivatives of M by q2."),
             r"h = m_2 a_1 l_{c2} s_2",
-            r"C \dot q = (-h (2 \dot q_1 \dot q_2 + \dot q_2^2),\; h \dot q_1^2) = " + tex_vector(found["speed"]),
+            r"C \dot q = (-h (2 \dot q_1 \dot q_2 + \dot q_2^2),\; h \dot q_1^2) = " + vector(found["speed"]),
         ),
         step(
             _("Torques of gravity"),
             _("The slopes of the potential energy."),
             r"g_2 = m_2 g\,l_{c2} c_{12},\quad g_1 = (m_1 l_{c1} + m_2 a_1) g\,c_1 + g_2",
-            rf"g(q) = {tex_vector(found['gravity'])}",
+            rf"g(q) = {vector(found['gravity'])}",
         ),
         step(
             _("Equations of motion"),
             _("Inverse dynamics give the torques; from rest without torques the arm falls."),
-            rf"\tau = M \ddot q + C \dot q + g = {tex_vector(found['torque'])}",
-            rf"\ddot q = -M^{{-1}} g = {tex_vector(found['release'])}",
+            rf"\tau = M \ddot q + C \dot q + g = {vector(found['torque'])}",
+            rf"\ddot q = -M^{{-1}} g = {vector(found['release'])}",
         ),
     ]
 

@@ -8,8 +8,9 @@ import numpy as np
 from gelenk.course.cartesian.line import LineLaw, LineMotion, along_line
 from gelenk.course.cartesian.line_steps import line_steps
 from gelenk.course.cartesian.planar_line import PlanarLine
-from gelenk.course.motion.formulas import tex_matrix, tex_vector
 from gelenk.course.steps import Step, step, tex
+from gelenk.course.writing import matrix
+from gelenk.course.writing import vector as written
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import VectorField, quantity, vector
@@ -107,10 +108,10 @@ def _flipped(one: PlannedTask) -> Answers:
     return {name: other[name] for name in ("joints", "rates", "factor", "slowed")}
 
 
-def _by(one: PlannedTask, matrix: Array) -> Answers:
+def _by(one: PlannedTask, other: Array) -> Answers:
     """Return the answers if a matrix took the place of the inverse of J."""
     right = _planned_answers(one)
-    return one.slowed(right["joints"], matrix @ one.tip_velocity)
+    return one.slowed(right["joints"], other @ one.tip_velocity)
 
 
 def _middle_of_joints(one: PlannedTask) -> Answers:
@@ -129,13 +130,13 @@ def _planned_steps(one: PlannedTask) -> list[Step]:
         step(
             _("Where the tip stands"),
             _("The second angle counts from the first link."),
-            r"p_i = (l_1 c_1 + l_2 c_{12},\; l_1 s_1 + l_2 s_{12}) = " + tex_vector(found["start"]),
+            r"p_i = (l_1 c_1 + l_2 c_{12},\; l_1 s_1 + l_2 s_{12}) = " + written(found["start"]),
         ),
         *line_steps(one.motion, one.law),
         step(
             _("Joints in the middle"),
             _("The elbow stays on its side."),
-            rf"p = {tex_vector(np.array([middle.real, middle.imag]))}",
+            rf"p = {written(np.array([middle.real, middle.imag]))}",
             rf"c_2 = \frac{{x^2 + y^2 - l_1^2 - l_2^2}}{{2 l_1 l_2}} = {tex(cosine)}",
             rf"q_2 = {tex(float(q[1]), 'rad')}",
             rf"q_1 = \mathrm{{atan2}}(y, x) - \mathrm{{atan2}}(l_2 s_2, l_1 + l_2 c_2) = {tex(float(q[0]), 'rad')}",
@@ -143,9 +144,9 @@ def _planned_steps(one: PlannedTask) -> list[Step]:
         step(
             _("Velocities of the joints"),
             _("The tip coasts; the inverse of the Jacobian gives the joints."),
-            rf"\dot p = {tex_vector(velocity)}",
-            rf"J = {tex_matrix(J)}",
-            rf"\dot q = J^{{-1}} \dot p = {tex_vector(found['rates'])}",
+            rf"\dot p = {written(velocity)}",
+            rf"J = {matrix(J)}",
+            rf"\dot q = J^{{-1}} \dot p = {written(found['rates'])}",
         ),
         step(
             _("Slowed down"),
