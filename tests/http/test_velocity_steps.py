@@ -18,6 +18,8 @@ CALLS: list[tuple[str, str, dict[str, Any]]] = [
     ("fk", "panda", {"joint_positions": [[]], "base_frame": "panda_hand", "tip_frame": "panda_link8"}),
     ("singularities", "planar_2r", {"joint_positions": [[0.3, 0.0], BENT], "task": PLANE}),
     ("singularities", "panda", {"joint_positions": [READY], "characteristic_length": 0.5, "path": True}),
+    ("dynamics", "planar_2r", {"joint_positions": [BENT], "torques": [[1.0, 0.1]]}),
+    ("dynamics", "panda", {"joint_positions": [READY], "joint_accelerations": [[0.1] * 7]}),
     ("jacobian", "planar_2r", {"joint_positions": [BENT, [0.1, 0.2]]}),
     (
         "jacobian",
@@ -152,7 +154,9 @@ def test_a_trace_shows_free_joints_only(client: TestClient) -> None:
     assert "q_{7}" not in result["steps"][-1]["latex"][0]
 
 
-@pytest.mark.parametrize("operation", ["fk", "jacobian", "velocity", "singularities", "statics", "manipulability"])
+@pytest.mark.parametrize(
+    "operation", ["fk", "jacobian", "velocity", "singularities", "statics", "dynamics", "manipulability"]
+)
 def test_at_most_a_hundred_solutions_are_worked_out(client: TestClient, operation: str) -> None:
     call: dict[str, Any] = {"joint_positions": [BENT] * 101, "steps": True}
     call |= {"joint_velocities": [BENT] * 101} if operation == "velocity" else {}

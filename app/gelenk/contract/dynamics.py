@@ -6,12 +6,12 @@ from pydantic import Field
 
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import AboutChain, Configurations, Matrix
-from gelenk.contract.options import BatchRequest
+from gelenk.contract.options import BatchRequest, WithSteps, WorkedSolutions
 from gelenk.contract.statics import Gravity, Wrenches, WrenchOptions, WrenchRequest
 from gelenk.kinematics.judge.words import DynamicsCertificate, Term
 
 
-class DynamicsOptions(WrenchOptions):
+class DynamicsOptions(WrenchOptions, WithSteps):
     """Axes, point, gravity and terms of a call of dynamics."""
 
     gravity: Gravity = Field(
@@ -85,6 +85,7 @@ class DynamicsAnswer(AboutChain):
         description="By inverse dynamics: joints whose torque is beyond the effort limit of the description.",
     )
     notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or assume.")
+    steps: WorkedSolutions = None
     certificate: DynamicsCertificate
 
 
@@ -106,7 +107,9 @@ ENDPOINT = RobotEndpoint(
     and damping that a description gives are not applied, and rotors have no inertia. A DH table gives no masses:
     its robot gets the masses of the bodies drawn for it, and `notes` says so.
 
-    Terms come from Pinocchio; `certificate` compares them with sums over the bodies through our own Jacobians.
+    Terms come from Pinocchio; `certificate` compares them with sums over the bodies through our own Jacobians. `steps`
+    show these sums with their numbers, C by Christoffel's symbols, and the equation solved; for a planar arm of up to
+    two joints, without a payload, the equations in symbols come first.
     """,
     options=DynamicsOptions,
     npy_answer="The requested torques or accelerations as one array of shape (N, n), otherwise the first of "

@@ -1,6 +1,6 @@
 """Dynamics of a robot: terms of the equations of motion, inverse and forward dynamics."""
 
-from typing import Any
+from typing import Any, TypedDict
 
 import numpy as np
 
@@ -11,7 +11,8 @@ from gelenk.kinematics.dynamics.dynamics import Dynamics, dynamics
 from gelenk.kinematics.dynamics.lagrangian import State
 from gelenk.kinematics.dynamics.mechanism import mechanism
 from gelenk.kinematics.force.statics import certify_statics, overloaded_joints, statics
-from gelenk.operations.chains import check_count, check_numbers, head, positions
+from gelenk.operations.chains import check_count, check_numbers, check_worked, head, positions
+from gelenk.operations.dynamics_steps import worked_dynamics
 from gelenk.operations.loads import (
     MECHANISM,
     chain_of,
@@ -48,34 +49,35 @@ def run(loaded: LoadedRobot, call: DynamicsRequest, limits: Limits) -> Outcome:
     load, gravity = load_of(call.payload), gravity_of(call.gravity)
     qs = positions(chain, call)
     _check_size(call, len(qs), len(chain), limits)
+    check_worked(call, len(qs))
     speeds = _rows(chain, call.joint_velocities, "joint_velocities", len(qs))
     state = State(qs, np.zeros_like(qs) if speeds is None else speeds, _held(robot, chain, call, qs))
     gravity = np.zeros(3) if gravity is None else gravity
-    found = dynamics(
-        robot,
-        chain,
-        state,
-        terms=call.terms,
-        gravity=gravity,
-        load=load,
-        accelerations=_rows(chain, call.joint_accelerations, "joint_accelerations", len(qs)),
-        torques=_rows(chain, call.torques, "torques", len(qs)),
-    )
+    given: _Given = {
+        "accelerations": _rows(chain, call.joint_accelerations, "joint_accelerations", len(qs)),
+        "torques": _rows(chain, call.torques, "torques", len(qs)),
+    }
+    found = dynamics(robot, chain, state, terms=call.terms, gravity=gravity, load=load, **given)
     array = _array(call, found)
 
     def content() -> dict[str, Any]:
         notes = weight_notes(loaded, mechanism(robot, chain), load)
         if not found.is_definite:
             notes.append("the mass matrix is singular: some motion of the joints meets no inertia")
+        worked: dict[str, Any] = {}
+        if call.steps:
+            holds = call.wrenches is not None
+            worked["steps"] = worked_dynamics(mechanism(robot, chain), state, gravity, load, holds=holds, **given)
         about = {**head(chain), "root_frame": robot.description.root, "gravity": gravity}
-        return about | _numbers(robot, chain, call, state, found) | {"notes": notes, "certificate": found.certificate}
+        numbers = _numbers(robot, chain, call, state, found)
+        return about | numbers | {"notes": notes} | worked | {"certificate": found.certificate}
 
-    return Outcome(content, None if array is None else lambda: (array, {}))
+    return Outcome(content, None if array is None or call.steps else lambda: (array, {}))
 
 
 def is_heavy(call: DynamicsRequest) -> bool:
     """Check whether a request takes the event loop more than about a millisecond."""
-    return not is_quick(call) or call.wrenches is not None
+    return not is_quick(call) or call.wrenches is not None or call.steps
 
 
 def attempt(loaded: LoadedRobot, call: DynamicsRequest, limits: Limits) -> Outcome | None:
@@ -84,6 +86,13 @@ def attempt(loaded: LoadedRobot, call: DynamicsRequest, limits: Limits) -> Outco
 
 
 WARM_UP = MECHANISM
+
+
+class _Given(TypedDict):
+    """What the equations are solved for from; at most one is not None."""
+
+    accelerations: Array | None
+    torques: Array | None
 
 
 def _check_options(call: DynamicsRequest) -> None:

@@ -1,0 +1,1 @@
+"""Worked solutions of dynamics: the terms of the equations of motion from the bodies, and the equations solved."""
