@@ -10,6 +10,7 @@ from sphinx.cmd.build import build_main
 from docs.handbook import site
 from docs.handbook.committed import renew
 from docs.handbook.examples import renew_examples
+from docs.handbook.papers import print_papers
 from docs.handbook.session import end_service
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -34,6 +35,8 @@ def main() -> None:
         sys.exit("the handbook is not built: see above")
     if pages:
         return
+    for left_out in print_papers(OUTPUT):
+        print(left_out)
     if faults := site.faults(OUTPUT, site.page_names(ROOT / "docs")):
         sys.exit("\n".join([*faults, "the handbook is not sound: see above"]))
     print(f"{len(site.page_names(ROOT / 'docs'))} pages: {(OUTPUT / 'index.html').relative_to(ROOT)}")

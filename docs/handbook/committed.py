@@ -9,15 +9,18 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path, PurePosixPath
 from posixpath import relpath
+from typing import Any
 
 from matplotlib.figure import Figure
 
+from docs.handbook.beside import tabbed
 from docs.handbook.figures import compact, svg
 from docs.handbook.problem_kinds import problems
 from docs.handbook.reference import Reference
 from docs.handbook.session import Session, Unexpected, schema, service
 from docs.handbook.settings_list import bounds, settings
 from docs.handbook.written import DIGITS, disagreement, same
+from gelenk.client.call import Call
 
 _PART = re.compile(
     r"(?P<shown>^`{4,})\w+\n.*?^(?P=shown)$"
@@ -27,6 +30,8 @@ _PART = re.compile(
     r"|<!-- (?P<stated>[^=\n]+) = (?P<expression>[^\n]+?) -->",
     re.MULTILINE | re.DOTALL,
 )
+SHOWN: dict[Path, str] = {}
+"""The pages that this process has renewed, as they are built."""
 _ANCHOR = re.compile(r'<a id="([^"]+)"></a>')
 _HERE = re.compile(r"\]\(#([^)]+)\)")
 _OPTION = re.compile(r"(\w+)=(\S+)")
@@ -39,10 +44,12 @@ class Page:
     Attributes:
         text: Markdown.
         pictures: By their path from the page.
+        calls: What each of its pieces has sent.
         faults: What is wrong with it, in sentences.
     """
 
     text: str = ""
+    calls: list[list[Call[Any]]] = field(default_factory=list)
     pictures: dict[str, str] = field(default_factory=dict)
     faults: list[str] = field(default_factory=list)
 
@@ -52,11 +59,15 @@ def made(text: str) -> Page:
     page, session = Page(), Session(service())
 
     def part(found: re.Match[str]) -> str:
+        before = len(service().sent)
         try:
             return _part(found, text[: found.start()], session, page)
         except Unexpected as error:
             page.faults.append(f"line {text.count(chr(10), 0, found.start()) + 1}: {error}")
             return found[0]
+        finally:
+            if found["code"] or found["picture"]:
+                page.calls.append(service().sent[before:])
 
     page.text = _PART.sub(part, text)
     if left := [robot.name for robot in service().robots().robots if robot.source == "uploaded"]:
@@ -117,6 +128,19 @@ _GENERATED: Mapping[str, Callable[[str], str]] = {
 }
 
 
+def shown(page: Page) -> str:
+    """A page as it is built: each of its calls also with curl."""
+    pieces = enumerate(page.calls)
+
+    def beside(part: re.Match[str]) -> str:
+        if not (part["code"] or part["picture"]):
+            return part[0]
+        number, calls = next(pieces)
+        return tabbed(part[0], calls, f"call-{number}")
+
+    return _PART.sub(beside, page.text)
+
+
 def linked(pages: dict[Path, Page]) -> None:
     """Let links to places of other pages lead there."""
     homes = {place: path for path, page in pages.items() for place in _ANCHOR.findall(page.text)}
@@ -142,6 +166,7 @@ def renew(paths: list[Path], write: bool) -> Iterator[str]:
     linked(pages)
     for path, page in pages.items():
         yield from (f"{path}: {fault}" for fault in page.faults)
+        SHOWN[path.resolve()] = shown(page)
         files = {path: page.text, **{path.parent / name: text for name, text in page.pictures.items()}}
         for file, text in files.items():
             apart = 1e-9 if file == path else 0.2  # of a picture, a fifth of a point

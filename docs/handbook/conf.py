@@ -9,6 +9,8 @@ from sphinx.application import Sphinx
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
+from docs.handbook.committed import SHOWN  # noqa: E402 - found by the path above
+
 project = "Gelenk"
 author = "the authors of Gelenk"
 html_title = "Gelenk handbook"
@@ -28,7 +30,7 @@ suppress_warnings = ["misc.highlighting_failure", "myst.xref_missing"]
 html_theme = "furo"
 html_static_path = ["static"]
 html_css_files = ["handbook.css"]
-html_js_files = [("copy.js", {"defer": "defer"})]
+html_js_files = [("copy.js", {"defer": "defer"}), ("tabs.js", {"defer": "defer"})]
 html_favicon = str(ROOT / "app" / "gelenk" / "studio" / "icon.svg")
 html_math_renderer = "glyphs"
 html_copy_source = False
@@ -39,8 +41,18 @@ pygments_dark_style = "github-dark"
 
 
 def setup(app: Sphinx) -> None:
-    """Make the navigation of the first page's lists: a part for each heading."""
+    """Build pages with their calls in tabs; make the navigation of the first page's lists: a part for each heading."""
+    app.connect("env-get-outdated", lambda app, env, *_: [page for page in env.found_docs if _shown(app, page)])
+    app.connect("source-read", _tabs)
     app.connect("source-read", _navigation)
+
+
+def _tabs(app: Sphinx, page: str, source: list[str]) -> None:
+    source[0] = _shown(app, page) or source[0]
+
+
+def _shown(app: Sphinx, page: str) -> str | None:
+    return SHOWN.get(Path(app.env.doc2path(page)).resolve())
 
 
 def _navigation(_: Sphinx, page: str, source: list[str]) -> None:

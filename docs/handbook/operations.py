@@ -13,7 +13,7 @@ from gelenk.client.call import Sent
 from gelenk.client.operations import Operations
 
 _LINE = 72
-"""Letters of a line of an example; what is longer is written over several."""
+"""Letters of a line of an example."""
 
 
 @dataclass(frozen=True)
@@ -129,21 +129,22 @@ def examples(content: Mapping[str, Any]) -> list[Any]:
     return [example["value"] for example in content.get("examples", {}).values()]
 
 
-def compact(value: Any, indent: int = 0) -> str:
+def compact(value: Any, indent: int = 0, width: int = _LINE) -> str:
     """JSON with what is short on one line.
 
     Args:
         value: Of lists, objects with text keys, numbers, texts.
         indent: Spaces before its lines but the first.
+        width: Letters of a line; what is longer is written over several.
     """
     line = json.dumps(value, ensure_ascii=False)
-    if len(line) + indent <= _LINE or not isinstance(value, dict | list):
+    if len(line) + indent <= width or not isinstance(value, dict | list):
         return line
     inner = " " * (indent + 2)
     if isinstance(value, dict):
-        items = [f"{inner}{json.dumps(key)}: {compact(item, indent + 2)}" for key, item in value.items()]
+        items = [f"{inner}{json.dumps(key)}: {compact(item, indent + 2, width)}" for key, item in value.items()]
     else:
-        items = [f"{inner}{compact(item, indent + 2)}" for item in value]
+        items = [f"{inner}{compact(item, indent + 2, width)}" for item in value]
     opening, closing = "{}" if isinstance(value, dict) else "[]"
     return f"{opening}\n" + ",\n".join(items) + f"\n{' ' * indent}{closing}"
 

@@ -6,8 +6,9 @@ import time
 from contextlib import redirect_stdout
 from functools import cache
 from io import StringIO
-from typing import Any
+from typing import Any, TypeVar
 
+import httpx2
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -17,6 +18,8 @@ from gelenk.client import Client
 from gelenk.client.call import Call
 from gelenk.client.refusals import Refused
 
+T = TypeVar("T")
+
 _READY_SECONDS = 900.0
 """How long kernels may take to compile, on a slow and busy machine."""
 
@@ -25,10 +28,23 @@ class Unexpected(Exception):
     """A call is not answered as its page says."""
 
 
+class Recorder(Client):
+    """A client that remembers its calls, in `sent`."""
+
+    def __init__(self, transport: httpx2.BaseTransport) -> None:
+        super().__init__(transport=transport)
+        self.sent: list[Call[Any]] = []
+
+    def send(self, call: Call[T]) -> T:
+        """Send a call and return its answer, as a client does."""
+        self.sent.append(call)
+        return super().send(call)
+
+
 @cache
-def service() -> Client:
+def service() -> Recorder:
     """The one service of a build, started when it is first needed, and ready."""
-    client = Client(transport=InProcess())
+    client = Recorder(InProcess())
     wait_until_ready(client)
     return client
 

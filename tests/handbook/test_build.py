@@ -6,13 +6,15 @@ The handbook itself is compared and built by `./dev handbook`, a step of its own
 import base64
 import hashlib
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from docs.handbook.committed import renew
+from docs.handbook.committed import SHOWN, renew
+from docs.handbook.papers import print_papers
 from docs.handbook.session import service
 from gelenk.http.pages import HANDBOOK_POLICY
 
@@ -125,6 +127,9 @@ def test_a_page_gets_what_its_calls_give_and_then_it_is_current(tmp_path: Path) 
     assert "$$\n\\alpha\n$$\n\n$$\n\\beta\n$$" in text
     assert text.endswith(GOOD[GOOD.index("````markdown") :])
     assert list(renew([page], write=False)) == []
+    assert "curl" not in text
+    assert SHOWN[page.resolve()].count('<div class="tabs">') == 3
+    assert "curl -s http://127.0.0.1:8000/v1/robots/nobody\n" in SHOWN[page.resolve()]
 
     page.write_text(text.replace("x: 1.27", "x: 1.28"))
     assert list(renew([page], write=False)) == [f"{page} is not current: ./dev handbook --write"]
@@ -149,7 +154,11 @@ def built(tmp_path: Path, **pages: str) -> tuple[int, str, Path]:
     for name, page in pages.items():
         (sources / f"{name}.md").write_text(page)
     # Sphinx keeps to itself what the process has set up; so each build has one of its own.
-    code = "import sys, pathlib, docs.handbook.__main__ as h; sys.exit(h.build(*map(pathlib.Path, sys.argv[1:])))"
+    code = (
+        "import sys, pathlib; from docs.handbook import __main__ as handbook, committed; "
+        "sources, output = map(pathlib.Path, sys.argv[1:]); "
+        "committed.SHOWN[sources / 'other.md'] = '# Other, as it is shown'; sys.exit(handbook.build(sources, output))"
+    )
     run = subprocess.run([sys.executable, "-c", code, sources, output], capture_output=True, text=True, check=False)
     return run.returncode, run.stderr, output
 
@@ -158,6 +167,7 @@ def test_a_page_is_built_and_in_the_navigation_by_the_list_of_the_first(tmp_path
     index = "# First\n\n## Part\n\n- [Other](other.md)\n\n$J^{\\top}\\gamma$ and $J^{\\top}\\tau$"
     code, complaints, output = built(tmp_path, index=index, other="# Other")
     assert (code, complaints) == (0, "")
+    assert "Other, as it is shown" in (output / "other.html").read_text()
     text = (output / "index.html").read_text()
     assert '<span class="caption-text">Part</span>' in text
     glyphs = re.findall(r'<symbol id="([^"]+)"', text)
@@ -173,3 +183,13 @@ def test_what_is_unsound_ends_the_build(tmp_path: Path) -> None:
     assert code != 0
     faults = ("cannot be set", "isn't included in any toctree")
     assert [fault for fault in faults if fault not in complaints] == []
+
+
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="there is no Chromium: apt-get install chromium")
+def test_the_formula_sheet_fills_two_pages(tmp_path: Path) -> None:
+    sheet = Path("docs/course/formula-sheet.md").read_text(encoding="utf-8").replace("(corrections.md)", "(index.md)")
+    code, complaints, output = built(tmp_path, index="# First\n\n## Part\n\n- [Sheet](sheet.md)", sheet=sheet)
+    assert (code, complaints) == (0, "")
+    assert list(print_papers(output)) == []
+    assert 'href="sheet.pdf"' in (output / "sheet.html").read_text()
+    assert len(re.findall(rb"/Type /Page\b", (output / "sheet.pdf").read_bytes())) == 2
