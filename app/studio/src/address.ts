@@ -56,7 +56,7 @@ export function write(state: Readonly<State>): string {
   return "#" + parts.map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
 }
 
-/** Keep the address bar as the state is; another robot or panel is a step that the browser's Back undoes. */
+/** Keep the address bar as the state is; another robot, panel or exercise is a step that the browser's Back undoes. */
 export function mirror(store: Store<State>, restore: (address: Address) => void): void {
   let timer = 0;
   let written = location.hash;
@@ -105,8 +105,8 @@ export function mirror(store: Store<State>, restore: (address: Address) => void)
   window.addEventListener("hashchange", follow);
 }
 
-function placeOf(state: Readonly<State>): string {
-  return `${state.panel} ${state.robot}`;
+function placeOf({ panel, robot, options }: Readonly<State>): string {
+  return `${panel} ${robot} ${options["exercises.task"]}`;
 }
 
 /** Options as far as the panel can show them; whether their values go together is for the service to say. */

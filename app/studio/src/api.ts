@@ -34,7 +34,12 @@ export class Problem extends Error {
 
 const UNAUTHORIZED = 401;
 export const NO_ANSWER = 0;
-export const NOT_OF_THE_SERVICE = -1;
+const NOT_OF_THE_SERVICE = -1;
+
+/** Whatever went wrong as it is shown; the title is for what is not the service's. */
+export function asProblem(error: unknown, title = "The page cannot do this"): Problem {
+  return error instanceof Problem ? error : new Problem(NOT_OF_THE_SERVICE, title, String(error));
+}
 
 export class Api {
   /** @param key that calls carry, and that is asked for where the service wants another one. */

@@ -1,6 +1,8 @@
 /** The studio: wires state, service, view and panels. */
 
 import "./styles/studio.css";
+// Style sheets are imported by what is loaded at once: the bundler has later chunks bring none.
+import "katex/dist/katex.min.css";
 
 import { mirror, read } from "./address.ts";
 import { Api } from "./api.ts";

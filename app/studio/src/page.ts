@@ -69,6 +69,7 @@ function tabs({ tabs: host, panel }: Places, studio: Studio): void {
       const isChosen = PANELS[index] === chosen;
       tab.setAttribute("aria-selected", String(isChosen));
       tab.tabIndex = isChosen ? 0 : -1;
+      if (isChosen) tab.scrollIntoView({ block: "nearest", inline: "nearest" });
     }
     close = chosen.open(panel, studio);
   });

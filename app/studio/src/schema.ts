@@ -53,6 +53,10 @@ export type Configuration = number[] | JointValues;
 
 export type Continuity = { position: Jump | null; velocity: Jump | null; acceleration: Jump | null; jerk: Jump | null };
 
+export type CoursePicture = { name: string; title: string };
+
+export type CoursePictures = { pictures: CoursePicture[] };
+
 export type CylinderShape = { type: "cylinder"; radius: number; length: number };
 
 export type Damping = { distance: number; angle: number };
@@ -156,6 +160,47 @@ export type EquationsCertificate = {
   seed: number | null;
 };
 
+export type ExerciseChoice = { value: string; text: string };
+
+export type ExerciseField = {
+  name: string;
+  kind: string;
+  label: string;
+  unit: string | null;
+  tolerance: number;
+  is_relative: boolean;
+  points: number;
+  shape: number[];
+  choices: ExerciseChoice[];
+};
+
+export type ExerciseFieldGrade = { name: string; correct: boolean; points: number; mistake: MistakeInfo | null };
+
+export type ExerciseGrade = {
+  id: string;
+  version: number;
+  points: number;
+  max_points: number;
+  fields: ExerciseFieldGrade[];
+};
+
+export type ExerciseInfo = { id: string; lecture: string; title: string; difficulty: number; version: number };
+
+export type ExerciseList = { exercises: ExerciseInfo[] };
+
+export type ExerciseRequest = { language?: "en" | "de"; seed: number };
+
+export type ExerciseSolution = { id: string; version: number; answers: Record<string, unknown>; steps: Step[] };
+
+export type ExerciseVariant = {
+  id: string;
+  version: number;
+  text: string;
+  picture: string | null;
+  fields: ExerciseField[];
+  hints: string[];
+};
+
 export type ExitInfo = { joint: string; direction: number[]; rate: number };
 
 export type Family = { free_joints: string[]; relation: string | null; text: string; sweep: number[][] };
@@ -174,10 +219,13 @@ export type ForwardAnswer = {
   tip_frame: string;
   poses: Pose[];
   frames?: Record<string, Pose>[] | null;
+  steps?: Step[][] | null;
   certificate: PoseCertificate;
 };
 
 export type ForwardRequest = {
+  language?: "en" | "de";
+  steps?: boolean;
   base_frame?: string | null;
   tip_frame?: string | null;
   pose_format?: "quaternion_xyzw" | "quaternion_wxyz" | "rpy" | "zyz" | "rotation_vector" | "rotation" | "matrix";
@@ -399,6 +447,8 @@ export type MimicInfo = { joint: string; multiplier: number; offset: number };
 
 export type MimicPayload = { joint: string; multiplier?: number; offset?: number };
 
+export type MistakeInfo = { code: string; text: string };
+
 export type MotionLimitsInfo = {
   joint_velocity: number[];
   joint_acceleration: number[];
@@ -576,6 +626,7 @@ export type SingularityAnswer = {
   units_mixed: boolean;
   singularities: SingularityEntry[];
   path?: SingularPathInfo | null;
+  steps?: Step[][] | null;
   certificate: SingularityCertificate;
 };
 

@@ -3,7 +3,12 @@
 import type * as api from "./schema.ts";
 
 export type ChainEnds = api.ChainEnds;
+export type CoursePictures = api.CoursePictures;
 export type DeriveAnswer = api.DeriveAnswer;
+export type ExerciseGrade = api.ExerciseGrade;
+export type ExerciseList = api.ExerciseList;
+export type ExerciseSolution = api.ExerciseSolution;
+export type ExerciseVariant = api.ExerciseVariant;
 export type ForwardAnswer = api.ForwardAnswer;
 export type InverseAnswer = api.InverseAnswer;
 export type JacobianAnswer = api.JacobianAnswer;
@@ -59,3 +64,8 @@ export type WorkspaceSummary = api.WorkspaceAnswer;
 
 export type TrajectoryAnswer = api.TrajectoryAnswer;
 export type TrajectoryRequest = api.TrajectoryRequest;
+
+export type Language = NonNullable<api.ExerciseRequest["language"]>;
+export type ExerciseInfo = api.ExerciseInfo;
+export type ExerciseField = api.ExerciseField;
+export type FieldGrade = api.ExerciseFieldGrade;

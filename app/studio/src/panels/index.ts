@@ -1,5 +1,6 @@
 /** The panels, in the order of their tabs. */
 
+import { exercisesPanel } from "./exercises/index.ts";
 import { inversePanel } from "./ik/index.ts";
 import { jacobianPanel } from "./jacobian/index.ts";
 import type { Panel } from "./panel.ts";
@@ -17,4 +18,5 @@ export const PANELS: readonly Panel[] = [
   trajectoryPanel,
   workspacePanel,
   workedPanel,
+  exercisesPanel,
 ];

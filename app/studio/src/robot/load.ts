@@ -3,7 +3,7 @@
 import { LoadingManager, Mesh, type Object3D } from "three";
 import URDFLoader, { type URDFRobot } from "urdf-loader";
 
-import { type Api, Latest, NOT_OF_THE_SERVICE, Problem } from "../api.ts";
+import { type Api, asProblem, Latest } from "../api.ts";
 import type { Positions, State } from "../state.ts";
 import type { Store } from "../store.ts";
 import type { ChainEnds, DhTable, RobotInfo, ToUrdfAnswer } from "../types.ts";
@@ -50,7 +50,7 @@ export class Loader {
       );
       if (model) this.#show(model);
     } catch (error) {
-      this.store.set({ loading: false, failure: asProblem(error) });
+      this.store.set({ loading: false, failure: asProblem(error, "This robot cannot be shown") });
     }
   }
 
@@ -182,10 +182,4 @@ function carried(before: RobotModel | null, model: RobotModel, positions: Positi
 
 function namesOf(model: RobotModel): string {
   return model.joints.map(({ name }) => name).join();
-}
-
-export function asProblem(error: unknown): Problem {
-  return error instanceof Problem
-    ? error
-    : new Problem(NOT_OF_THE_SERVICE, "This robot cannot be shown", String(error));
 }

@@ -68,3 +68,13 @@ export class Choice<T extends string> {
 export function toggle(text: string, title: string, flip: () => void): HTMLButtonElement {
   return button(text, flip, { class: "toggle", title, "aria-pressed": "false" });
 }
+
+/** Has the keyboard reach what it observes, and move it by the arrow keys, while that is wider than its place. */
+export function reaching(): ResizeObserver {
+  return new ResizeObserver((entries) => {
+    for (const { target } of entries) {
+      if (target.scrollWidth > target.clientWidth) (target as HTMLElement).tabIndex = 0;
+      else target.removeAttribute("tabindex");
+    }
+  });
+}

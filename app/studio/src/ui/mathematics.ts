@@ -1,7 +1,5 @@
 /** Formulas, set by KaTeX. It builds elements (`render`, never `renderToString`): the page allows no inline style. */
 
-import "katex/dist/katex.min.css";
-
 import { element } from "./dom.ts";
 
 type Katex = typeof import("katex").default;

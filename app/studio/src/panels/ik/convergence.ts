@@ -1,8 +1,7 @@
 /** Newton against the gradient from one start to the target: their errors, and the robot on their ways. */
 
-import { Latest } from "../../api.ts";
+import { asProblem, Latest } from "../../api.ts";
 import { shownChain } from "../../robot/chain.ts";
-import { asProblem } from "../../robot/load.ts";
 import { DIRECTIONS, type InverseAnswer } from "../../types.ts";
 import { button, Choice, element, section } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";

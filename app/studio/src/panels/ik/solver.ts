@@ -1,8 +1,7 @@
 /** Asks for the solutions of the target: all that were wanted, or the next one while the target is being moved. */
 
-import { type Api, Latest, type Problem } from "../../api.ts";
+import { type Api, asProblem, Latest, type Problem } from "../../api.ts";
 import { type ShownChain, shownChain } from "../../robot/chain.ts";
-import { asProblem } from "../../robot/load.ts";
 import type { State } from "../../state.ts";
 import { Store } from "../../store.ts";
 import type { InverseAnswer, InverseResult, Pose } from "../../types.ts";

@@ -2,9 +2,8 @@
 
 import "../../styles/jacobian.css";
 
-import { type Api, Problem } from "../../api.ts";
+import { type Api, asProblem, Problem } from "../../api.ts";
 import { type ShownChain, shownChain } from "../../robot/chain.ts";
-import { asProblem } from "../../robot/load.ts";
 import { choosing } from "../../state.ts";
 import type { Part, SingularityReport } from "../../types.ts";
 import { Choice, section, titled } from "../../ui/dom.ts";

@@ -2,8 +2,7 @@
 
 import type { Matrix4 } from "three";
 
-import { type Api, Latest, Paced } from "../../api.ts";
-import { asProblem } from "../../robot/load.ts";
+import { type Api, asProblem, Latest, Paced } from "../../api.ts";
 import type { ShownChain } from "../../robot/chain.ts";
 import type { RobotModel } from "../../robot/model.ts";
 import { asMatrix, difference } from "../../robot/pose.ts";

@@ -1,11 +1,12 @@
 /** The robot on the screen: what it is, where it comes from, what is odd about it; and its files. */
 
-import { asProblem } from "../../robot/load.ts";
+import { asProblem } from "../../api.ts";
+import { jointName } from "../../robot/dh.ts";
 import type { RobotModel } from "../../robot/model.ts";
-import { tablePath } from "../../robot/table.ts";
-import type { State } from "../../state.ts";
-import type { TableAnswer } from "../../types.ts";
+import { chainTable } from "../../robot/table.ts";
+import type { DhTable } from "../../types.ts";
 import { button, element } from "../../ui/dom.ts";
+import { figureOf, svgOf } from "../../ui/drawing.ts";
 import { save } from "../../ui/files.ts";
 import type { ProblemView } from "../../ui/problem.ts";
 import type { Studio } from "../panel.ts";
@@ -15,7 +16,7 @@ export function about(studio: Studio, problem: ProblemView): { host: HTMLElement
   const host = element("div", { class: "about" });
   const close = store.watch(["model"], (state) => {
     host.replaceChildren();
-    if (state.model) host.append(...describe(state.model), actions(state.model, studio, problem));
+    if (state.model) host.append(...describe(state.model), ...actions(state.model, studio, problem));
   });
   return { host, close };
 }
@@ -52,8 +53,9 @@ function warningList(warnings: readonly string[]): HTMLElement {
   );
 }
 
-function actions(model: RobotModel, studio: Studio, problem: ProblemView): HTMLElement {
+function actions(model: RobotModel, studio: Studio, problem: ProblemView): HTMLElement[] {
   const { api, store } = studio;
+  const picture = element("div");
   const attempt = (work: () => Promise<void>) => () => {
     problem.show(null);
     work().catch((error: unknown) => problem.show(asProblem(error)));
@@ -63,22 +65,35 @@ function actions(model: RobotModel, studio: Studio, problem: ProblemView): HTMLE
     await api.call({ method: "DELETE", path: `v1/robots/${encodeURIComponent(model.name!)}` });
     store.set({ robot: "panda", base: null, tip: null });
   });
-  return element(
+  const draw = attempt(async () => picture.replaceChildren(await frames(file, studio)));
+  const bar = element(
     "div",
     { class: "bar" },
     button("Download URDF", () => save(`${file}.urdf`, "application/xml", model.urdf)),
     button(
       "Download DH",
-      attempt(async () => save(`${file}.dh.json`, "application/json", await table(model, studio))),
+      attempt(async () =>
+        save(`${file}.dh.json`, "application/json", `${JSON.stringify(await table(studio), null, 2)}\n`),
+      ),
     ),
+    button("Frames drawn", draw, { title: "The frames of the chain's DH table, at this configuration" }),
     element("span", { class: "spring" }),
     model.info?.source === "uploaded" && button("Remove", removal, { class: "button danger" }),
   );
+  return [bar, picture];
 }
 
-/** The table of the chain as JSON: what `dh` of a request takes. */
-async function table(model: RobotModel, { api, store }: Studio): Promise<string> {
-  const { draft, base, tip, table: shown }: Readonly<State> = store.value;
-  const dh = draft ?? shown?.dh ?? (await api.get<TableAnswer>(tablePath(model.name!, "standard", base, tip))).dh;
-  return `${JSON.stringify(dh, null, 2)}\n`;
+/** The picture of the chain's table where the joints stand. */
+async function frames(file: string, studio: Studio): Promise<HTMLElement> {
+  const dh = await table(studio);
+  const { positions } = studio.store.value;
+  const variables = dh.joints.flatMap((row, i) => (row.mimic ? [] : [positions[jointName(row, i)] ?? 0]));
+  const body = { dh, joint_positions: [variables] };
+  const svg = await svgOf(studio.api, { method: "POST", path: "v1/dh/picture", body });
+  return figureOf(svg, "Frames of the DH table", `${file}-dh`, "Save the frames as SVG");
+}
+
+/** The table of the chain on the screen. */
+async function table({ api, store }: Studio): Promise<DhTable> {
+  return (await chainTable(api, store.value, new AbortController().signal))!.dh;
 }

@@ -1,6 +1,6 @@
 /** The robots that the service has, to search and to pick from. */
 
-import { asProblem } from "../../robot/load.ts";
+import { asProblem } from "../../api.ts";
 import type { RobotSummary } from "../../types.ts";
 import { element } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";

@@ -1,11 +1,10 @@
 /** A typed table becomes a robot of the service, so that everything else can be asked of it. */
 
-import { asProblem } from "../../robot/load.ts";
 import { isName } from "../../robot/upload.ts";
 import type { DhTable, RobotInfo } from "../../types.ts";
 import { button, element } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
-import { Problem } from "../../api.ts";
+import { asProblem, Problem } from "../../api.ts";
 import type { Studio } from "../panel.ts";
 
 export function keep({ api, store }: Pick<Studio, "api" | "store">, table: () => DhTable | null): HTMLElement {

@@ -1,7 +1,6 @@
 /** A Denavit-Hartenberg table, typed: every change that makes sense is on the screen at once, errors are at their cell. */
 
-import { Latest, type Problem } from "../../api.ts";
-import { asProblem } from "../../robot/load.ts";
+import { asProblem, Latest, type Problem } from "../../api.ts";
 import type { Convention, DhTable } from "../../types.ts";
 import { button, Choice, element, toggle } from "../../ui/dom.ts";
 import { formula } from "../../ui/mathematics.ts";

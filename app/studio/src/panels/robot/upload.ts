@@ -1,7 +1,6 @@
 /** A URDF or a zip with its meshes, dropped anywhere on the page or chosen here. */
 
-import { Problem } from "../../api.ts";
-import { asProblem } from "../../robot/load.ts";
+import { asProblem, Problem } from "../../api.ts";
 import { isName, suggestedName, upload } from "../../robot/upload.ts";
 import { button, element } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";

@@ -1,7 +1,6 @@
 /** Has the motion planned: the button, how long it has been at it, how to end that, and what is wrong. */
 
-import { Latest } from "../../api.ts";
-import { asProblem } from "../../robot/load.ts";
+import { asProblem, Latest } from "../../api.ts";
 import { button, element } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
 import type { RequestView } from "../../ui/request.ts";

@@ -1,7 +1,6 @@
 /** What came of a plan: the player, the profiles, the audit, and the motion in the picture. */
 
-import type { Api, Call } from "../../api.ts";
-import { asProblem } from "../../robot/load.ts";
+import { type Api, asProblem, type Call } from "../../api.ts";
 import { button, element } from "../../ui/dom.ts";
 import { save } from "../../ui/files.ts";
 import { ProblemView } from "../../ui/problem.ts";

@@ -1,8 +1,7 @@
 /** The service's worked solution of the table on the screen, asked for again when the joints have come to rest. */
 
-import { type Api, Latest, type Problem } from "../../api.ts";
+import { type Api, asProblem, Latest, type Problem } from "../../api.ts";
 import { jointName } from "../../robot/dh.ts";
-import { asProblem } from "../../robot/load.ts";
 import { chainTable } from "../../robot/table.ts";
 import type { Positions, State } from "../../state.ts";
 import type { Store } from "../../store.ts";

@@ -16,19 +16,23 @@ export class NumberMatrix {
   }
 
   set(values: readonly (readonly number[])[]): void {
-    if (values.length !== this.#cells.length || values[0]?.length !== this.#cells[0]?.length) this.#build(values);
-    for (const [i, row] of values.entries()) {
-      for (const [j, value] of row.entries()) {
-        const text = rounded(value);
+    this.write(values.map((row) => row.map(rounded)));
+  }
+
+  /** The same with numbers that are written already. */
+  write(texts: readonly (readonly string[])[]): void {
+    if (texts.length !== this.#cells.length || texts[0]?.length !== this.#cells[0]?.length) this.#build(texts);
+    for (const [i, row] of texts.entries()) {
+      for (const [j, text] of row.entries()) {
         const cell = this.#cells[i]![j]!;
         if (cell.textContent !== text) cell.textContent = text;
       }
     }
   }
 
-  #build(values: readonly (readonly number[])[]): void {
-    this.host.classList.toggle("bracketed", values.flat().length > 1);
-    this.#cells = values.map((row) => row.map(() => element("span", { class: "matrix-cell" })));
+  #build(texts: readonly (readonly string[])[]): void {
+    this.host.classList.toggle("bracketed", texts.flat().length > 1);
+    this.#cells = texts.map((row) => row.map(() => element("span", { class: "matrix-cell" })));
     this.host.replaceChildren(...this.#cells.map((row) => element("span", { class: "matrix-row" }, ...row)));
   }
 }

@@ -2,7 +2,7 @@
 
 import type { SolutionNumbers } from "../../types.ts";
 import { copyButton } from "../../ui/copy.ts";
-import { button, element } from "../../ui/dom.ts";
+import { button, element, reaching } from "../../ui/dom.ts";
 import { formula } from "../../ui/mathematics.ts";
 import { matrixLatex, NumberMatrix } from "./matrix.ts";
 import type { Line, Section } from "./solution.ts";
@@ -16,7 +16,7 @@ export class Sheet {
   readonly host = element("div", { class: "sheet" });
   #numbers: SolutionNumbers | null = null;
   #follow: ((all: SolutionNumbers) => void)[] = [];
-  #watch = new ResizeObserver((entries) => entries.forEach(({ target }) => reach(target as HTMLElement)));
+  #watch = reaching();
 
   /** @param go moves the robot to a configuration, in the order of the table's joints. */
   constructor(private readonly go: (positions: number[]) => void) {}
@@ -89,12 +89,6 @@ export class Sheet {
 /** Both sides of it, or its name where only numbers follow. */
 function written({ symbol, latex }: Line): string {
   return latex === null || symbol === "" ? (latex ?? symbol) : `${symbol} = ${latex}`;
-}
-
-/** What is wider than its place is reached by the keyboard, and moved by its arrow keys. */
-function reach(region: HTMLElement): void {
-  if (region.scrollWidth > region.clientWidth) region.tabIndex = 0;
-  else region.removeAttribute("tabindex");
 }
 
 /** A section for a LaTeX document with amsmath. */

@@ -1,9 +1,9 @@
 /** Workspace: where the tip gets to, computed by a job of the service, and looked into. */
 
+import { asProblem } from "../../api.ts";
 import "../../styles/workspace.css";
 
 import { shownChain } from "../../robot/chain.ts";
-import { asProblem } from "../../robot/load.ts";
 import { choosing } from "../../state.ts";
 import type { JobInfo } from "../../types.ts";
 import { titled } from "../../ui/dom.ts";

@@ -1,8 +1,7 @@
 /** A workspace of the service: asked for, followed while it is computed, and fetched. */
 
-import { type Api, Latest, NO_ANSWER, Problem } from "../../api.ts";
+import { type Api, asProblem, Latest, NO_ANSWER, Problem } from "../../api.ts";
 import { type Table, readTable } from "../../npy.ts";
-import { asProblem } from "../../robot/load.ts";
 import type { JobInfo, WorkspaceSummary } from "../../types.ts";
 
 export interface Result {
