@@ -65,5 +65,10 @@ def _numbers(one: NumberField | VectorField | MatrixField, right: Any, random: R
     turns = np.array([random.randint(-2, 2) for _ in range(numbers.size)]).reshape(numbers.shape)
     moved = numbers + signs * allowed / 3 + (turn * turns if one.is_angle else 0.0)
     yield moved.tolist()
-    if isinstance(one, NumberField):
-        yield f"{moved:.15g}".replace(".", ",")
+    yield _with_commas(moved.tolist())
+    yield np.round(numbers, math.ceil(-math.log10(2.0 * allowed)) if allowed else 0).tolist()
+
+
+def _with_commas(numbers: Any) -> Any:
+    """Numbers as texts, as they stand in a German table."""
+    return [_with_commas(one) for one in numbers] if isinstance(numbers, list) else f"{numbers:.15g}".replace(".", ",")

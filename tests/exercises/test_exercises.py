@@ -3,6 +3,7 @@
 import hashlib
 import pkgutil
 import re
+from collections import Counter
 from importlib import import_module
 from random import Random
 from typing import Any
@@ -15,6 +16,7 @@ from gelenk.exercises.exercise import Exercise, Variant
 from gelenk.exercises.grading import graded
 from gelenk.exercises.mistakes.catalogue import catalogue
 from gelenk.exercises.mistakes.general import OF_FORM
+from tests.exercises.figures import OF_FORMS, counted
 from tests.exercises.forms import same, sent
 
 EXERCISES = list(exercises().values())
@@ -77,6 +79,16 @@ def test_variants_are_graded_as_they_should_be(exercise: Exercise[Any]) -> None:
 def test_many_variants_are_graded_as_they_should_be(exercise: Exercise[Any]) -> None:
     for seed in range(QUICK, QUICK + MANY):
         check(exercise, seed)
+
+
+@pytest.mark.slow
+def test_grading_is_right_as_often_as_the_page_says() -> None:
+    found = sum((counted(one, OF_FORMS) for one in EXERCISES), Counter[str]())
+    assert found["agreed"] == found["variants"]
+    assert found["forms"] >= 5000
+    assert found["mistakes"] >= 2000
+    assert (found["accused"], found["another"]) == (0, 0)
+    assert found["named"] >= 0.97 * found["mistakes"]
 
 
 @each

@@ -140,11 +140,25 @@ def test_solutions_of_a_wrong_model_that_coincide_count_once() -> None:
 
 
 def test_a_wrong_model_is_offered_only_where_it_can_be_told_apart() -> None:
-    wrong = {"alpha_sign": lambda x: x + 0.05, "quadrant": lambda x: x + 0.5, "copied_table": lambda x: x + 0.55}
+    wrong = {"alpha_sign": lambda x: x + 0.02, "quadrant": lambda x: x + 0.5, "copied_table": lambda x: x + 0.51}
     variant = exercise(NUMBER, 1.0, wrong).variant(0)
     offered = variant.mistakes(variant.fields[0])
     assert not offered.keys() & wrong.keys()  # one next to the right answer, two next to each other
     assert "sign" in offered
+
+
+def test_other_answers_tell_which_of_two_models_it_was() -> None:
+    both = (NUMBER, replace(NUMBER, name="y"))
+    one = replace(
+        exercise(NUMBER, 1.0),
+        fields=lambda _: both,
+        solve=lambda _: {"x": 1.0, "y": 1.0},
+        wrong={"alpha_sign": lambda _: {"x": 3.0, "y": 5.0}, "quadrant": lambda _: {"x": 3.0, "y": 7.0}},
+    ).variant(0)
+    told = [
+        [grade.mistake and grade.mistake.code for grade in graded(one, {"x": 3.0, "y": y}).fields] for y in (1, 5, 7)
+    ]
+    assert told == [[None, None], ["alpha_sign", "alpha_sign"], ["quadrant", "quadrant"]]
 
 
 def test_a_model_of_the_exercise_comes_before_a_general_one() -> None:

@@ -16,8 +16,8 @@ N = TypeVar("N")
 Answers: TypeAlias = Mapping[str, Any]
 
 _MOST_DRAWS = 1000
-_APART = 10.0
-"""Distance between answers, in tolerances, up to which one might be taken for the other."""
+_FROM_RIGHT, _FROM_OTHERS = 3.0, 2.0
+"""Distances in tolerances up to which a wrong answer might be taken for the right one, and for another wrong one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -115,20 +115,30 @@ class Variant(Generic[N]):
         special = {code: answers[one.name] for code, answers in self.wrong.items() if one.name in answers}
         return special | {code: answer for code, answer in one.slips(self.answers[one.name]) if code not in special}
 
-    def is_clear(self, one: AnswerField, code: str, wrong: Mapping[str, Any]) -> bool:
-        """Check whether a wrong answer can be told from the right one and from the others.
+    def models(self, one: AnswerField, answer: Any) -> dict[str, float]:
+        """Return the wrong models that lead to a wrong answer, each with its distance from it in tolerances.
 
-        The exercise's own models come first: they need not differ from general ones, which may have the same cause.
+        A model whose answer might be taken for the right one is none. The exercise's own models come first: if one of
+        them leads to the answer, the general ones do not count, which may have the same cause.
         """
+        apart = ((code, other, one.distance(answer, other)) for code, other in self.wrong_answers(one).items())
+        near = {code: distance for code, other, distance in apart if distance <= 1.0 and self._is_wrong(one, other)}
+        return {code: distance for code, distance in near.items() if code in self.exercise.wrong} or near
+
+    def _is_wrong(self, one: AnswerField, answer: Any) -> bool:
+        return _distance(one, answer, self.answers[one.name]) > _FROM_RIGHT
+
+    def _is_clear(self, one: AnswerField, code: str, wrong: Mapping[str, Any]) -> bool:
         own = self.exercise.wrong
         others = [answer for name, answer in wrong.items() if name != code and (name in own or code not in own)]
-        return all(_are_apart(one, wrong[code], other) for other in (self.answers[one.name], *others))
+        is_alone = all(_distance(one, wrong[code], other) > _FROM_OTHERS for other in others)
+        return is_alone and self._is_wrong(one, wrong[code])
 
     def mistakes(self, one: AnswerField) -> dict[str, Any]:
-        """Return the wrong answers to a field that are offered, by code."""
+        """Return the wrong answers to a field that can be told from the right one and from all others, by code."""
         wrong = self.wrong_answers(one)
-        return {code: answer for code, answer in wrong.items() if self.is_clear(one, code, wrong)}
+        return {code: answer for code, answer in wrong.items() if self._is_clear(one, code, wrong)}
 
 
-def _are_apart(one: AnswerField, answer: Any, other: Any) -> bool:
-    return min(one.distance(answer, other), one.distance(other, answer)) > _APART
+def _distance(one: AnswerField, answer: Any, other: Any) -> float:
+    return min(one.distance(answer, other), one.distance(other, answer))

@@ -1,5 +1,9 @@
-"""Grades: the right answer first, in all its forms, then the wrong models, else nothing is said."""
+"""Grades: the right answer first, in all its forms, then the wrong models, else nothing is said.
 
+If several models lead to an answer, the one counts that explains most of the other answers as well.
+"""
+
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -9,6 +13,9 @@ from gelenk.exercises.answer_field import AnswerField, Unreadable
 from gelenk.exercises.exercise import Variant
 from gelenk.exercises.fields import SetField
 from gelenk.exercises.mistakes.catalogue import Mistake, mistake
+
+_NEARER = 0.25
+"""Tolerances by which a wrong model must be nearer to an answer than another one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,24 +46,42 @@ def graded(variant: Variant[Any], answers: Mapping[str, Any]) -> Grade:
     names = tuple(one.name for one in variant.fields)
     if unknown := [name for name in answers if name not in names]:
         raise InvalidField(f"answers/{unknown[0]}", f"there is no field {quoted(unknown[0])}; it has {listed(names)}")
-    grades = tuple(_graded(variant, one, answers.get(one.name)) for one in variant.fields)
-    return Grade(sum(one.points for one in variant.fields), grades)
+    given = {one.name: _read(one, answers.get(one.name)) for one in variant.fields}
+    models = {
+        one.name: {} if isinstance(answer, Mistake) else variant.models(one, answer)
+        for one, answer in zip(variant.fields, given.values(), strict=True)
+    }
+    explained = Counter(code for found in models.values() for code in found)
+    grades = (_graded(variant, one, given[one.name], _likeliest(models[one.name], explained)) for one in variant.fields)
+    return Grade(sum(one.points for one in variant.fields), tuple(grades))
 
 
-def _graded(variant: Variant[Any], one: AnswerField, given: Any) -> FieldGrade:
+def _read(one: AnswerField, given: Any) -> Any:
+    """Return an answer, or what is wrong about its form."""
     if given is None or given == "":
-        return FieldGrade(one.name, 0.0, False, mistake("missing"))
+        return mistake("missing")
     try:
-        answer = one.read(given)
+        return one.read(given)
     except Unreadable as error:
-        return FieldGrade(one.name, 0.0, False, error.mistake)
+        return error.mistake
+
+
+def _likeliest(models: Mapping[str, float], explained: Mapping[str, int]) -> str | None:
+    """Return the model that explains the most fields and then is the nearest; None if two are as good."""
+    ranked = sorted((-explained[code], distance, code) for code, distance in models.items())
+    if not ranked or (len(ranked) > 1 and ranked[1][0] == ranked[0][0] and ranked[1][1] - ranked[0][1] < _NEARER):
+        return None
+    return ranked[0][2]
+
+
+def _graded(variant: Variant[Any], one: AnswerField, answer: Any, code: str | None) -> FieldGrade:
+    if isinstance(answer, Mistake):
+        return FieldGrade(one.name, 0.0, False, answer)
     right = variant.answers[one.name]
     share = one.share(answer, right)
     if share == 1.0:
         return FieldGrade(one.name, one.points, True)
-    wrong = variant.wrong_answers(one)
-    for code, other in wrong.items():
-        if one.distance(answer, other) <= 1.0 and variant.is_clear(one, code, wrong):
-            return FieldGrade(one.name, share * one.points, False, mistake(code))
+    if code is not None:
+        return FieldGrade(one.name, share * one.points, False, mistake(code))
     incomplete = one.incomplete(answer, right) if isinstance(one, SetField) else None
     return FieldGrade(one.name, share * one.points, False, incomplete)
