@@ -23,9 +23,12 @@ def test_sheets_for_a_class_and_their_grades(shell: Shell, tmp_path: Path) -> No
     names.write_text("\ufeffAda\n\n Ben \n", encoding="utf-8")
     asked = ["sheet", *IDS, "--class", names, "--title", "Sheet 1", "--secret", SECRET]
     assert shell.bytes(*asked).decode() == sheets_page(homework(*IDS))
+    assert shell.bytes(*asked, "--content", "solutions").decode() == booklet_page(homework(*IDS))
     shell("-o", sheets, *asked)
     key = zipped_file(sheets, "key.csv")
     assert key == key_table(homework(*IDS))
+    shell("-o", tmp_path / "key.csv", *asked)
+    assert (tmp_path / "key.csv").read_bytes().decode() == key
     assert zipped_file(sheets, "booklet.html") == booklet_page(homework(*IDS))
     (tmp_path / "answers.csv").write_text(key, encoding="utf-8", newline="")
     graded = shell.bytes("grade", tmp_path / "answers.csv", "--secret", SECRET).decode()
@@ -39,7 +42,10 @@ def zipped_file(place: Path, name: str) -> str:
 
 def test_what_is_wrong_is_said(shell: Shell, tmp_path: Path) -> None:
     assert "GELENK_COURSE_SECRET" in shell("sheet", IDS[0], code=2)[1]
-    assert ".html, .pdf, .zip, .xml" in shell("-o", tmp_path / "a.doc", "sheet", IDS[0], "--secret", SECRET, code=2)[1]
+    assert (
+        ".html, .pdf, .zip, .xml, .csv"
+        in shell("-o", tmp_path / "a.doc", "sheet", IDS[0], "--secret", SECRET, code=2)[1]
+    )
     assert "no such.txt" in shell("sheet", IDS[0], "--class", "no such.txt", "--secret", SECRET, code=2)[1]
     (tmp_path / "latin.csv").write_bytes(b"\xff")
     assert "UTF-8" in shell("grade", tmp_path / "latin.csv", "--secret", SECRET, code=2)[1]

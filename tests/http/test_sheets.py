@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 import shutil
 import stat
 import zipfile
@@ -17,7 +18,7 @@ from gelenk.exercises.mistakes.catalogue import mistake
 from gelenk.language import language
 from gelenk.sheets import pdf
 from gelenk.sheets.key import key_table
-from gelenk.sheets.pages import sheets_page
+from gelenk.sheets.pages import booklet_page, sheets_page
 from gelenk.store.course_secret import kept_secret
 from tests.http.access.asking import HOST, application, ask, bearer, keys_for
 from tests.sheets.examples import SECRET, homework
@@ -38,6 +39,13 @@ def test_sheets_are_a_page_unless_something_else_is_wanted(client: TestClient) -
     assert answer.text == sheets_page(homework(*IDS))
 
 
+def test_the_booklet_and_the_key(client: TestClient) -> None:
+    assert written(client, content="solutions").text == booklet_page(homework(*IDS))
+    answer = written(client, "text/csv")
+    assert answer.headers["content-type"] == "text/csv; charset=utf-8"
+    assert answer.content.decode() == key_table(homework(*IDS))
+
+
 def test_a_bundle_and_questions_for_moodle(client: TestClient) -> None:
     archive = zipfile.ZipFile(io.BytesIO(written(client, "application/zip").content))
     assert {"sheets.html", "booklet.html", "key.csv", "moodle.xml"} <= set(archive.namelist())
@@ -45,11 +53,12 @@ def test_a_bundle_and_questions_for_moodle(client: TestClient) -> None:
 
 
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="there is no Chromium: apt-get install chromium")
-def test_a_pdf(client: TestClient) -> None:
-    answer = written(client, "application/pdf")
+@pytest.mark.parametrize(("content", "pages"), [("sheets", 2), ("solutions", 4)])
+def test_a_pdf(client: TestClient, content: str, pages: int) -> None:
+    answer = written(client, "application/pdf", content=content)
     assert answer.status_code == 200, answer.text
     assert answer.content.startswith(b"%PDF")
-    assert answer.content.count(b"/Type /Page\n") == 2 or b"/Count 2" in answer.content
+    assert len(re.findall(rb"/Type /Page\b", answer.content)) == pages
 
 
 @pytest.mark.parametrize(
@@ -89,6 +98,7 @@ def test_the_services_own_secret_stays_the_same(client: TestClient) -> None:
         ({"participants": ["a\u0000"]}, 422, "participants/0"),
         ({"secret": "short"}, 422, "secret"),
         ({"language": "fr"}, 422, "language"),
+        ({"content": "key"}, 422, "content"),
         ({"colour": "red"}, 422, "colour"),
     ],
 )

@@ -8,13 +8,14 @@ import typer
 
 from gelenk.cli.files.outputs import AnswerRows
 from gelenk.cli.session import session
+from gelenk.contract.sheets import Content
 from gelenk.errors import InvalidField
 from gelenk.language import Language
 
 if TYPE_CHECKING:
     from gelenk.cli.session import Session
 
-_FORMS = ("html", "pdf", "zip", "xml")
+_FORMS = ("html", "pdf", "zip", "xml", "csv")
 LanguageOption = Annotated[Language, typer.Option("--lang", help="English or German.")]
 SecretOption = Annotated[
     str | None,
@@ -51,19 +52,22 @@ def sheet(
         str, typer.Option("--class", help="How many participants, or a file with a name in each line.")
     ] = "1",
     title: Annotated[str, typer.Option(help="Printed on every sheet.")] = "",
+    content: Annotated[
+        Content, typer.Option(help="What a page has: the tasks, or answers and solutions too.")
+    ] = "sheets",
     secret: SecretOption = None,
     lang: LanguageOption = "en",
 ) -> None:
-    """Write sheets for a class: HTML, or what the file of --output ends in: .html, .pdf, .zip (all), .xml (Moodle)."""
+    """Write sheets for a class: HTML, or as --output ends: .html, .pdf, .csv (key), .xml (Moodle), .zip (all)."""
     shared = session(context)
     file = shared.output.file
     kind: Any = "html" if file is None else file.suffix.removeprefix(".").lower()
     if kind not in _FORMS:
         raise InvalidField("output", f"must end in one of {', '.join(f'.{form}' for form in _FORMS)}")
-    fields = {"exercises": exercises, "participants": _participants(participants), "title": title, "language": lang}
+    fields = {"exercises": exercises, "participants": _participants(participants), "title": title, "content": content}
     with shared.client() as client:
-        content = client.picture("v1/course/sheets", kind, {**fields, **_secret(shared, secret)})
-    shared.output.put(content)
+        file_content = client.picture("v1/course/sheets", kind, {**fields, "language": lang, **_secret(shared, secret)})
+    shared.output.put(file_content)
 
 
 def grade(

@@ -129,7 +129,7 @@ def result(answer: type[A]) -> Callable[[str], Call[A]]:
 
 
 def picture(
-    path: str, kind: Literal["svg", "png", "pdf", "zip", "xml", "html"], fields: Mapping[str, Any] | None = None
+    path: str, kind: Literal["svg", "png", "pdf", "zip", "xml", "html", "csv"], fields: Mapping[str, Any] | None = None
 ) -> Call[bytes]:
     """An answer as a picture, or as a file of another kind, if the operation makes one.
 
@@ -197,5 +197,6 @@ _PICTURES = {
     "pdf": "application/pdf",
     "zip": "application/zip",
     "xml": "application/xml",
+    "csv": "text/csv",
     "html": "text/html",
 }

@@ -1,5 +1,6 @@
 """The operations on stored robots and jobs, and about the service itself."""
 
+from functools import partial
 from typing import Any
 
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer
@@ -25,8 +26,9 @@ MESH_TYPES = {
 """Media types of the files of a robot, by the ends of their names."""
 
 _BY_WORKER = (429, 500, 503, 504)
+_OF_ROBOT = (404, 422, *_BY_WORKER)
 _EXERCISE = (400, 404, 413, 415, 422, *_BY_WORKER)
-_SHEETS = ("text/html", "application/pdf", "application/zip", "application/xml")
+_SHEETS = ("text/html", "application/pdf", "application/zip", "application/xml", "text/csv")
 _HOMEWORK = {
     "exercises": ["mobility.linkage", "actuators.gear"],
     "participants": ["Ada", "Ben"],
@@ -56,6 +58,12 @@ def _content(description: str, **more: str) -> dict[str, Any]:
     return {"schema": {"type": "string", **more, "description": description}}
 
 
+def _file(description: str, *kinds: str) -> dict[int, dict[str, Any]]:
+    return {200: {"content": {kind: {} for kind in kinds}, "description": description}}
+
+
+_about_exercise = partial(Resource, tag="Course", scope=Scope.READ, problems=_EXERCISE)
+
 RESOURCES = (
     Resource(
         name="list_robots",
@@ -75,7 +83,7 @@ RESOURCES = (
         tag="Robots",
         scope=Scope.READ,
         answer=RobotInfo,
-        problems=(404, 422, *_BY_WORKER),
+        problems=_OF_ROBOT,
         summary="A robot",
         description="Joints, links, frames, chains, licence, and warnings about the description.",
     ),
@@ -85,8 +93,8 @@ RESOURCES = (
         path="v1/robots/{robot}/urdf",
         tag="Robots",
         scope=Scope.READ,
-        responses={200: {"content": {"application/xml": {}}, "description": "The URDF"}},
-        problems=(404, 422, *_BY_WORKER),
+        responses=_file("The URDF", "application/xml"),
+        problems=_OF_ROBOT,
         summary="A robot's URDF",
         description="The description as uploaded, or as generated from the DH table.",
     ),
@@ -96,8 +104,8 @@ RESOURCES = (
         path="v1/robots/{robot}/meshes/{path:path}",
         tag="Robots",
         scope=Scope.READ,
-        responses={200: {"content": {kind: {} for kind in MESH_TYPES.values()}, "description": "The file"}},
-        problems=(404, 422, *_BY_WORKER),
+        responses=_file("The file", *MESH_TYPES.values()),
+        problems=_OF_ROBOT,
         summary="A mesh file of a robot",
         description="""
         The file exactly as uploaded; the server does not inspect it.
@@ -153,7 +161,7 @@ RESOURCES = (
         tag="DH tables",
         scope=Scope.READ,
         answer=FromUrdfAnswer,
-        problems=(404, 422, *_BY_WORKER),
+        problems=_OF_ROBOT,
         summary="A robot's chain as a table",
         description="Returns the DH table of the default chain, or of the chain between the named frames, as "
         "`from-urdf` does.",
@@ -164,7 +172,7 @@ RESOURCES = (
         path="v1/dh/picture",
         tag="DH tables",
         scope=Scope.READ,
-        responses={200: {"content": {"image/svg+xml": {}, "image/png": {}}, "description": "The picture"}},
+        responses=_file("The picture", "image/svg+xml", "image/png"),
         problems=(422, *_BY_WORKER),
         summary="Picture of the DH parameters",
         description="""
@@ -191,8 +199,8 @@ RESOURCES = (
         path="v1/course/pictures/{picture}",
         tag="Course",
         scope=Scope.READ,
-        responses={200: {"content": {"image/svg+xml": {}, "image/png": {}}, "description": "The picture"}},
-        problems=(404, 422, *_BY_WORKER),
+        responses=_file("The picture", "image/svg+xml", "image/png"),
+        problems=_OF_ROBOT,
         summary="A picture of the course",
         description="Kinematic pairs, coincident joints, spaces, the spherical wrist and more, as SVG, or as PNG "
         "with `Accept: image/png`. Texts are drawn as paths, in the language asked for.",
@@ -290,13 +298,10 @@ RESOURCES = (
         summary="All exercises",
         description="Lists the exercises by lectures, in the order of the course.",
     ),
-    Resource(
+    _about_exercise(
         name="draw_exercise",
         path="v1/course/exercises/{exercise}",
-        tag="Course",
-        scope=Scope.READ,
         answer=ExerciseVariant,
-        problems=_EXERCISE,
         example={"seed": 7},
         summary="A variant of an exercise",
         description="""
@@ -307,60 +312,53 @@ RESOURCES = (
         any order, and a basis may be any of the same space.
         """,
     ),
-    Resource(
+    _about_exercise(
         name="solve_exercise",
         path="v1/course/exercises/{exercise}/solution",
-        tag="Course",
         scope=Scope.TEACH,
         answer=ExerciseSolution,
-        problems=_EXERCISE,
         example={"seed": 7},
         summary="The solution of a variant",
         description="Returns the right answers and the worked solution. Where keys are on, it needs `teach`.",
     ),
-    Resource(
+    _about_exercise(
         name="grade_exercise",
         path="v1/course/exercises/{exercise}/grade",
-        tag="Course",
-        scope=Scope.READ,
         answer=ExerciseGrade,
-        problems=_EXERCISE,
         example={"seed": 7, "answers": {"constraints": 8, "mobility": 1, "verdict": "mechanism"}},
         summary="Grade the answers to a variant",
         description="""
         Grades each field, and names the mistake if a known wrong model leads to the given answer.
 
-        The right answer is recognized first, in all its forms. A wrong model is offered only for numbers with which
-        its answer differs clearly from the right one and from those of the others, so `mistake` is never ambiguous;
-        it is null if none leads to the answer. An answer of the wrong form is no error: `mistake` says what is wrong
-        with it.
+        The right answer is recognized first, in all its forms. A wrong model is named only if its answer differs
+        clearly from the right one and no other leads to this answer; where several do, it is the one that explains most
+        of the other answers too. Else `mistake` is null. An answer of the wrong form is no error: `mistake` says what
+        is wrong with it.
         """,
     ),
-    Resource(
+    _about_exercise(
         name="write_sheets",
         path="v1/course/sheets",
-        tag="Course",
         scope=Scope.TEACH,
-        responses={200: {"content": {kind: {} for kind in _SHEETS}, "description": "The sheets, as `Accept` says"}},
+        responses=_file("The sheets, as `Accept` says", *_SHEETS),
         problems=(*_EXERCISE, 501),
         example=_HOMEWORK,
         summary="Sheets for a class",
         description="""
-        Writes a sheet for each participant, all with numbers of their own, as one page to be printed.
+        Writes a sheet for each participant, all with numbers of their own, as one page to be printed; with `content`
+        `solutions` the booklet of answers and worked solutions.
 
-        A PDF with `Accept: application/pdf`, if the service has Chromium; questions for Moodle with `application/xml`,
-        a category for each exercise; with `application/zip` all in one: sheets, booklet of solutions, key, questions
-        for Moodle and PrairieLearn. The numbers follow from the secret, the participant and the exercise, so that
-        nothing is stored. Where keys are on, it needs `teach`.
+        A PDF with `Accept: application/pdf`, if the service has Chromium; the key with `text/csv`; questions for Moodle
+        with `application/xml`, a category for each exercise; with `application/zip` all in one: sheets, booklet, key,
+        questions for Moodle and PrairieLearn. The numbers follow from the secret, the participant and the exercise, so
+        that nothing is stored. Where keys are on, it needs `teach`.
         """,
     ),
-    Resource(
+    _about_exercise(
         name="grade_sheets",
         path="v1/course/sheets/grade",
-        tag="Course",
         scope=Scope.TEACH,
-        responses={200: {"content": {"text/csv": {}}, "description": "A row for each field"}},
-        problems=_EXERCISE,
+        responses=_file("A row for each field", "text/csv"),
         example={
             "csv": "participant,exercise,field,answer\nAda,mobility.linkage,constraints,8\n",
             "secret": _HOMEWORK["secret"],

@@ -1,12 +1,13 @@
 """Homework: the sheets of a class, and the grades of its answers."""
 
-from typing import Annotated
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
 from gelenk.contract.options import InLanguage
 from gelenk.sheets.bounds import MAX_LABEL, MAX_VARIANTS
 
+Content: TypeAlias = Literal["sheets", "solutions"]
 MAX_EXERCISES = 50
 MAX_CSV = 4 * 1024 * 1024
 
@@ -37,6 +38,11 @@ class SheetsRequest(InLanguage):
         f"are, whose names are then 1, 2, …. Times the exercises at most {MAX_VARIANTS}."
     )
     title: str = Field(default="", max_length=120, description="Printed on every sheet.")
+    content: Content = Field(
+        default="sheets",
+        description="What the page or the PDF has: the sheets, or the booklet of the tasks with answers and worked "
+        "solutions. The other forms have what they need of both.",
+    )
     secret: _Secret = None
 
     @property

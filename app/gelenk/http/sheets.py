@@ -7,7 +7,7 @@ from typing import Any
 
 from starlette.responses import Response
 
-from gelenk.contract.sheets import MAX_CSV, SheetsGradeRequest, SheetsRequest
+from gelenk.contract.sheets import MAX_CSV, Content, SheetsGradeRequest, SheetsRequest
 from gelenk.errors import InvalidField, TooLarge
 from gelenk.http.messages.openapi import documentation
 from gelenk.http.messages.payloads import CSV, JSON, BoundedRequest, read_json
@@ -19,16 +19,19 @@ from gelenk.language import language
 from gelenk.sheets.bundle import bundle
 from gelenk.sheets.grades import grades_table
 from gelenk.sheets.homework import Homework
+from gelenk.sheets.key import key_table
 from gelenk.sheets.moodle import moodle_xml
-from gelenk.sheets.pages import sheets_page
+from gelenk.sheets.pages import booklet_page, sheets_page
 from gelenk.sheets.pdf import printed
 from gelenk.store.course_secret import kept_secret
 
-_FORMS: dict[str, Callable[[Homework], bytes]] = {
-    "text/html": lambda homework: sheets_page(homework).encode(),
-    "application/pdf": lambda homework: printed(sheets_page(homework)),
-    "application/zip": bundle,
-    "application/xml": moodle_xml,
+_PAGES: dict[Content, Callable[[Homework], str]] = {"sheets": sheets_page, "solutions": booklet_page}
+_FORMS: dict[str, Callable[[Homework, Content], bytes]] = {
+    "text/html": lambda homework, content: _PAGES[content](homework).encode(),
+    "application/pdf": lambda homework, content: printed(_PAGES[content](homework)),
+    "application/zip": lambda homework, _: bundle(homework),
+    "application/xml": lambda homework, _: moodle_xml(homework),
+    CSV: lambda homework, _: key_table(homework).encode(),
 }
 """By media type; the first unless the caller prefers another one."""
 _NEVER_KEPT = {"Cache-Control": "no-store"}
@@ -78,7 +81,7 @@ class WriteSheets(_WithSecret):
         call = read_json(SheetsRequest, task_request.body)
         homework = Homework(call.exercises, call.labels, call.title, self.chosen(call.secret))
         with language(call.language):
-            content = _FORMS[task_request.wanted](homework)
+            content = _FORMS[task_request.wanted](homework, call.content)
         return Response(content, headers=_NEVER_KEPT, media_type=task_request.wanted)
 
 
