@@ -9,6 +9,7 @@ import numpy as np
 
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import FlatChain
+from gelenk.robot.dh import about_z
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,14 +84,4 @@ def chain_geometry(flat: FlatChain, q: Array) -> ChainGeometry:
 
 def joint_motion(slides: bool, value: float) -> Array:
     """Return the motion along or about z by [m] or [rad]; shape (4, 4)."""
-    T = np.eye(4)
-    if slides:
-        T[2, 3] = value
-    else:
-        T[:2, :2] = [[np.cos(value), -np.sin(value)], [np.sin(value), np.cos(value)]]
-    return T
-
-
-def cross_matrix(v: Array) -> Array:
-    """Return [v]×, with [v]× u = v × u; shape (3, 3)."""
-    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+    return about_z(0.0, value) if slides else about_z(value, 0.0)

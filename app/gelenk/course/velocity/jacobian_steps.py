@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.course.steps import Step, step
-from gelenk.course.velocity.geometry import ChainGeometry, JointAxis, cross_matrix
+from gelenk.course.velocity.geometry import ChainGeometry, JointAxis
 from gelenk.course.velocity.writing import matrix, number, row
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
@@ -51,7 +51,7 @@ class JacobianQuestion:
 
 def jacobian_steps(question: JacobianQuestion) -> list[Step]:
     """Return the worked solution, from the axes of the joints to rank and time variation."""
-    J, conversion = _converted(question)
+    J, conversion = derived_jacobian(question)
     result = [
         _levers(question.geometry),
         _columns(question.geometry),
@@ -61,11 +61,6 @@ def jacobian_steps(question: JacobianQuestion) -> list[Step]:
     if question.q_dot is not None:
         result.append(_time_variation(question, question.q_dot))
     return result
-
-
-def derived_jacobian(question: JacobianQuestion) -> Array:
-    """Return the Jacobian that the steps arrive at; shape (6, n)."""
-    return _converted(question)[0]
 
 
 def _levers(geometry: ChainGeometry) -> Step:
@@ -106,8 +101,8 @@ def _terms(geometry: ChainGeometry, variable: int) -> list[str]:
     return [term(i, joint) for i, joint in enumerate(geometry.joints) if joint.variable == variable]
 
 
-def _converted(question: JacobianQuestion) -> tuple[Array, list[Step]]:
-    """J in the requested view, and the step that leads there from the base's axes at the tip."""
+def derived_jacobian(question: JacobianQuestion) -> tuple[Array, list[Step]]:
+    """Return J in the requested view, (6, n), and the steps that lead there from the base's axes at the tip."""
     geometry, view = question.geometry, question.view
     J = geometry.jacobian()
     if view == "local_world_aligned":
@@ -121,7 +116,7 @@ def _converted(question: JacobianQuestion) -> tuple[Array, list[Step]]:
         rule = r"J' = \begin{bmatrix} R^{\mathsf T} & 0 \\ 0 & R^{\mathsf T} \end{bmatrix} J"
         return J, [step(title, text, f"R = {matrix(R)}", f"{rule} = {matrix(J)}")]
     p = geometry.position
-    J = np.concatenate((J[:3] + cross_matrix(p) @ J[3:], J[3:]))
+    J = np.concatenate((J[:3] + np.cross(p, J[3:].T).T, J[3:]))
     title = _("At the base's origin")
     text = _("The linear rows become the velocity of the point of the tip's body that passes the base's origin.")
     rule = r"J' = \begin{bmatrix} J_L + p_{EE} \times J_A \\ J_A \end{bmatrix}"
@@ -180,11 +175,11 @@ def time_variation(question: JacobianQuestion, q_dot: Array) -> tuple[Array, str
     J, dJ = geometry.jacobian(), geometry.time_variation(q_dot)
     v, w = J[:3] @ q_dot, J[3:] @ q_dot
     if question.view == "local":
-        R, spin = geometry.tip[:3, :3], cross_matrix(w)
-        changed = np.concatenate((R.T @ (dJ[:3] - spin @ J[:3]), R.T @ (dJ[3:] - spin @ J[3:])))
-        return changed, r"\dot J' = R^{\mathsf T} (\dot J - \omega \times J)"
+        R = geometry.tip[:3, :3].T
+        halves = [R @ (rates - np.cross(w, part.T).T) for part, rates in ((J[:3], dJ[:3]), (J[3:], dJ[3:]))]
+        return np.concatenate(halves), r"\dot J' = R^{\mathsf T} (\dot J - \omega \times J)"
     if question.view == "world":
-        linear = dJ[:3] + cross_matrix(v) @ J[3:] + cross_matrix(geometry.position) @ dJ[3:]
+        linear = dJ[:3] + np.cross(v, J[3:].T).T + np.cross(geometry.position, dJ[3:].T).T
         rule = r"\dot J_L' = \dot J_L + \dot p_{EE} \times J_A + p_{EE} \times \dot J_A,\quad \dot J'"
         return np.concatenate((linear, dJ[3:])), rule
     if question.view in {"zyz", "rpy"}:

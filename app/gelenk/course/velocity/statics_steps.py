@@ -59,17 +59,6 @@ def statics_steps(question: StaticsQuestion) -> list[Step]:
     return [*steps, _subspaces(question)]
 
 
-def lever_torques(question: StaticsQuestion) -> Array:
-    """Return the torque of the wrench about each joint, F · (z × p) + M · z, or F · z; shape (n,), [N m or N]."""
-    force, moment = np.split(question.in_base, 2)
-    torques = np.zeros(question.geometry.variables)
-    for joint in question.geometry.joints:
-        turned = np.cross(joint.axis, question.point - joint.origin)
-        share = force @ joint.axis if joint.slides else force @ turned + moment @ joint.axis
-        torques[joint.variable] += joint.rate * share
-    return torques
-
-
 def _levers(question: StaticsQuestion) -> Step:
     force, moment = np.split(question.in_base, 2)
     reach = 1.0 + largest(question.point)
