@@ -31,8 +31,8 @@ from gelenk.dh.compare.screws import (
     jacobians,
     parameters_of,
 )
-from gelenk.dh.compare.trials import LOOKS, Diagnosis
-from gelenk.dh.compare.words import ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES, Unverified
+from gelenk.dh.compare.trials import Diagnosis
+from gelenk.dh.compare.words import LOOKS, ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES, Unverified
 from gelenk.errors import InvalidField, counted, listed, quoted
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain, crossed_joints

@@ -16,8 +16,8 @@ from gelenk.dh.compare.placement import Subject, placed
 from gelenk.dh.compare.repairs import Repairs
 from gelenk.dh.compare.screws import numbers_of
 from gelenk.dh.compare.several import with_numbers
-from gelenk.dh.compare.trials import LOOKS, Diagnosis, explaining
-from gelenk.dh.compare.words import Mistake
+from gelenk.dh.compare.trials import Diagnosis, explaining
+from gelenk.dh.compare.words import LOOKS, Mistake
 from gelenk.errors import quoted
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable

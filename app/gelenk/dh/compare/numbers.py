@@ -26,7 +26,7 @@ from gelenk.dh.compare.screws import (
     polished,
     residuals,
 )
-from gelenk.dh.compare.words import Mistake
+from gelenk.dh.compare.words import LOOKS, Mistake
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import Convention, DhTable
 
@@ -43,8 +43,6 @@ Slip: TypeAlias = Literal["sign", "degrees"] | int
 """How a number went wrong; an integer is the power of ten by which a length is off."""
 _WINDOW = 8
 """Number of rows searched for a wrong number; a shorter table is searched in full."""
-_LOOKS = 24
-"""Number of configurations at which a repaired table is tested."""
 _ZERO = 1e-12
 
 
@@ -89,7 +87,7 @@ def wrong_numbers(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -
         first = max(0, _first_misfit(on, table, freedom, signs) - _WINDOW)
     found = []
     for number in _candidates(on, table, freedom, signs, n, first):
-        placement = placed(on.fewer(_LOOKS), repaired(table, [number.difference]), freedom, strict=True)
+        placement = placed(on.fewer(LOOKS), repaired(table, [number.difference]), freedom, strict=True)
         if placement is not None:
             found.append((number, placement))
     return found

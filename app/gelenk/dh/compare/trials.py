@@ -11,12 +11,10 @@ from gelenk.dh.compare.numbers import Difference, wrapped
 from gelenk.dh.compare.placement import Placement, Subject, placed
 from gelenk.dh.compare.repairs import Repairs, Undone
 from gelenk.dh.compare.screws import PARAMETERS, numbers_of, parameters_of
-from gelenk.dh.compare.words import Mistake
+from gelenk.dh.compare.words import LOOKS, Mistake
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhJoint, DhTable
 
-LOOKS = 24
-"""Number of configurations at which a repaired table is tested."""
 _MOST_LOOKS = 24
 """Largest number of repaired tables tested among those whose axes agree."""
 

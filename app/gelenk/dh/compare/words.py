@@ -29,6 +29,8 @@ POSITION_TOLERANCE = 1e-5
 ORIENTATION_TOLERANCE = 1e-4
 """Angle up to which orientations count as equal, [rad]."""
 SAMPLES = 200
+LOOKS = 24
+"""Number of configurations at which a repaired table is tested."""
 
 
 @dataclass(frozen=True, slots=True)
