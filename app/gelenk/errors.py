@@ -531,6 +531,12 @@ class CertificationFailed(KinematicsError):
     )
 
 
+def certify(quantity: str, error: float, tolerance: float) -> None:
+    """Raise CertificationFailed if the difference of two computations is more than a tolerance, or NaN."""
+    if not error <= tolerance:
+        raise CertificationFailed(quantity, error, tolerance)
+
+
 class AuditFailed(KinematicsError):
     """A motion violates its limits or tolerances, so the answer is withheld."""
 

@@ -1,6 +1,6 @@
 """Functions that the calculators of time laws, splines and time scaling share."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -23,7 +23,7 @@ from gelenk.operations.outcome import Outcome, PictureFormat
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.time_scaling import QUANTITIES, ScalingLimits
 from gelenk.trajectory.laws.trapezoid import PointToPoint
-from gelenk.trajectory.motion.extremes import Peaks, peaks
+from gelenk.trajectory.motion.extremes import Peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _QUICK_NUMBERS = 300
@@ -32,7 +32,6 @@ _ROUNDING = 1e-9
 _UNITS = (marked("rad or m"), marked("(rad or m)/s"), marked("(rad or m)/s²"), marked("(rad or m)/s³"))
 
 _Request = TypeVar("_Request", bound=SampledRequest)
-PeaksByOrder = dict[int, Peaks]
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,11 +75,6 @@ def _picture(planned: PlannedMotion, kind: PictureFormat) -> bytes:
     return profiles_picture(planned.title, planned.motion, lines, kind)
 
 
-def peaks_by_order(motion: PiecewisePolynomial) -> PeaksByOrder:
-    """Return the peaks of velocity, acceleration and jerk."""
-    return {order: peaks(motion, order) for order in (1, 2, 3)}
-
-
 def _answer(call: SampledRequest, planned: PlannedMotion) -> dict[str, Any]:
     motion, times = planned.motion, sample_times(call, planned.motion)
     positions, velocities, accelerations, jerks = (motion.derivative(order).at(times) for order in range(4))
@@ -107,7 +101,7 @@ def segments_info(motion: PiecewisePolynomial) -> list[dict[str, Any]]:
     ]
 
 
-def peaks_info(found: PeaksByOrder, limits: ScalingLimits) -> dict[str, Any]:
+def peaks_info(found: Mapping[int, Peaks], limits: ScalingLimits) -> dict[str, Any]:
     """Return the peaks of all quantities as JSON content."""
     return {
         quantity: _peaks_of(found[order], limits.of(quantity)) for order, quantity in enumerate(QUANTITIES, start=1)
@@ -154,7 +148,7 @@ def profile_info(plan: PointToPoint, joint: int) -> dict[str, Any]:
     }
 
 
-def limit_warnings(found: PeaksByOrder, limits: ScalingLimits, on_others: str = "") -> list[str]:
+def limit_warnings(found: Mapping[int, Peaks], limits: ScalingLimits, on_others: str = "") -> list[str]:
     """Return a warning for each joint and quantity whose limit is exceeded.
 
     `on_others` is the message about the joints that a worked solution does not show, where it shows only some.

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.pipeline import PipelineRequest
-from gelenk.course.cartesian.pipeline import Pipeline, pipeline, spline_peaks
+from gelenk.course.cartesian.pipeline import Pipeline, pipeline
 from gelenk.course.cartesian.pipeline_steps import pipeline_steps
 from gelenk.course.cartesian.planar_line import tips
 from gelenk.language import translated as _
@@ -13,6 +13,7 @@ from gelenk.operations.course_motion import joint_limits, line_of, peaks_info, s
 from gelenk.operations.outcome import Outcome, PictureFormat
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.laws import POLYNOMIALS
+from gelenk.trajectory.motion.extremes import peaks_by_order
 from gelenk.trajectory.motion.time_laws import rest_to_rest
 
 
@@ -42,7 +43,7 @@ def _content(call: PipelineRequest) -> dict[str, Any]:
         spline = {
             "segments": segments_info(found.spline.motion),
             "velocities": found.spline.velocities,
-            "peaks": peaks_info(spline_peaks(found.spline.motion), limits),
+            "peaks": peaks_info(peaks_by_order(found.spline.motion), limits),
         }
     way = line.target - line.start
     return {

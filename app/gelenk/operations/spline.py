@@ -16,12 +16,12 @@ from gelenk.operations.course_motion import (
     limit_warnings,
     limits_of,
     motion_outcome,
-    peaks_by_order,
     row,
     table,
     unused,
 )
 from gelenk.operations.outcome import Outcome
+from gelenk.trajectory.motion.extremes import peaks_by_order
 from gelenk.trajectory.motion.splines import Boundary, EndRates, Spline, cubic_spline
 
 _SHOWN_UNKNOWNS = 32

@@ -21,7 +21,6 @@ from gelenk.operations.course_motion import (
     limits_of,
     motion_outcome,
     needed,
-    peaks_by_order,
     profile_info,
     row,
     spread,
@@ -34,6 +33,7 @@ from gelenk.trajectory.joints.parabolic_blends import Blends, with_accelerations
 from gelenk.trajectory.laws.laws import POLYNOMIALS
 from gelenk.trajectory.laws.time_scaling import ScalingLimits
 from gelenk.trajectory.laws.trapezoid import JointMove, point_to_point
+from gelenk.trajectory.motion.extremes import peaks_by_order
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import checked_times
 from gelenk.trajectory.motion.time_laws import between, normalised, quartic_cubic_quartic

@@ -17,7 +17,6 @@ from gelenk.operations.course_motion import (
     line_of,
     motion_outcome,
     needed,
-    peaks_by_order,
     table,
     unused,
 )
@@ -25,6 +24,7 @@ from gelenk.operations.outcome import Outcome
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.laws import POLYNOMIALS
 from gelenk.trajectory.laws.time_scaling import Scaling, uniform_scaling
+from gelenk.trajectory.motion.extremes import peaks_by_order
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline, through_samples
 from gelenk.trajectory.motion.time_laws import between, rest_to_rest

@@ -4,13 +4,13 @@ from typing import cast
 
 import numpy as np
 
+from gelenk.course.cartesian.line_steps import line_derivatives
 from gelenk.course.cartesian.segment_steps import (
     JointTask,
     arc_segment_step,
     corner_step,
     joint_steps,
     knots_step,
-    line_segment_step,
     path_law_step,
     tip_spline_step,
     titled,
@@ -75,7 +75,7 @@ def _of_tip(segment: Segment, report: SegmentReport, start: Array, following: Se
         return (arc_segment_step(arc_through(start, cast(Array, segment.via)[:3, 3], end)),)
     if np.linalg.norm(end - start) <= _NO_LENGTH:
         return ()
-    line = line_segment_step(start, end)
+    line = line_derivatives(start, end)
     if following is None or report.blend is None:
         return (line,)
     directions = tuple(way / np.linalg.norm(way) for way in (end - start, _end(following) - end))

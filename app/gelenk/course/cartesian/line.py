@@ -9,7 +9,7 @@ from gelenk.course.motion.check import MotionCertificate, MotionClaims, certifie
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.trapezoid import JointMove, PointToPoint, point_to_point
-from gelenk.trajectory.motion.extremes import peaks
+from gelenk.trajectory.motion.extremes import peaks_by_order
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.time_laws import between
 
@@ -111,6 +111,6 @@ def line_certificate(found: LineMotion, law: LineLaw) -> MotionCertificate:
         np.array(speeds[0]),
         np.array(speeds[1]),
         1,
-        {order: peaks(motion, order) for order in (1, 2)},
+        peaks_by_order(motion, 2),
     )
     return certified(motion, claims)

@@ -12,10 +12,10 @@ import numpy as np
 from gelenk.course.cartesian.planar_line import PlanarLine, tips
 from gelenk.course.motion.check import MotionCertificate, MotionClaims, certified
 from gelenk.course.orientation.rotations import elementary
-from gelenk.errors import CertificationFailed
+from gelenk.errors import certify
 from gelenk.robot.arrays import Array
 from gelenk.robot.result import Result
-from gelenk.trajectory.motion.extremes import Peaks, peaks
+from gelenk.trajectory.motion.extremes import peaks_by_order
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import Spline, cubic_spline
 
@@ -126,16 +126,10 @@ class Pipeline:
         beyond = max(float(np.abs(distances).max()) - abs(found.value), abs(float(distances[-1]) - found.value))
         size = sum(self.line.lengths)
         for quantity, error in (("the samples' tips", position), ("the deviation from the line", beyond)):
-            if not error <= _TOLERANCE * size:
-                raise CertificationFailed(quantity, error, _TOLERANCE * size)
+            certify(quantity, error, _TOLERANCE * size)
         rest = np.zeros((1, 2))
-        claims = MotionClaims(self.times, self.configurations, rest, rest, 2, spline_peaks(motion))
+        claims = MotionClaims(self.times, self.configurations, rest, rest, 2, peaks_by_order(motion))
         return PipelineCertificate(position, beyond, certified(motion, claims))
-
-
-def spline_peaks(motion: PiecewisePolynomial) -> dict[int, Peaks]:
-    """Return the peaks of velocity, acceleration and jerk."""
-    return {order: peaks(motion, order) for order in (1, 2, 3)}
 
 
 def pipeline(line: PlanarLine, shares: Array, duration: float) -> Pipeline:

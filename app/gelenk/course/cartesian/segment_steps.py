@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gelenk.course.cartesian.line_steps import line_derivatives, sigma_pieces
+from gelenk.course.cartesian.line_steps import sigma_pieces
 from gelenk.course.motion.formulas import SHOWN_JOINTS, tex_row
 from gelenk.course.steps import Step, step, tex
 from gelenk.course.writing import vector
@@ -122,11 +122,6 @@ def path_law_step(law: PiecewisePolynomial, unit: str) -> Step:
         text = _("{count} polynomials, each as fast as the limits allow at its place; too many to write out.")
         return step(_("Time law"), text.format(count=count), whole)
     return step(_("Time law"), _("τ is the time since the piece begins."), whole, *sigma_pieces(law))
-
-
-def line_segment_step(start: Array, end: Array) -> Step:
-    """Return p(s), ṗ and p̈ of a line between two positions, (3,) each."""
-    return line_derivatives(start, end)
 
 
 def arc_segment_step(arc: Arc) -> Step:

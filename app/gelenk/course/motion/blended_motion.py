@@ -10,6 +10,7 @@ from gelenk.course.motion.fly_over import Blend
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.robot.result import Result
+from gelenk.trajectory.laws.trapezoid import JointMove, fastest
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 PhaseName: TypeAlias = Literal["accelerate", "coast_before", "blend", "coast_after", "decelerate"]
@@ -67,20 +68,11 @@ def rest_to_rest(blend: Blend, acceleration: float) -> BlendedMotion:
         Phase("coast_after", after),
         Phase("decelerate", v2 / acceleration),
     )
-    stopping = leg_duration(corner.length_before, v1, acceleration)
-    stopping += leg_duration(corner.length_after, v2, acceleration)
+    legs = ((corner.length_before, v1), (corner.length_after, v2))
+    stopping = sum(fastest(JointMove(length, 0.0, 0.0, speed, acceleration)).duration for length, speed in legs)
     _refuse_unresolved(blend, acceleration, phases)
     duration = sum(phase.duration for phase in phases)
     return BlendedMotion(blend, phases, _motion(blend, acceleration, phases), duration, stopping)
-
-
-def leg_duration(length: float, speed: float, acceleration: float) -> float:
-    """Return the time from rest to rest, [s]: v/a + L/v, or 2 √(L/a) if the speed is not reached; infinite if v = 0."""
-    if speed == 0.0:
-        return math.inf
-    if length <= speed * speed / acceleration:
-        return 2.0 * math.sqrt(length / acceleration)
-    return length / speed + speed / acceleration
 
 
 def _coast(field: str, speed: float, length: float, taken: float, acceleration: float) -> float:

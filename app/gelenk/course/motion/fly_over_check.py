@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.course.motion.fly_over import Blend
-from gelenk.errors import CertificationFailed
+from gelenk.errors import certify
 from gelenk.robot.arrays import Array
 from gelenk.robot.result import Result
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
@@ -55,8 +55,7 @@ def checked(blend: Blend, motion: PiecewisePolynomial | None) -> BlendCheck:
         ("the velocity after the blend", velocity, fastest),
         ("the smallest distance to the corner", max(difference - spacing, 0.0), extent),
     ):
-        if not error <= _TOLERANCE * scale:
-            raise CertificationFailed(quantity, error, _TOLERANCE * scale)
+        certify(quantity, error, _TOLERANCE * scale)
     return BlendCheck(STEPS if blend.time > 0.0 else 0, position, velocity, difference)
 
 

@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from gelenk.errors import CertificationFailed
+from gelenk.errors import certify
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import inverse
 
@@ -57,8 +57,7 @@ def composed(first: Array, further: Sequence[FrameMotion], points: Array) -> Com
     inverse_error = float(np.abs(T @ back - np.eye(4)).max()) / extent
     point_error = float(np.abs(moved - one_by_one).max(initial=0.0)) / extent
     for what, error in (("inverse", inverse_error), ("points", point_error)):
-        if not error <= _ROUNDING:
-            raise CertificationFailed(what, error, _ROUNDING)
+        certify(what, error, _ROUNDING)
     return Composition(tuple(transforms), back, moved, inverse_error, point_error)
 
 

@@ -20,7 +20,7 @@ from typing import Literal
 import numpy as np
 
 from gelenk.course.orientation.rotations import DEGENERATE, about_axis, elementary
-from gelenk.errors import CertificationFailed
+from gelenk.errors import certify
 from gelenk.robot.arrays import Array
 from gelenk.robot.notations import (
     quaternions_xyzw_from_rotations,
@@ -188,8 +188,7 @@ def _recomputed(R: Array, quaternion: Array, vector: Array, turn: AxisAngle, zyz
     again += [elementary("z", a) @ elementary("y", b) @ elementary("z", c) for a, b, c in zyz.solutions]
     again += [elementary("z", c) @ elementary("y", b) @ elementary("x", a) for a, b, c in rpy.solutions]
     error = max(float(np.abs(one - R).max()) for one in again)
-    if not error <= _RECOMPUTED:
-        raise CertificationFailed("rotation matrix", error, _RECOMPUTED)
+    certify("rotation matrix", error, _RECOMPUTED)
     return error
 
 

@@ -11,7 +11,7 @@ from typing import Final, Literal, TypeAlias
 
 import numpy as np
 
-from gelenk.errors import CertificationFailed, InvalidField
+from gelenk.errors import InvalidField, certify
 from gelenk.robot.arrays import Array
 from gelenk.robot.result import Result
 
@@ -213,6 +213,5 @@ def _checked(triangles: tuple[Triangle, ...]) -> TriangleCheck:
             angle_error = max(angle_error, abs(angle - triangle.angles[i]))
     slender = max(max(triangle.sides) / min(triangle.sides) for triangle in triangles)
     for what, error, limit in (("sides", side_error, _RECOMPUTED), ("angles", angle_error, _RECOMPUTED * slender)):
-        if not error <= limit:
-            raise CertificationFailed(what, error, limit)
+        certify(what, error, limit)
     return TriangleCheck(side_error, angle_error)

@@ -16,7 +16,7 @@ from typing import Literal, TypeAlias, cast
 
 import numpy as np
 
-from gelenk.errors import CertificationFailed, InvalidField
+from gelenk.errors import InvalidField, certify
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import DIRECTIONS, Direction
 from gelenk.kinematics.judge.words import EllipsoidCertificate, Reference
@@ -227,8 +227,7 @@ def _ellipsoid_error(Js: Array, axes: Array, sigmas: Array, sizes: Array) -> flo
     largest = np.maximum(sigmas[:, 0], sizes)
     scales = np.where(largest > 0.0, largest, 1.0) ** 2
     error = float((np.abs(squares).max(axis=(1, 2)) / scales).max(initial=0.0))
-    if not error <= ELLIPSOID_TOLERANCE:
-        raise CertificationFailed("an ellipsoid", error, ELLIPSOID_TOLERANCE)
+    certify("an ellipsoid", error, ELLIPSOID_TOLERANCE)
     return error
 
 

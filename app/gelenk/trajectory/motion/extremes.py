@@ -33,6 +33,11 @@ def peaks(motion: PiecewisePolynomial, order: int) -> Peaks:
     return Peaks(flat[first, columns], flat_times[first, columns])
 
 
+def peaks_by_order(motion: PiecewisePolynomial, highest: int = 3) -> dict[int, Peaks]:
+    """Return the peaks of the derivatives from velocity up to an order, by their orders."""
+    return {order: peaks(motion, order) for order in range(1, highest + 1)}
+
+
 def candidates(motion: PiecewisePolynomial) -> tuple[Array, Array]:
     """Return the times at which a motion can be extreme, and its values there; shape (M, k, n) each.
 
