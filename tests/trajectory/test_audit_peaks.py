@@ -46,8 +46,9 @@ def test_a_kink_is_found_by_what_is_spread_evenly(at: float) -> None:
 def test_of_samples_those_count_between_which_it_gets_higher() -> None:
     x = np.linspace(0.0, 1.0, 41)
     values = np.column_stack((np.sin(40.0 * x) + x, -x, np.full(41, 0.5)))
-    rows, columns = promising(x, values, np.arange(1, 40), np.full(3, 1e-12))
+    rows, columns, tops, _ = promising(x, values, np.arange(1, 40), np.full(3, 1e-12))
     assert set(columns) == {0}
+    assert tops.tolist() == values.argmax(axis=0).tolist()
     fine = np.linspace(0.0, 1.0, 100_001)
     peak = fine[np.argmax(np.sin(40.0 * fine) + fine)]
     assert np.abs(x[rows] - peak).min() <= 0.025
@@ -56,7 +57,7 @@ def test_of_samples_those_count_between_which_it_gets_higher() -> None:
 def test_there_are_never_too_many() -> None:
     x = np.arange(4001.0)
     values = np.cos(np.pi * (x - 0.3))[:, None] * [1.0, 1.0]
-    rows, columns = promising(x, values, np.arange(1, 4000), np.zeros(2))
+    rows, columns, *_ = promising(x, values, np.arange(1, 4000), np.zeros(2))
     assert np.bincount(columns).tolist() == [MOST, MOST]
     assert len(rows) == 2 * MOST
 

@@ -28,6 +28,8 @@ from gelenk.robot.notations import (
     vectors_from_rotations,
 )
 from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.plan import plan
+from gelenk.trajectory.problem.problem import Segment, SegmentLimits, TrajectoryProblem
 
 
 def warm_up() -> None:
@@ -93,6 +95,13 @@ def _closed_forms() -> None:
         inverse_kinematics(robot, chain, poses, qs, Options(every=every, method="analytic"))
 
 
+def _motions() -> None:
+    """Plan and audit a motion of the joints."""
+    robot, chain, qs = _small_arm()
+    move = Segment("joint", "jerk_limited", SegmentLimits(*np.ones((3, 3))), configuration=qs[0] + 0.5)
+    plan(robot, chain, TrajectoryProblem(qs[0], (move,))).motion.rates_at(np.zeros(1))
+
+
 def _answers() -> None:
     robot, chain, qs = _small_arm()
     poses, start = forward_kinematics(robot, chain, qs).poses, mid_range(chain)[None]
@@ -102,5 +111,5 @@ def _answers() -> None:
     inverse_kinematics(robot, chain, forward_kinematics(robot, chain, qs).poses, qs, Options(every=True))
 
 
-PARTS = (_closed_forms, _searches)
+PARTS = (_closed_forms, _searches, _motions)
 """Parts that separate processes can compile after `basics`; the rest takes seconds."""

@@ -91,11 +91,15 @@ def orientations(poses: Poses, pose_format: PoseFormat) -> Array:
 
 def pose_list(poses: Poses, pose_format: PoseFormat) -> list[dict[str, object]]:
     """Return poses as JSON content; each is a valid `Pose`."""
-    values = orientations(poses, pose_format).tolist()
-    if pose_format == "matrix":
-        return [{"matrix": value} for value in values]
-    positions = poses.positions.tolist()
-    return [{"position": position, pose_format: value} for position, value in zip(positions, values, strict=True)]
+    columns = pose_columns(poses, pose_format)
+    rows = zip(*(values.tolist() for values in columns.values()), strict=True)
+    return [dict(zip(columns, row, strict=True)) for row in rows]
+
+
+def pose_columns(poses: Poses, pose_format: PoseFormat) -> dict[str, Array]:
+    """Return the fields of poses as arrays; shape (N, …) each."""
+    values = {pose_format: orientations(poses, pose_format)}
+    return values if pose_format == "matrix" else {"position": poses.positions, **values}
 
 
 def pose_array(poses: Poses, pose_format: PoseFormat) -> Array:

@@ -14,8 +14,8 @@ def run(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> Outcome
     planned = PlannedTrajectory.of(loaded.robot, call, TrajectorySizeLimits(MAX_SAMPLES, limits.answer_numbers))
 
     def content() -> dict[str, Any]:
-        times = planned.times()
-        return planned.to_json(planned.samples_json(times), planned.certificate(times))
+        samples = planned.samples(planned.times())
+        return planned.to_json(samples.to_json(call.pose_format), planned.certificate(samples))
 
     def array() -> tuple[Array, dict[str, str]]:
         return planned.table(planned.times()), planned.headers

@@ -65,6 +65,11 @@ def own_velocities(robot: RobotModel, chain: Chain) -> OwnVelocities:
     return OwnVelocities(np.where(known, given, otherwise), known)
 
 
+def has_own_limits(options: MotionOptions) -> bool:
+    """Check whether options change any limit."""
+    return not (options.limits is options.velocity_scale is options.acceleration_scale is None)
+
+
 def bounds_of(chain: Chain, own: OwnVelocities, layers: Mapping[str, MotionOptions]) -> SourcedLimits:
     """Return the limits in force; raises WrongJointCount or UnknownJoint.
 

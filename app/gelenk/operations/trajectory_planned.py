@@ -1,22 +1,23 @@
 """A planned trajectory and its answer, as a whole or in parts."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
 import orjson
 
+from gelenk.contract.pose import PoseFormat
 from gelenk.contract.trajectory_request import TrajectoryRequest
 from gelenk.errors import InvalidField, TooLarge
+from gelenk.kinematics.judge.judge import certify_poses
 from gelenk.kinematics.judge.words import PoseCertificate
-from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.language import language
 from gelenk.operations.outcome import PictureFormat
-from gelenk.operations.pose_arrays import pose_list
-from gelenk.operations.rows import json_list, json_rows
+from gelenk.operations.pose_arrays import pose_columns
+from gelenk.operations.rows import json_objects, json_rows
 from gelenk.operations.trajectory_limits import limit_notes
 from gelenk.operations.trajectory_request import SourcedProblem, parse, shortest_duration
 from gelenk.operations.trajectory_steps import trajectory_steps
@@ -36,8 +37,6 @@ _MOST_NAME = 16
 """Maximum number of characters of a robot's name in a title, which has room for 48."""
 SAMPLED = ("times", "joint_positions", "joint_velocities", "joint_accelerations", "tip_poses")
 """Fields of the answer that have an entry for each sample."""
-_POSES = 256
-"""Poses encoded at once, in less than half a millisecond."""
 _ROUNDING = 1e-9
 
 
@@ -92,6 +91,23 @@ def checked(robot: RobotModel, call: TrajectoryRequest, bounds: TrajectorySizeLi
 
 
 @dataclass(frozen=True, slots=True)
+class Samples:
+    """A motion at times (N,), [s]: positions, velocities and accelerations, shape (N, n) each, and the tip's poses."""
+
+    times: Array
+    rates: list[Array]
+    poses: Poses | None
+
+    def to_json(self, pose_format: PoseFormat) -> dict[str, orjson.Fragment]:
+        """Return the entries of each requested field in `SAMPLED`."""
+        rows = [self.times, *self.rates]
+        entries = {name: json_rows(values) for name, values in zip(SAMPLED, rows, strict=False)}
+        if self.poses is not None:
+            entries["tip_poses"] = json_objects(pose_columns(self.poses, pose_format))
+        return entries
+
+
+@dataclass(frozen=True, slots=True)
 class PlannedTrajectory:
     """A planned trajectory: the request, the problem given to the core and what it found, and the answer's limits."""
 
@@ -132,29 +148,17 @@ class PlannedTrajectory:
         """Return time, positions, velocities and accelerations side by side; shape (N, 1 + 3n)."""
         return np.column_stack((times, *self.found.motion.rates_at(times)))
 
-    def samples_json(self, times: Array) -> dict[str, orjson.Fragment]:
-        """Return the entries at some times of each requested field in `SAMPLED`."""
-        rows = [times, *(np.ascontiguousarray(values) for values in self.found.motion.rates_at(times))]
-        entries = {name: json_rows(values) for name, values in zip(SAMPLED, rows, strict=False)}
-        if self.call.tip_poses:
-            entries["tip_poses"] = self._poses_json(times)
-        return entries
+    def samples(self, times: Array) -> "Samples":
+        """Return the motion at some times, with the poses if they are requested."""
+        rates = self.found.motion.rates_at(times)
+        poses = Poses(*chain_poses(self.chain.flat, rates[0])) if self.call.tip_poses else None
+        return Samples(times, rates, poses)
 
-    def _poses_json(self, times: Array) -> orjson.Fragment:
-        poses = Poses(*chain_poses(self.chain.flat, self.found.motion.at(times)))
-
-        def pieces() -> Iterator[bytes]:
-            for i in range(0, len(poses), _POSES):
-                part = Poses(poses.positions[i : i + _POSES], poses.rotations[i : i + _POSES])
-                yield orjson.dumps(pose_list(part, self.call.pose_format))
-
-        return json_list(pieces())
-
-    def certificate(self, times: Array) -> PoseCertificate | None:
-        """Compare the poses at these times with Pinocchio's; raises CertificationFailed. None if they are not sent."""
-        if not self.call.tip_poses:
+    def certificate(self, samples: "Samples") -> PoseCertificate | None:
+        """Compare the poses with Pinocchio's; raises CertificationFailed. None if they are not sent."""
+        if samples.poses is None:
             return None
-        return forward_kinematics(self.robot, self.chain, self.found.motion.at(times)).certificate
+        return certify_poses(self.robot, self.chain, samples.rates[0], {self.chain.tip_frame: samples.poses})
 
     def to_json(self, sampled: Mapping[str, orjson.Fragment], certificate: PoseCertificate | None) -> dict[str, Any]:
         """Return the whole answer; raises TooLarge if the requested polynomials hold too many numbers."""

@@ -19,7 +19,7 @@ from gelenk.errors import InvalidField, InvalidPose, OutsideLimits, counted
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.ik.search.words import DIRECTIONS
 from gelenk.operations.pose_arrays import poses_from
-from gelenk.operations.trajectory_limits import OwnVelocities, SourcedLimits, bounds_of, own_velocities
+from gelenk.operations.trajectory_limits import OwnVelocities, SourcedLimits, bounds_of, has_own_limits, own_velocities
 from gelenk.robot.arrays import Array, Configuration
 from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import check_limits, configurations, one_configuration
@@ -48,8 +48,10 @@ def parse(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedPr
     if waypoints > MAX_WAYPOINTS:
         raise InvalidField("segments", f"all together have {waypoints} waypoints; at most {MAX_WAYPOINTS} are allowed")
     own = own_velocities(robot, chain)
+    overall = bounds_of(chain, own, {"": call})
     bounds = tuple(
-        bounds_of(chain, own, {"": call, f"segments.{i}.": segment}) for i, segment in enumerate(call.segments)
+        bounds_of(chain, own, {"": call, f"segments.{i}.": one}) if has_own_limits(one) else overall
+        for i, one in enumerate(call.segments)
     )
     problem = TrajectoryProblem(
         _within(chain, call.start, "start"),
@@ -64,7 +66,7 @@ def parse(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedPr
         call.duration,
         call.compare_timing,
     )
-    return SourcedProblem(problem, own, bounds_of(chain, own, {"": call}), bounds)
+    return SourcedProblem(problem, own, overall, bounds)
 
 
 def shortest_duration(problem: TrajectoryProblem) -> float:

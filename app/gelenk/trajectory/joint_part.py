@@ -140,7 +140,7 @@ def _within_tip_limits(chain: Chain, motion: PiecewisePolynomial, segment: Segme
     bounds = {name: getattr(tip, name) for name in ("speed", "angular_speed", "acceleration", "angular_acceleration")}
     if not any(math.isfinite(bound) for bound in bounds.values()) or motion.duration == 0.0:
         return motion
-    peaks = tip_peaks(pieces_of(motion), chain, None)
+    peaks = tip_peaks(pieces_of(motion), chain)
     ratios = {name: peaks[name].value / bound for name, bound in bounds.items()}
     factor = max(math.sqrt(ratio) if "acceleration" in name else ratio for name, ratio in ratios.items())
     if factor <= 1.0:

@@ -52,7 +52,7 @@ def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Traject
     starts = list(accumulate((part.motion.duration for part in parts), initial=0.0))
     moving = [i for i, part in enumerate(parts) if part.motion.duration > 0.0]
     if moving:
-        motion = joined([parts[i].motion for i in moving])
+        motion = parts[moving[0]].motion if len(moving) == 1 else joined([parts[i].motion for i in moving])
         judgement = whole_audit(chain, motion, audits, [starts[i] for i in moving])
     else:  # An audit needs pieces that take time.
         motion = standing(problem.start)

@@ -113,15 +113,15 @@ def _planned(job: _Plan) -> PlannedTrajectory:
 def planned_part(job: _Plan) -> bytes:
     """Compute all but the samples, in a separate process: the answer with gaps for them, and their number."""
     planned = _planned(job)
-    times = planned.times()
+    certificate = planned.certificate(planned.samples(planned.times()))
     named = SAMPLED if planned.call.tip_poses else SAMPLED[:-1]
     gaps = {name: orjson.Fragment(_GAP + name.encode() + _GAP) for name in named}
-    frame = orjson.dumps(planned.to_json(gaps, planned.certificate(times)), option=orjson.OPT_SERIALIZE_NUMPY)
+    frame = orjson.dumps(planned.to_json(gaps, certificate), option=orjson.OPT_SERIALIZE_NUMPY)
     return packed(
         frame=as_bytes(frame),
         columns=as_bytes(csv_head(planned.columns)),
         headers=as_bytes(orjson.dumps(planned.headers)),
-        shape=(len(times), len(planned.columns)),
+        shape=(len(planned.times()), len(planned.columns)),
     )
 
 
@@ -130,8 +130,8 @@ def sampled_part(job: tuple[_Plan, int]) -> bytes:
     plan, k = job
     planned = _planned(plan)
     times = planned.times()[k * _PART : (k + 1) * _PART]
-    rows = planned.table(times)
-    fields = {name: as_bytes(orjson.dumps(entries)) for name, entries in planned.samples_json(times).items()}
+    rows, samples = planned.table(times), planned.samples(times).to_json(planned.call.pose_format)
+    fields = {name: as_bytes(orjson.dumps(entries)) for name, entries in samples.items()}
     return packed(rows=rows, csv=as_bytes(b"".join(csv_rows(rows))), **fields)
 
 

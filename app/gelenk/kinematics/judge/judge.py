@@ -4,6 +4,7 @@ Kernels and Pinocchio share only the checked description. A result that differs 
 """
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 
 import numpy as np
 import pinocchio as pin
@@ -24,9 +25,12 @@ TOLERANCE = 1e-9
 
 def sampled_rows(count: int, seed: int = 0) -> Sequence[int]:
     """Return the rows of a batch to recompute: all of a small batch, else `MAX_SAMPLES` random ones."""
-    if count <= MAX_SAMPLES:
-        return range(count)
-    return sorted(np.random.default_rng(seed).choice(count, MAX_SAMPLES, replace=False).tolist())
+    return range(count) if count <= MAX_SAMPLES else list(_random_rows(count, seed))
+
+
+@lru_cache
+def _random_rows(count: int, seed: int) -> tuple[int, ...]:
+    return tuple(sorted(np.random.default_rng(seed).choice(count, MAX_SAMPLES, replace=False).tolist()))
 
 
 def agreed(quantity: str, difference: Array | float, scale: float, slack: float = 0.0) -> float:

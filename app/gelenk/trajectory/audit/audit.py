@@ -19,7 +19,7 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.demands import Demands
-from gelenk.trajectory.audit.pieces import Pieces, extremes, largest_jumps, pieces_of
+from gelenk.trajectory.audit.pieces import Pieces, extremes, largest_jumps, pieces_of, values_at
 from gelenk.trajectory.audit.result import (
     Audit,
     Continuity,
@@ -31,7 +31,7 @@ from gelenk.trajectory.audit.result import (
     SmallestSingularValue,
     TipPeaks,
 )
-from gelenk.trajectory.audit.tip import Largest, poses_at, smallest_singular_value, tip_peaks
+from gelenk.trajectory.audit.tip import Largest, path_peaks, poses_at, smallest_singular_value, tip_peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _Timed = TypeVar("_Timed", Peak, LimitMargin, SmallestSingularValue, Reason)
@@ -214,7 +214,7 @@ class _Examination:
                 if wanted is None or not names:
                     continue
                 quantity = DERIVATIVES[order]
-                off = np.abs(pieces.at(np.array([piece]), np.array([tau]), order)[0] - wanted)
+                off = np.abs(values_at(pieces, np.array([piece]), np.array([tau]), order)[0] - wanted)
                 joint = int(off.argmax())
                 errors[f"{end}_{quantity}"] = error = float(off[joint])
                 if not error <= demands.tolerance * _scale(peaks, quantity):
@@ -229,13 +229,16 @@ class _Examination:
         limits = {name: getattr(demands.tip, name) for name in _TIP_UNITS}
         limits |= {"position": demands.path_tolerance, "orientation": demands.orientation_tolerance}
         peaks: dict[str, Peak] = {}
-        for quantity, found in tip_peaks(self.pieces, self.chain, demands.path, demands.task).items():
+        largest = tip_peaks(self.pieces, self.chain)
+        if demands.path is not None:
+            largest |= path_peaks(self.pieces, self.chain, demands.path, demands.task)
+        for quantity, found in largest.items():
             limit = limits[quantity]
             ratio = float(_ratios(np.array(found.value), np.array(limit))) if math.isfinite(limit) else None
             peaks[quantity] = Peak(ratio, found.value, None, found.time)
             self.check_tip(quantity, found, limit, ratio)
         for zone in demands.zones:
-            within = tip_peaks(self.pieces.between(zone.begin, zone.end), self.chain, None, least=_ZONE_SAMPLES)
+            within = tip_peaks(self.pieces.between(zone.begin, zone.end), self.chain, _ZONE_SAMPLES)
             for quantity, found in within.items():
                 limit = getattr(zone.tip, quantity)
                 if math.isfinite(limit):

@@ -1,7 +1,7 @@
 """Peaks of a function between its samples, by repeated parabolic interpolation through three ever closer samples.
 
 Three rounds find the peak of a smooth function to the last digits. At a kink, such as a singular value has at zero, the
-parabola is of little use; the evenly spread places of each round then reduce the interval to a quarter.
+parabola is of little use; the evenly spread places of each round then reduce the interval to less than a half.
 """
 
 from collections.abc import Callable
@@ -9,22 +9,25 @@ from typing import TypeAlias
 
 import numpy as np
 
-from gelenk.robot.arrays import Array, Flags, Indices
+from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.compilation import compiled, inlined
 
 Values: TypeAlias = Callable[[Array], Array]
 """C functions at P places each; shape (C, P) → (C, P)."""
 
+EXACT = 1e-12
+"""Relative accuracy of a peak."""
 MOST = 16
 """Largest number of sample triples of one function that are refined."""
-_ROUNDS = 8
+_ROUNDS = 12
 _BEYOND = 0.125
 """Share of an interval by which a parabola's vertex may lie outside the interval that contains the peak."""
-_OFFSETS = np.array([0.0, *((np.arange(8) + 0.5) / 8.0), 1.0])
-"""Sampled places, in fractions of an interval; they omit the middle, where the parabola is often highest."""
-_THREE = np.array([-1, 0, 1])
+_OFFSETS = (np.arange(5) + 0.5) / 5.0
+"""Sampled places, in fractions of an interval."""
+_BESIDE = 1.0 / 64.0
+"""Distance of two further ones from the vertex of the parabola, likewise."""
 _TRUST = 1e-3
 """Largest share of a parabola's error that the next round leaves, where it is right to second order."""
-_BESIDE = np.array([-1.0, 0.0, 1.0]) / 64.0
 
 
 def highest(values_at: Values, places: Array, values: Array, exact: Array) -> tuple[Array, Array]:
@@ -37,81 +40,123 @@ def highest(values_at: Values, places: Array, values: Array, exact: Array) -> tu
     """
     rows, start = np.arange(len(places)), values.argmax(axis=1)
     best, where = values[rows, start], places[rows, start]
-    if not len(rows):
-        return best, where
-    vertices, expected = _vertices(places, values)
-    for _ in range(_ROUNDS):
-        low, width = places[:, :1], places[:, 2:] - places[:, :1]
-        around = np.minimum(np.maximum(vertices[:, None] + _BESIDE * width, low), places[:, 2:])
-        tried = np.sort(np.concatenate((low + _OFFSETS * width, around), axis=1), axis=1)
-        found = values_at(tried)
-        peak = found.argmax(axis=1)
-        better = found[rows, peak] > best
-        best, where = np.where(better, found[rows, peak], best), np.where(better, tried[rows, peak], where)
-        wrong = np.abs(best - expected)
-        near = (np.minimum(np.maximum(peak, 1), tried.shape[1] - 2)[:, None] + _THREE).ravel()
-        each = np.repeat(rows, 3)
-        places, values = tried[each, near].reshape(-1, 3), found[each, near].reshape(-1, 3)
-        vertices, expected = _vertices(places, values)
-        # Each round brings the points at least 4 times closer, and 32 times where the parabola was right.
-        if not (np.maximum(expected - best, _TRUST * wrong) > exact).any():
-            break
+    if len(rows):
+        places, values = places.copy(), values.copy()
+        for _ in range(_ROUNDS):
+            tried = _tried(places, values)
+            found = np.ascontiguousarray(values_at(tried))
+            if _narrowed(places, values, tried, found, best, where, exact):
+                break
     return best, where
 
 
-def _vertices(places: Array, values: Array) -> tuple[Array, Array]:
-    """Return the maximum of each parabola between its outer two points: place and value; shape (C,) each."""
-    vertices, heights, bends = _parabolas(places, values)
-    low, high = places[:, 0], places[:, 2]
-    inside = (bends < 0.0) & (vertices >= low) & (vertices <= high)
-    rows, best = np.arange(len(places)), values.argmax(axis=1)
-    return np.where(inside, vertices, places[rows, best]), np.where(inside, heights, values[rows, best])
+@compiled
+def _tried(places: Array, values: Array) -> Array:
+    """Return the places to try next between each three: the vertex of the parabola, beside it, and evenly spread."""
+    tried = np.empty((len(places), len(_OFFSETS) + 3))
+    for c in range(len(places)):
+        low, high = places[c, 0], places[c, 2]
+        vertex = _vertex(places[c], values[c])[0]
+        for k in range(3):
+            tried[c, k] = min(max(vertex + (k - 1.0) * _BESIDE * (high - low), low), high)
+        for k in range(len(_OFFSETS)):
+            tried[c, 3 + k] = low + _OFFSETS[k] * (high - low)
+    return tried
 
 
-def promising(places: Array, values: Array, rows: Indices, exact: Array) -> tuple[Indices, Indices]:
-    """Return rows and columns, shape (C,) each, of samples near which a function may peak above its largest sample.
+@compiled
+def _narrowed(
+    places: Array, values: Array, tried: Array, found: Array, best: Array, where: Array, exact: Array
+) -> bool:
+    """Replace each three places by the best that was tried and its neighbours; return whether all peaks are exact."""
+    done, count = True, tried.shape[1]
+    x, f = np.empty(count + 3), np.empty(count + 3)
+    for c in range(len(places)):
+        expected = _vertex(places[c], values[c])[1]
+        x[:count], x[count:], f[:count], f[count:] = tried[c], places[c], found[c], values[c]
+        order = np.argsort(x)
+        peak = 0
+        for k in range(len(order)):
+            if f[order[k]] > f[order[peak]]:
+                peak = k
+        if f[order[peak]] > best[c]:
+            best[c], where[c] = f[order[peak]], x[order[peak]]
+        wrong = abs(best[c] - expected)
+        first = min(max(peak - 1, 0), len(order) - 3)
+        for k in range(3):
+            places[c, k], values[c, k] = x[order[first + k]], f[order[first + k]]
+        # Where the parabola was right, each round brings the points 32 times closer.
+        if max(_vertex(places[c], values[c])[1] - best[c], _TRUST * wrong) > exact[c]:
+            done = False
+    return done
+
+
+@inlined
+def _vertex(x: Array, f: Array) -> tuple[float, float]:
+    """Return the maximum of the parabola through three points between its outer two: place and value."""
+    vertex, height, bend = _parabola(x[0], x[1], x[2], f[0], f[1], f[2])
+    if bend < 0.0 and x[0] <= vertex <= x[2]:
+        return vertex, height
+    k = 0 if f[0] >= f[1] and f[0] >= f[2] else 1 if f[1] >= f[2] else 2
+    return x[k], f[k]
+
+
+@inlined
+def _parabola(x0: float, x1: float, x2: float, f0: float, f1: float, f2: float) -> tuple[float, float, float]:
+    """Return the vertex, its value and the bend of the parabola through three points."""
+    first, second = (f1 - f0) / (x1 - x0), (f2 - f1) / (x2 - x1)
+    bend = (second - first) / (x2 - x0)
+    vertex = 0.5 * (x0 + x1 - first / bend)
+    return vertex, f0 + (vertex - x0) * (first + bend * (vertex - x1)), bend
+
+
+@compiled
+def promising(places: Array, values: Array, rows: Indices, least: Array) -> tuple[Indices, Indices, Indices, Array]:
+    """Find the samples near which a function may peak above its largest sample.
 
     The parabola through a sample and its two neighbours estimates the peak; its bend bounds the error. This also covers
     many equally high samples, as along a limit, where the samples alone do not show between which of them a peak lies.
-    At most `MOST` are returned for each function.
 
     Args:
         places: Increasing around each of the rows; shape (N,).
         values: Of Q functions; shape (N, Q).
         rows: Samples whose neighbours belong to the same stretch of the functions; shape (K,).
-        exact: Height above the largest sample up to which peaks are ignored; shape (Q,).
+        least: Height above the largest sample up to which peaks do not matter; shape (Q,).
+
+    Returns:
+        Rows and columns of the samples, at most `MOST` of each function, shape (C,); the row of each function's largest
+        sample, and the accuracy that its peak needs, shape (Q,).
     """
-    largest = values.max(axis=0) + exact
-    chosen, columns = np.nonzero(_can_exceed(places, values, rows, largest))
-    near = rows[chosen, None] + _THREE
-    x, f = places[near], values[near, columns[:, None]]
-    vertices, heights, bends = _parabolas(x, f)
-    widths = x[:, 2] - x[:, 0]
-    rises = (bends < 0.0) & (heights - 0.25 * bends * widths**2 > largest[columns])
-    rises &= (vertices > x[:, 0] - _BEYOND * widths) & (vertices < x[:, 2] + _BEYOND * widths)
-    chosen, columns, heights = chosen[rises], columns[rises], heights[rises]
-    order = np.lexsort((-heights, columns))
-    chosen, columns = chosen[order], columns[order]
-    kept = np.arange(len(columns)) - np.searchsorted(columns, columns) < MOST
-    return rows[chosen[kept]], columns[kept]
+    functions = values.shape[1]
+    chosen, columns = np.empty(functions * MOST, np.int64), np.empty(functions * MOST, np.int64)
+    tops, exact = np.empty(functions, np.int64), np.empty(functions)
+    heights, first = np.empty(MOST), 0
+    for q in range(functions):
+        function = values[:, q]
+        tops[q], count = function.argmax(), 0
+        exact[q] = max(least[q], EXACT * max(abs(function[tops[q]]), abs(function.min())))
+        for row in rows:
+            height = _height(places, function, row, function[tops[q]] + exact[q])
+            k = count if count < MOST else int(heights.argmin())
+            if height > (-np.inf if k == count else heights[k]):
+                chosen[first + k], columns[first + k], heights[k] = row, q, height
+                count = max(count, k + 1)
+        first += count
+    return chosen[:first], columns[:first], tops, exact
 
 
-def _can_exceed(places: Array, values: Array, rows: Indices, least: Array) -> Flags:
-    """Return which parabolas may exceed `least`, by a quick bound from their bends; shape (K, Q)."""
-    widths = (places[rows + 1] - places[rows - 1])[:, None]
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        slopes = np.diff(values, axis=0) / np.diff(places)[:, None]
-        sags = 0.5 * (slopes[rows - 1] - slopes[rows]) * widths
-        can: Flags = np.maximum(np.maximum(values[rows - 1], values[rows + 1]), values[rows]) + sags > least
-    return can
-
-
-def _parabolas(places: Array, values: Array) -> tuple[Array, Array, Array]:
-    """Return the vertex, its value and the bend of the parabola through three points; shape (C,) each."""
-    x0, x1, x2 = places.T
-    f0, f1, f2 = values.T
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        first, second = (f1 - f0) / (x1 - x0), (f2 - f1) / (x2 - x1)
-        bends = (second - first) / (x2 - x0)
-        vertices = 0.5 * (x0 + x1 - first / bends)
-        return vertices, f0 + (vertices - x0) * (first + bends * (vertices - x1)), bends
+@inlined
+def _height(places: Array, values: Array, row: int, least: float) -> float:
+    """Return the height of the parabola around a sample if a peak above `least` may be near it, else -∞."""
+    x0, x1, x2 = places[row - 1], places[row], places[row + 1]
+    f0, f1, f2 = values[row - 1], values[row], values[row + 1]
+    width = x2 - x0
+    # A quick bound first, from the bend alone.
+    first, second = (f1 - f0) / (x1 - x0), (f2 - f1) / (x2 - x1)
+    if not max(f0, f1, f2) + 0.5 * (first - second) * width > least:
+        return -np.inf
+    vertex, height, bend = _parabola(x0, x1, x2, f0, f1, f2)
+    rises = bend < 0.0 and height - 0.25 * bend * width**2 > least
+    if rises and x0 - _BEYOND * width < vertex < x2 + _BEYOND * width:
+        return height
+    return -np.inf

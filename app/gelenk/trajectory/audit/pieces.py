@@ -1,90 +1,50 @@
 """Polynomial pieces as the audit evaluates them, and the extremes of their derivatives.
 
-The audit uses nothing from the planners: it scales each piece to τ from 0 to 1, evaluates it as a sum of powers, and
-never computes roots. A polynomial of degree m that is sampled at the N + 1 extremes of a Chebyshev polynomial, N > m,
-is nowhere larger than its largest sample over cos(m π / 2N) [Ehlich1964]. So the samples show which pieces could hold a
-peak, and only those are refined.
+The audit uses nothing from the planners: it scales each piece to τ from 0 to 1, and never computes roots. A polynomial
+of degree m that is sampled at the N + 1 extremes of a Chebyshev polynomial, N > m, is nowhere larger than its largest
+sample over cos(m π / 2N) [Ehlich1964]. So the samples show which pieces could hold a peak, and golden sections find it.
 """
 
 import math
-from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
-from gelenk.robot.arrays import Array, Flags, Indices
-from gelenk.trajectory.audit.peaks import highest
+from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.compilation import compiled, inlined
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _MIN_INTERVALS = 12
-_CHUNK = 1024
-"""Number of pieces that are sampled at a time."""
 _ROUNDING = 1e-13
 _SAME = 1e-12
-"""Share by which a piece must be able to exceed the largest sample to be refined."""
+"""Share by which a piece must be able to exceed the largest sample to be searched."""
+_GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+_SECTIONS = 36
+"""Golden sections of an interval, to 3e-8 of it: a peak is flat, so that its value is then exact."""
 
 
-@dataclass(frozen=True, slots=True)
-class Pieces:
+class Pieces(NamedTuple):
     """A motion as separate pieces, each scaled to τ from 0 to 1.
 
     Attributes:
         starts, widths: Start time and duration of each piece; shape (M,), [s].
-        scaled: c_k hᵏ, the coefficients in τ; shape (degree + 1, M, n).
+        scaled: c_k hᵏ, the coefficients in τ; shape (M, degree + 1, n).
     """
 
     starts: Array
     widths: Array
     scaled: Array
 
-    def part(self, first: int, last: int) -> "Pieces":
-        """Return the pieces from number `first` up to, but not including, `last`."""
-        return Pieces(self.starts[first:last], self.widths[first:last], self.scaled[:, first:last])
-
     def between(self, begin: float, end: float) -> "Pieces":
         """Return the pieces whose middle lies between two times, [s]."""
         middles = self.starts + 0.5 * self.widths
-        return self.part(int(np.searchsorted(middles, begin)), int(np.searchsorted(middles, end)))
+        some = slice(*np.searchsorted(middles, (begin, end)))
+        return Pieces(self.starts[some], self.widths[some], self.scaled[some])
 
     def negated(self) -> "Pieces":
         """Return the pieces of the opposite motion, whose highest values are the lowest."""
         return Pieces(self.starts, self.widths, -self.scaled)
-
-    @property
-    def degree(self) -> int:
-        """Degree of the positions."""
-        return len(self.scaled) - 1
-
-    def on(self, nodes: Array, order: int) -> Array:
-        """Evaluate a time derivative at the same τ of every piece; shape (K,) → (K, M, n)."""
-        powers = _powers(nodes, order, self.degree)
-        flat = powers @ self.scaled.reshape(self.degree + 1, -1)
-        values: Array = flat.reshape(len(nodes), *self.scaled.shape[1:])
-        return values / self.widths[:, None] ** order if order else values
-
-    def at(self, piece: Indices, tau: Array, order: int) -> Array:
-        """Evaluate a time derivative at τ of the given pieces; shape (N,) each → (N, n)."""
-        powers = _powers(tau, order, self.degree)
-        values: Array = np.einsum("nk,knj->nj", powers, self.scaled[:, piece])
-        return values / self.widths[piece, None] ** order if order else values
-
-    def rates(self, piece: Indices, tau: Array) -> tuple[Array, Array, Array]:
-        """Evaluate positions, velocities and accelerations at τ of some pieces; shape (N,) each → three of (N, n)."""
-        scaled, per_width = self.scaled[:, piece], 1.0 / self.widths[piece, None]
-        values, first, second = (
-            np.einsum("nk,knj->nj", _powers(tau, order, self.degree), scaled) for order in range(3)
-        )
-        return values, first * per_width, second * per_width**2
-
-    def positions(self, times: Array) -> Array:
-        """Evaluate positions at times, [s]; shape (N,) → (N, n)."""
-        piece = np.clip(np.searchsorted(self.starts, times, side="right") - 1, 0, len(self.starts) - 1)
-        return self.at(piece, (times - self.starts[piece]) / self.widths[piece], 0)
-
-    def joint_at(self, piece: Indices, joint: Indices, tau: Array, order: int) -> Array:
-        """Evaluate a time derivative of one joint each at several τ; shapes (C,), (C,), (C, P) → (C, P)."""
-        powers = _powers(tau, order, self.degree)
-        values: Array = np.einsum("cpk,kc->cp", powers, self.scaled[:, piece, joint])
-        return values / self.widths[piece, None] ** order
 
     def times(self, piece: Indices, tau: Array) -> Array:
         """Return the times at τ of some pieces, [s]."""
@@ -94,111 +54,167 @@ class Pieces:
 def pieces_of(motion: PiecewisePolynomial) -> Pieces:
     """The pieces of a motion."""
     widths = np.diff(motion.breaks)
-    powers = widths ** np.arange(motion.coefficients.shape[1])[:, None]
-    return Pieces(motion.breaks[:-1], widths, motion.coefficients.transpose(1, 0, 2) * powers[:, :, None])
+    powers = widths[:, None, None] ** np.arange(motion.coefficients.shape[1])[:, None]
+    return Pieces(motion.breaks[:-1], widths, np.ascontiguousarray(motion.coefficients * powers))
+
+
+@inlined
+def _factor(k: int, order: int) -> float:
+    """Return k!/(k - order)!, the factor of τ^(k - order) in a derivative of τᵏ."""
+    factor = 1.0
+    for i in range(order):
+        factor *= k - i
+    return factor
+
+
+@inlined
+def _by_tau(pieces: Pieces, piece: int, joint: int, tau: float, order: int) -> float:
+    """Evaluate a derivative by τ of a joint."""
+    value = 0.0
+    for k in range(pieces.scaled.shape[1] - 1, order - 1, -1):
+        value = value * tau + _factor(k, order) * pieces.scaled[piece, k, joint]
+    return value
+
+
+@inlined
+def value_at(pieces: Pieces, piece: int, joint: int, tau: float, order: int) -> float:
+    """Evaluate a time derivative of a joint at τ of a piece."""
+    value: float = _by_tau(pieces, piece, joint, tau, order) / pieces.widths[piece] ** order
+    return value
+
+
+@compiled
+def values_at(pieces: Pieces, piece: Indices, tau: Array, order: int) -> Array:
+    """Evaluate a time derivative at τ of the given pieces; shape (N,) each → (N, n)."""
+    found = np.empty((len(piece), pieces.scaled.shape[2]))
+    for i in range(len(piece)):
+        for joint in range(found.shape[1]):
+            found[i, joint] = value_at(pieces, piece[i], joint, tau[i], order)
+    return found
+
+
+@compiled
+def positions_at(pieces: Pieces, times: Array) -> Array:
+    """Evaluate positions at times of shape (N,), [s]; shape (N, n)."""
+    found, last = np.empty((len(times), pieces.scaled.shape[2])), len(pieces.starts) - 1
+    for i in range(len(times)):
+        piece = min(max(np.searchsorted(pieces.starts, times[i], side="right") - 1, 0), last)
+        tau = (times[i] - pieces.starts[piece]) / pieces.widths[piece]
+        for joint in range(found.shape[1]):
+            found[i, joint] = _by_tau(pieces, piece, joint, tau, 0)
+    return found
+
+
+@compiled
+def rate_bounds(pieces: Pieces) -> tuple[float, float]:
+    """Return bounds of all velocities and accelerations, by the sums of their polynomials' coefficients."""
+    velocity, acceleration = 0.0, 0.0
+    for piece in range(len(pieces.widths)):
+        for joint in range(pieces.scaled.shape[2]):
+            first, second = 0.0, 0.0
+            for k in range(1, pieces.scaled.shape[1]):
+                size = k * abs(pieces.scaled[piece, k, joint])
+                first, second = first + size, second + (k - 1.0) * size
+            velocity = max(velocity, first / pieces.widths[piece])
+            acceleration = max(acceleration, second / pieces.widths[piece] ** 2)
+    return velocity, acceleration
 
 
 def extremes(pieces: Pieces, order: int, *, absolute: bool = False) -> tuple[Array, Array]:
     """Find each joint's highest value of a derivative, or largest magnitude, and its time [s]; shape (n,) each."""
-    degree = max(pieces.degree - order, 0)
+    return _extremes(pieces, order, absolute, *_nodes(max(pieces.scaled.shape[1] - 1 - order, 0)))
+
+
+@lru_cache
+def _nodes(degree: int) -> tuple[Array, float]:
+    """Return where polynomials of a degree are sampled, and the factor of [Ehlich1964]; 0 where samples are enough."""
     count = max(_MIN_INTERVALS, 2 * degree + 2)
     nodes = 0.5 - 0.5 * np.cos(np.arange(count + 1) * math.pi / count)
-    n = pieces.scaled.shape[2]
-    found = _Largest(np.full(n, -np.inf), np.zeros(n, dtype=np.int64), np.zeros(n))
-    for first in range(0, len(pieces.widths), _CHUNK):
-        part = pieces.part(first, first + _CHUNK)
-        values = part.on(nodes, order)
-        signed = np.abs(values) if absolute else values
-        found.take_samples(signed, nodes, first)
-        if degree > 1:
-            # At degree 0 or 1 the extremes are at the ends, which are samples.
-            bounds = _bounds(values, absolute, 1.0 / math.cos(0.5 * math.pi * degree / count))
-            can_exceed = bounds > found.best + _SAME * np.abs(found.best)
-            _refine(part, order, absolute, nodes, signed, can_exceed, found, first)
-    values = pieces.joint_at(found.piece, np.arange(n), found.tau[:, None], order)[:, 0]
-    return values, pieces.times(found.piece, found.tau)
+    # At degree 0 or 1 the extremes are at the ends, which are samples.
+    return nodes, 1.0 / math.cos(0.5 * math.pi * degree / count) if degree > 1 else 0.0
 
 
+@compiled
+def _extremes(pieces: Pieces, order: int, absolute: bool, nodes: Array, factor: float) -> tuple[Array, Array]:
+    """Find the extremes from `_nodes` and their factor."""
+    count, n = len(pieces.widths), pieces.scaled.shape[2]
+    values, times, samples = np.empty(n), np.empty(n), np.empty(len(nodes))
+    bounds = np.empty(count)
+    for joint in range(n):
+        best, where, at = -np.inf, 0, 0.0
+        for piece in range(count):
+            _sample(pieces, piece, joint, order, nodes, samples)
+            low, high = samples.min(), samples.max()
+            middle = 0.5 * (low + high)
+            bounds[piece] = (abs(middle) if absolute else middle) + 0.5 * factor * (high - low)
+            for k in range(len(nodes)):
+                size = abs(samples[k]) if absolute else samples[k]
+                if best == -np.inf or size > best + _ROUNDING * abs(best):
+                    best, where, at = size, piece, nodes[k]
+        for piece in range(count):
+            if factor and bounds[piece] > best + _SAME * abs(best):
+                _sample(pieces, piece, joint, order, nodes, samples)
+                tau, size = _highest(pieces, piece, joint, order, absolute, nodes, samples)
+                if size > best + _ROUNDING * abs(best):
+                    best, where, at = size, piece, tau
+        values[joint] = value_at(pieces, where, joint, at, order)
+        times[joint] = pieces.starts[where] + at * pieces.widths[where]
+    return values, times
+
+
+@inlined
+def _sample(pieces: Pieces, piece: int, joint: int, order: int, nodes: Array, samples: Array) -> None:
+    samples[:] = 0.0
+    scale = pieces.widths[piece] ** -order
+    for k in range(pieces.scaled.shape[1] - 1, order - 1, -1):
+        c = scale * _factor(k, order) * pieces.scaled[piece, k, joint]
+        for i in range(len(nodes)):
+            samples[i] = samples[i] * nodes[i] + c
+
+
+@inlined
+def _highest(
+    pieces: Pieces, piece: int, joint: int, order: int, absolute: bool, nodes: Array, samples: Array
+) -> tuple[float, float]:
+    """Search around each local maximum of the samples; return τ and the value."""
+    last, at, best = len(nodes) - 1, 0.0, -np.inf
+    for k in range(len(nodes)):
+        sign = -1.0 if absolute and samples[k] < 0.0 else 1.0
+        before, here, after = samples[max(k - 1, 0)], samples[k], samples[min(k + 1, last)]
+        if sign * here >= sign * before and sign * here >= sign * after:
+            low, high = nodes[max(k - 1, 0)], nodes[min(k + 1, last)]
+            tau = _section(pieces, piece, joint, order, sign, low, high)
+            size = sign * value_at(pieces, piece, joint, tau, order)
+            if size > best:
+                at, best = tau, size
+    return at, best
+
+
+@inlined
+def _section(pieces: Pieces, piece: int, joint: int, order: int, sign: float, low: float, high: float) -> float:
+    """Return τ of the highest value of a unimodal function between two places, by golden sections."""
+    a, b = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+    at_a, at_b = (sign * _by_tau(pieces, piece, joint, a, order), sign * _by_tau(pieces, piece, joint, b, order))
+    for _ in range(_SECTIONS):
+        if at_a < at_b:
+            low, a, at_a = a, b, at_b
+            b = low + _GOLDEN * (high - low)
+            at_b = sign * _by_tau(pieces, piece, joint, b, order)
+        else:
+            high, b, at_b = b, a, at_a
+            a = high - _GOLDEN * (high - low)
+            at_a = sign * _by_tau(pieces, piece, joint, a, order)
+    return 0.5 * (low + high)
+
+
+@compiled
 def largest_jumps(pieces: Pieces, order: int) -> tuple[Array, Array]:
     """Find the largest jump of a derivative of each joint where two pieces meet, and when; zero in a single piece."""
-    if len(pieces.widths) == 1:
-        n = pieces.scaled.shape[2]
-        return np.zeros(n), np.full(n, pieces.starts[0])
-    ends = pieces.on(np.array([0.0, 1.0]), order)
-    jumps = np.abs(ends[0, 1:] - ends[1, :-1])
-    where = jumps.argmax(axis=0)
-    return jumps[where, np.arange(jumps.shape[1])], pieces.starts[1:][where]
-
-
-def _powers(tau: Array, order: int, degree: int) -> Array:
-    """Return d^order/dτ^order of 1, τ, τ², …; shape (…) → (…, degree + 1)."""
-    powers = np.zeros((*tau.shape, degree + 1))
-    power = np.ones_like(tau)
-    for k in range(order, degree + 1):
-        powers[..., k] = math.perm(k, order) * power
-        power = power * tau
-    return powers
-
-
-def _bounds(values: Array, absolute: bool, factor: float) -> Array:
-    """Bound the values of each piece from its samples, applying [Ehlich1964] around their middle; shape (M, n)."""
-    low, high = values.min(axis=0), values.max(axis=0)
-    middle, half = 0.5 * (low + high), 0.5 * factor * (high - low)
-    bounds: Array = (np.abs(middle) if absolute else middle) + half
-    return bounds
-
-
-def _refine(
-    part: Pieces,
-    order: int,
-    absolute: bool,
-    nodes: Array,
-    signed: Array,
-    can_exceed: Flags,
-    found: "_Largest",
-    first: int,
-) -> None:
-    """Refine around each local maximum of the samples in pieces that may exceed the extremes found so far.
-
-    The samples `signed` at `nodes` have shape (K, P, n), `can_exceed` (P, n); `first` is the number of the first piece.
-    """
-    piece, joint = np.nonzero(can_exceed)
-    samples = signed[:, piece, joint]
-    padded = np.pad(samples, ((1, 1), (0, 0)), constant_values=-np.inf)
-    node, candidate = np.nonzero((samples >= padded[:-2]) & (samples >= padded[2:]))
-    piece, joint = piece[candidate], joint[candidate]
-    if len(piece) == 0:
-        return
-
-    def values_at(tau: Array) -> Array:
-        values = part.joint_at(piece, joint, tau, order)
-        return np.abs(values) if absolute else values
-
-    near = np.clip(node, 1, len(nodes) - 2)[:, None] + np.arange(-1, 2)
-    largest, where = highest(
-        values_at, nodes[near], samples[near, candidate[:, None]], _ROUNDING * np.abs(found.best[joint])
-    )
-    found.take(largest, joint, piece + first, where)
-
-
-@dataclass(slots=True)
-class _Largest:
-    """The largest value of each joint so far: the value, the piece and τ; shape (n,) each."""
-
-    best: Array
-    piece: Indices
-    tau: Array
-
-    def take_samples(self, signed: Array, nodes: Array, first: int) -> None:
-        flat = signed.reshape(-1, signed.shape[2])
-        where = flat.argmax(axis=0)
-        joint = np.arange(len(where))
-        node, piece = np.divmod(where, signed.shape[1])
-        self.take(flat[where, joint], joint, piece + first, nodes[node])
-
-    def take(self, values: Array, joint: Indices, piece: Indices, tau: Array) -> None:
-        """Update with samples of some joints; an increase within rounding is ignored."""
-        for i in np.argsort(values, kind="stable")[::-1]:
-            j = joint[i]
-            if self.best[j] == -np.inf or values[i] > self.best[j] + _ROUNDING * abs(self.best[j]):
-                self.best[j], self.piece[j], self.tau[j] = values[i], piece[i], tau[i]
+    n = pieces.scaled.shape[2]
+    jumps, times = np.zeros(n), np.full(n, pieces.starts[min(1, len(pieces.starts) - 1)])
+    for piece in range(1, len(pieces.starts)):
+        for joint in range(n):
+            jump = abs(value_at(pieces, piece, joint, 0.0, order) - value_at(pieces, piece - 1, joint, 1.0, order))
+            if jump > jumps[joint]:
+                jumps[joint], times[joint] = jump, pieces.starts[piece]
+    return jumps, times

@@ -82,7 +82,7 @@ def point_to_point_motion(
         motion = _trapezoid(start, steps, limits, None)
     else:
         motion = _along_line(start, steps, law, limits)
-        if law == "jerk_limited":
+        if law == "jerk_limited" and not _is_one_slowest(steps, limits):
             motion = _beside_line(start, target, limits, motion)
     return motion if duration is None else lasting(motion, duration, law, limits)
 
@@ -139,6 +139,12 @@ def _beside_line(
         # The numbers are too many powers of ten apart; along the line they are scaled.
         return on_line
     return found if found.duration < on_line.duration * (1.0 - _WORTH) else on_line
+
+
+def _is_one_slowest(steps: Array, limits: SegmentLimits) -> bool:
+    """Check whether one joint alone sets all limits along the line: no motion of it takes less time than the line."""
+    shares = np.abs(steps) / limits.joints
+    return bool((shares == shares.max(axis=1, keepdims=True)).all(axis=0).any())
 
 
 def _along_line(start: Array, steps: Array, law: Law, limits: SegmentLimits) -> PiecewisePolynomial:

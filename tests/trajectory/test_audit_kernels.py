@@ -1,0 +1,113 @@
+"""What the audit computes of the tip, against Pinocchio and numpy, which share no code with it."""
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.audit.kernels import smallest_singular_values, tip_rates
+from gelenk.trajectory.audit.pieces import Pieces, extremes, pieces_of, positions_at
+from gelenk.trajectory.audit.tip import smallest_singular_value, tip_peaks
+from tests.robots import robot
+from tests.trajectory.test_audit import some_motion
+
+ARMS = ["panda", "ur5", "stanford", "scara", "pr2"]
+"""Turning and sliding joints, also in a longer chain."""
+
+
+def samples(pieces: Pieces, count: int) -> tuple[Array, Array]:
+    rng = np.random.default_rng(1)
+    return rng.integers(0, len(pieces.widths), count), rng.uniform(0.0, 1.0, count)
+
+
+def judged_rates(machine: RobotModel, chain: Chain, pieces: Pieces, times: Array) -> Array:
+    """Pinocchio's norms of the tip's twist and classical acceleration; joints by numpy's polynomials."""
+    model, data, expansion = machine.model, machine.data, machine.expansion(chain)
+    tip, rows = machine.frame_id(chain.tip_frame), []
+    for time in times:
+        i = int(np.clip(np.searchsorted(pieces.starts, time, side="right") - 1, 0, None))
+        c = pieces.scaled[i] / pieces.widths[i] ** np.arange(pieces.scaled.shape[1])[:, None]
+        joints = [np.polynomial.Polynomial(column) for column in c.T]
+        q, v, a = (np.array([(p.deriv(k) if k else p)(time - pieces.starts[i]) for p in joints]) for k in range(3))
+        full = (expansion.offset + expansion.matrix @ q, expansion.matrix @ v, expansion.matrix @ a)
+        pin.forwardKinematics(model, data, *full)
+        pin.updateFramePlacement(model, data, tip)
+        twist = pin.getFrameVelocity(model, data, tip, pin.LOCAL_WORLD_ALIGNED)
+        change = pin.getFrameClassicalAcceleration(model, data, tip, pin.LOCAL_WORLD_ALIGNED)
+        rows.append([np.linalg.norm(part) for part in (twist.linear, twist.angular, change.linear, change.angular)])
+    return np.array(rows)
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_rates_of_the_tip_are_pinocchio_s(name: str) -> None:
+    machine = robot(name)
+    chain = machine.chain(None, None)
+    pieces = pieces_of(some_motion(chain, 3, reach=0.8))
+    piece, tau = samples(pieces, 13)
+    found = tip_rates(chain.flat, pieces, piece, tau)
+    assert found == pytest.approx(judged_rates(machine, chain, pieces, pieces.times(piece, tau)), rel=1e-10, abs=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_peaks_of_the_tip_are_pinocchio_s_on_a_dense_grid(seed: int) -> None:
+    machine = robot("panda")
+    chain = machine.chain(None, None)
+    pieces = pieces_of(some_motion(chain, 4, seed, 0.8))
+    peaks = list(tip_peaks(pieces, chain).values())
+    around = np.clip([peak.time + np.linspace(-2e-3, 2e-3, 9) for peak in peaks], 0.0, 4.0)
+    judge = judged_rates(machine, chain, pieces, np.append(np.linspace(0.0, 4.0, 101), around))
+    for k, peak in enumerate(peaks):
+        assert judge[:, k].max() <= peak.value * (1.0 + 1e-9)
+        assert judge[101 + 9 * k : 110 + 9 * k, k].max() == pytest.approx(peak.value, rel=1e-6)
+
+
+@pytest.mark.parametrize("rows", [[0, 1, 2, 3, 4, 5], [0, 1, 2], [0, 1, 2, 3, 4]])
+@pytest.mark.parametrize("name", ["panda", "scara"])
+def test_singular_values_are_numpy_s(name: str, rows: list[int]) -> None:
+    machine = robot(name)
+    chain = machine.chain(None, None)
+    expansion, tip = machine.expansion(chain), machine.frame_id(chain.tip_frame)
+    qs = np.random.default_rng(2).uniform(-1.0, 1.0, (11, len(chain)))
+    qs[3] = 0.0
+    for about_tip in (False, True):
+        wanted = []
+        for q in qs:
+            full = expansion.offset + expansion.matrix @ q
+            J = pin.computeFrameJacobian(machine.model, machine.data, full, tip, pin.LOCAL_WORLD_ALIGNED)
+            if about_tip:
+                J[3:] = pin.computeFrameJacobian(machine.model, machine.data, full, tip, pin.LOCAL)[3:]
+            wanted.append(np.linalg.svd((J @ expansion.matrix)[rows], compute_uv=False)[-1])
+        found = smallest_singular_values(chain.flat, qs, np.array(rows), about_tip)
+        assert found == pytest.approx(np.array(wanted), rel=1e-11, abs=1e-14)
+
+
+def test_the_smallest_singular_value_is_the_least_of_dense_samples() -> None:
+    chain = robot("panda").chain(None, None)
+    for seed in range(4):
+        pieces = pieces_of(some_motion(chain, 4, seed, 0.9))
+        found = smallest_singular_value(pieces, chain)
+        times = np.append(np.linspace(0.0, 4.0, 4001), found.time)
+        dense = smallest_singular_values(chain.flat, positions_at(pieces, times), np.arange(6), False)
+        assert dense[-1] == pytest.approx(found.value, rel=1e-9)
+        assert dense.min() >= found.value * (1.0 - 1e-9)
+
+
+@pytest.mark.parametrize("order", [0, 1, 2])
+def test_extremes_are_at_the_roots_of_the_derivative(order: int) -> None:
+    rng = np.random.default_rng(order)
+    for degree in (3, 5, 7):
+        c = rng.normal(size=(1, degree + 1, 3))
+        found = extremes(Pieces(np.zeros(1), np.array([0.7]), c), order)
+        for joint, column in enumerate(c[0].T):
+            p = np.polynomial.Polynomial(column / 0.7 ** np.arange(degree + 1))
+            p = p.deriv(order) if order else p
+            roots = p.deriv().roots()
+            inner = roots.real[(abs(roots.imag) < 1e-12) & (roots.real > 0.0) & (roots.real < 0.7)]
+            places = np.concatenate(([0.0, 0.7], inner))
+            best = places[p(places).argmax()]
+            assert (found[0][joint], found[1][joint]) == (
+                pytest.approx(p(best), rel=1e-12),
+                pytest.approx(best, abs=1e-7),
+            )
