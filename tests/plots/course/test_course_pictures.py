@@ -95,7 +95,7 @@ PICTURES: dict[str, tuple[Callable[[], Figure], tuple[str, ...]]] = {
     "long names": (lambda: mechanism_figure(mechanism("planar", [f"$x${i}" * 15 for i in range(6)], 0, [])), ("…",)),
     "parallel pairs": (
         lambda: mechanism_figure(mechanism("planar", "ab", 0, [GivenPair(x, "a", "b", "gear") for x in "123"])),
-        ("gear teeth",),
+        ("gear",),
     ),
     "one place": (
         lambda: mechanism_figure(

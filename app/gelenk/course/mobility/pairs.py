@@ -8,6 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from gelenk.language import marked
+from gelenk.language import translated as _
+
 Space: TypeAlias = Literal["planar", "spatial"]
 Order: TypeAlias = Literal["low", "high"]
 
@@ -17,11 +20,17 @@ FREEDOMS: dict[Space, int] = {"planar": 3, "spatial": 6}
 
 @dataclass(frozen=True, slots=True)
 class PairKind:
-    """A kind of kinematic pair: its order, and c in the plane and in space, or None where there is no such pair."""
+    """A kind of kinematic pair: its name in English, its order, and c in both spaces, None where there is none."""
 
+    title: str
     order: Order
     planar: int | None
     spatial: int | None
+
+    @property
+    def name(self) -> str:
+        """Name of the kind in the current language."""
+        return _(self.title)
 
     def constraints(self, space: Space) -> int | None:
         """Return c in a space; None if it has no such pair."""
@@ -46,20 +55,20 @@ class PairGeometry:
 
 
 KINDS: dict[str, PairKind] = {
-    "revolute": PairKind("low", 2, 5),
-    "prismatic": PairKind("low", 2, 5),
-    "rolling": PairKind("high", 2, None),
-    "pin_in_slot": PairKind("high", 1, None),
-    "cam": PairKind("high", 1, None),
-    "gear": PairKind("high", 1, None),
-    "screw": PairKind("low", None, 5),
-    "universal": PairKind("low", None, 4),
-    "cylindrical": PairKind("low", None, 4),
-    "spherical": PairKind("low", None, 3),
-    "planar": PairKind("low", None, 3),
-    "sphere_in_groove": PairKind("high", None, 2),
-    "point_contact": PairKind("high", None, 1),
-    "fixed": PairKind("low", 3, 6),
+    "revolute": PairKind(marked("revolute"), "low", 2, 5),
+    "prismatic": PairKind(marked("prismatic"), "low", 2, 5),
+    "rolling": PairKind(marked("rolling"), "high", 2, None),
+    "pin_in_slot": PairKind(marked("pin in slot"), "high", 1, None),
+    "cam": PairKind(marked("cam"), "high", 1, None),
+    "gear": PairKind(marked("gear"), "high", 1, None),
+    "screw": PairKind(marked("screw"), "low", None, 5),
+    "universal": PairKind(marked("universal"), "low", None, 4),
+    "cylindrical": PairKind(marked("cylindrical"), "low", None, 4),
+    "spherical": PairKind(marked("spherical"), "low", None, 3),
+    "planar": PairKind(marked("planar"), "low", None, 3),
+    "sphere_in_groove": PairKind(marked("sphere in groove"), "high", None, 2),
+    "point_contact": PairKind(marked("point contact"), "high", None, 1),
+    "fixed": PairKind(marked("fixed"), "low", 3, 6),
 }
 """The course's table. `rolling` is without slip, a universal joint is one pair, `fixed` makes two links one."""
 

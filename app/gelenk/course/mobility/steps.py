@@ -2,7 +2,7 @@
 
 from gelenk.course.mobility.mechanism import Mechanism
 from gelenk.course.mobility.mobility import PairCount, Tally, verdict
-from gelenk.course.mobility.pairs import FREEDOMS
+from gelenk.course.mobility.pairs import FREEDOMS, KINDS
 from gelenk.course.mobility.screws import PostureMobility
 from gelenk.course.steps import Step, step
 from gelenk.errors import quoted
@@ -23,23 +23,6 @@ _CHAINS = {
     "mixed": marked(
         "Independent loops: {sum} = {loops}; some links lie on no loop, or on none with the others: a mixed chain."
     ),
-}
-_KINDS = {
-    "revolute": marked("revolute"),
-    "prismatic": marked("prismatic"),
-    "rolling": marked("rolling"),
-    "pin_in_slot": marked("pin in slot"),
-    "cam": marked("cam"),
-    "gear": marked("gear"),
-    "screw": marked("screw"),
-    "universal": marked("universal"),
-    "cylindrical": marked("cylindrical"),
-    "spherical": marked("spherical"),
-    "planar": marked("planar"),
-    "sphere_in_groove": marked("sphere in groove"),
-    "point_contact": marked("point contact"),
-    "fixed": marked("fixed"),
-    "floating": marked("floating"),
 }
 _ORDERS = {
     "low": marked("{count} {kind} (c = {constraints}, low order)"),
@@ -88,7 +71,8 @@ def _split(joint: str, links: int) -> Step:
 
 
 def _words(kind: PairCount) -> str:
-    return _(_ORDERS[kind.order]).format(count=kind.count, kind=_(_KINDS[kind.type]), constraints=kind.constraints)
+    name = KINDS[kind.type].name if kind.type in KINDS else _("floating")
+    return _(_ORDERS[kind.order]).format(count=kind.count, kind=name, constraints=kind.constraints)
 
 
 def _constraints(counted: Tally) -> Step:

@@ -7,10 +7,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from gelenk.course.mobility.mechanism import Mechanism, Pair
-from gelenk.course.mobility.pairs import LETTERS
+from gelenk.course.mobility.pairs import KINDS, LETTERS
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
-from gelenk.plots.course.pairs import pair_names
 from gelenk.plots.course.sketch import DASHED, SOLID, Point, Sketch, direction
 from gelenk.robot.arrays import Array
 
@@ -81,7 +80,8 @@ def _color(found: Mechanism, pair: Pair) -> str:
 
 
 def _letter(pair: Pair) -> str:
-    return next((letter for letter, kind in LETTERS.items() if kind == pair.type), pair_names().get(pair.type, ""))
+    letter = next((letter for letter, kind in LETTERS.items() if kind == pair.type), "")
+    return letter or (KINDS[pair.type].name if pair.type in KINDS else "")
 
 
 def _draw_graph(sketch: Sketch, found: Mechanism, middle: Array, places: Array) -> None:

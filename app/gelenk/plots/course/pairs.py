@@ -26,29 +26,17 @@ def pairs_figure() -> Figure:
     sketch.write(_(TITLES["joint-pairs"]), (0.2, height - 0.25), size=style.TITLE, ha="left")
     text = _("f freedoms are left and c = λ − f removed; λ = 3 in the plane, 6 in space")
     sketch.write(text, (0.2, height - 0.5), color=style.QUIET, ha="left")
-    names = pair_names()
     for i, (name, kind) in enumerate(KINDS.items()):
         middle = np.array([(i % _COLUMNS + 0.5) * _WIDTH, height - _HEAD - (i // _COLUMNS + 0.36) * _HEIGHT])
         _SYMBOLS[name](sketch, middle)
         letter = next((f" ({letter})" for letter, its in LETTERS.items() if its == name), "")
-        sketch.write(names[name] + letter, middle - (0.0, 0.66), bold=True)
+        sketch.write(kind.name + letter, middle - (0.0, 0.66), bold=True)
         where = ((_("plane"), 3, kind.planar), (_("space"), 6, kind.spatial))
         lines = [f"{space}: c = {c}, f = {freedoms - c}" for space, freedoms, c in where if c is not None]
         lines.append(_("lower pair") if kind.order == "low" else _("higher pair"))
         for row, line in enumerate(lines):
             sketch.write(line, middle - (0.0, 0.85 + 0.17 * row), color=style.QUIET, size=8.0)
     return sketch.figure()
-
-
-def pair_names() -> dict[str, str]:
-    """Return the names of all kinds of pairs in the current language."""
-    return {
-        "revolute": _("revolute"), "prismatic": _("prismatic"), "rolling": _("rolling, no slip"),
-        "pin_in_slot": _("pin in a slot"), "cam": _("cam"), "gear": _("gear teeth"), "screw": _("screw"),
-        "universal": _("universal"), "cylindrical": _("cylindrical"), "spherical": _("spherical"),
-        "planar": _("planar contact"), "sphere_in_groove": _("ball in a groove"),
-        "point_contact": _("point contact"), "fixed": _("fixed"),
-    }  # fmt: skip
 
 
 def _turn(sketch: Sketch, at: Point, radius: float, start: float, end: float) -> None:

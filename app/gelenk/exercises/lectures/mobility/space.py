@@ -16,30 +16,16 @@ from gelenk.language import marked
 from gelenk.language import translated as _
 
 
-def pair_names() -> dict[str, str]:
-    """Return the names of the kinds of pairs, in the current language."""
-    return {
-        "revolute": _("revolute"),
-        "prismatic": _("prismatic"),
-        "screw": _("screw"),
-        "universal": _("universal"),
-        "cylindrical": _("cylindrical"),
-        "spherical": _("spherical"),
-        "planar": _("planar"),
-        "sphere_in_groove": _("sphere in a groove"),
-        "point_contact": _("point contact"),
-    }
-
-
 def _constraints(kinds: tuple[str, ...], space: Space = "spatial") -> list[int]:
     return [KINDS[kind].constraints(space) or 0 for kind in kinds]
 
 
 def _table_steps(kinds: tuple[str, ...]) -> list[Step]:
-    names = pair_names()
     formulas = [rf"c_{i} = 6 - {6 - c} = {c}" for i, c in enumerate(_constraints(kinds), start=1)]
     text = _("A free body has 6 freedoms in space; the pairs are, in this order: {kinds}.")
-    return [step(_("Freedoms that are left"), text.format(kinds=", ".join(names[kind] for kind in kinds)), *formulas)]
+    return [
+        step(_("Freedoms that are left"), text.format(kinds=", ".join(KINDS[kind].name for kind in kinds)), *formulas)
+    ]
 
 
 TABLE = Exercise(
@@ -53,7 +39,7 @@ TABLE = Exercise(
     is_degenerate=lambda kinds: len(set(_constraints(kinds))) < 4,
     text=lambda kinds: _(
         "How many of the 6 freedoms of a body in space does each of these pairs remove? In this order: {kinds}."
-    ).format(kinds=", ".join(pair_names()[kind] for kind in kinds)),
+    ).format(kinds=", ".join(KINDS[kind].name for kind in kinds)),
     fields=lambda kinds: (VectorField(name="constraints", label=_("Constraints c of the pairs"), size=len(kinds)),),
     solve=lambda kinds: {"constraints": _constraints(kinds)},
     steps=_table_steps,
@@ -95,7 +81,6 @@ class Platform(NamedTuple):
 
 
 def _platform_text(numbers: Platform) -> str:
-    names = pair_names()
     return _(
         "A platform rests on {legs} equal legs of type {letters}: from the ground to the platform each has these "
         "pairs: {pairs}. Ground, platform and the links between the pairs of the legs are the links.\n\n"
@@ -105,7 +90,7 @@ def _platform_text(numbers: Platform) -> str:
     ).format(
         legs=numbers.legs,
         letters="".join(kind[0].upper() for kind in numbers.leg),
-        pairs=", ".join(names[kind] for kind in numbers.leg),
+        pairs=", ".join(KINDS[kind].name for kind in numbers.leg),
     )
 
 
