@@ -1,13 +1,15 @@
 """Homework for the tests, and an exercise whose texts have every sign that a format could take for its own."""
 
-from typing import Any, NamedTuple
+from dataclasses import replace
+from typing import NamedTuple
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from gelenk.course.steps import step
 from gelenk.exercises.catalogue import exercises
-from gelenk.exercises.exercise import Exercise, Variant
-from gelenk.exercises.fields import ChoiceField, MatrixField, NumberField, SetField, VectorField
+from gelenk.exercises.exercise import Exercise
+from gelenk.exercises.fields import ChoiceField, MatrixField, NumberField, SetField, VectorField, basis
 from gelenk.sheets.homework import Homework, Sheet
 
 SECRET = "only the lecturer knows"  # noqa: S105
@@ -24,7 +26,7 @@ def drawn(_: Numbers) -> Figure:
     return figure
 
 
-ODD = Exercise(
+ODD: Exercise[Numbers] = Exercise(
     id="signs.all",
     title=SIGNS,
     difficulty=1,
@@ -72,5 +74,10 @@ def odd() -> Homework:
     return OddHomework((), (), "", SECRET)
 
 
-def variants(one: Homework) -> list[Variant[Any]]:
-    return [variant for sheet in one.sheets for variant in sheet.variants]
+def unasked() -> Homework:
+    """A homework of an exercise that asks for a plane, which no system can compare number by number."""
+    plane = basis("plane", "P", (3, 2))
+    one = replace(ODD, fields=lambda _: (plane,), solve=lambda _: {"plane": np.eye(3)[:, :2]}, wrong={})
+    found = OddHomework((), (), "", SECRET)
+    found.__dict__.update(exercises=(one,), sheets=(Sheet("Ada", (one.variant(1),)),))
+    return found

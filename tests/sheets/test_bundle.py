@@ -41,11 +41,20 @@ def test_a_bundle_has_every_file_and_is_always_the_same() -> None:
     assert found == {name: text.encode() if isinstance(text, str) else text for name, text in expected.items()}
 
 
+def weighted(data: dict[str, Any]) -> None:
+    parts = data["partial_scores"].values()
+    data["score"] = sum(part["score"] * part.get("weight", 1) for part in parts) / sum(
+        p.get("weight", 1) for p in parts
+    )
+
+
 @pytest.fixture
 def prairielearn(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What `server.py` needs of it: an array as JSON, as `to_json` is documented."""
+    """What `server.py` needs of it: arrays as JSON, and the score of all parts, as these are documented."""
     module = types.ModuleType("prairielearn")
     module.to_json = lambda array: {"_type": "ndarray", "_value": array.tolist()}  # type: ignore[attr-defined]
+    module.from_json = lambda value: value["_value"] if isinstance(value, dict) else value  # type: ignore[attr-defined]
+    module.set_weighted_score_data = weighted  # type: ignore[attr-defined]
     monkeypatch.setitem(sys.modules, "prairielearn", module)
 
 
@@ -77,6 +86,7 @@ def test_prairielearn_gets_the_right_answers(tmp_path: Path) -> None:
             continue
         info = json.loads((folder / "info.json").read_text())
         assert info["type"] == "v3"
+        assert info.keys() == {"uuid", "title", "topic", "tags", "type"}  # all that are required, none that is unknown
         ids.add(uuid.UUID(info["uuid"]))
         expected = [
             {field.name: sent(one.answers[field.name]) for field in one.fields if field.kind in ("number", "vector")}
@@ -106,3 +116,32 @@ def test_prairielearn_gets_each_kind_of_field(tmp_path: Path) -> None:
     assert data["params"]["choice"] == {"c0": "true", "c1": "false", "c2": "false"}
     assert data["params"]["vector"]["tolerance"] == pytest.approx(0.03)
     assert data["params"]["angle"]["tolerance"] == 0.01
+
+
+@pytest.mark.usefixtures("prairielearn")
+@pytest.mark.parametrize(("apart", "score"), [(0.0, 1.0), (2 * np.pi, 1.0), (-4 * np.pi + 0.005, 1.0), (np.pi, 0.0)])
+def test_prairielearn_accepts_whole_turns(tmp_path: Path, apart: float, score: float) -> None:
+    """After its elements have compared the numbers."""
+    folder = written(tmp_path, prairielearn_files(odd())) / "signs_all"
+    data = generated(folder, 1)
+    names = list(data["params"]["turns"])
+    assert names == ["angle", "set"]
+    right = data["correct_answers"]
+    turned = {"_type": "ndarray", "_value": (np.array(right["set"]["_value"]) + apart).tolist()}
+    data["submitted_answers"] = {"angle": right["angle"] + apart, "set": turned}
+    data["partial_scores"] = {name: {"score": float(apart == 0.0), "weight": 1} for name in names}
+    namespace: dict[str, Any] = {}
+    exec((folder / "server.py").read_text(), namespace)  # noqa: S102 - as PrairieLearn does
+    namespace["grade"](data)
+    assert [part["score"] for part in data["partial_scores"].values()] == [score, score]
+    assert data["score"] == score
+
+
+@pytest.mark.usefixtures("prairielearn")
+def test_an_empty_answer_stays_wrong_in_prairielearn(tmp_path: Path) -> None:
+    folder = written(tmp_path, prairielearn_files(odd())) / "signs_all"
+    data = {**generated(folder, 1), "submitted_answers": {}, "partial_scores": {"angle": {"score": 0.0}}}
+    namespace: dict[str, Any] = {}
+    exec((folder / "server.py").read_text(), namespace)  # noqa: S102 - as PrairieLearn does
+    namespace["grade"](data)
+    assert data["score"] == 0.0

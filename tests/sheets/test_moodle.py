@@ -12,12 +12,12 @@ import pytest
 
 from gelenk.errors import InvalidField
 from gelenk.exercises.exercise import Variant
-from gelenk.exercises.fields import SetField
 from gelenk.exercises.mistakes.catalogue import mistake
 from gelenk.language import language
-from gelenk.sheets.cloze import fits, in_order
+from gelenk.sheets.cloze import fits
 from gelenk.sheets.moodle import moodle_xml
-from tests.sheets.examples import ODD, SIGNS, homework, odd, variants
+from gelenk.sheets.normal_form import normal_form
+from tests.sheets.examples import SIGNS, homework, odd, unasked
 
 # The notation as Moodle documents it: {points:TYPE:alternatives}; an alternative is "=" or "%share%", then the answer,
 # then "#" and the feedback. In an answer ~ # } end it unless a backslash or an ampersand stands before them.
@@ -79,8 +79,7 @@ def numbers(variant: Variant[Any]) -> list[tuple[Any, float]]:
         right = variant.answers[one.name]
         if one.choices():
             continue
-        cells = np.concatenate(in_order(one, right)) if isinstance(one, SetField) else np.ravel(right)
-        found += [(one, float(cell)) for cell in cells]
+        found += [(one, float(cell)) for cell in np.ravel(normal_form(one, right))]
     return found
 
 
@@ -194,15 +193,11 @@ def test_names_of_participants_do_not_leave() -> None:
     assert "Hopper" not in xml
 
 
-@pytest.mark.slow
 def test_what_moodle_cannot_ask_is_refused_or_said() -> None:
-    one = homework()
-    left_out = [exercise.id for exercise, all_of in one.pools() if not all(map(fits, all_of))]
-    if not left_out:
-        pytest.skip("Moodle can ask them all")
-    with pytest.raises(InvalidField, match="no question for one of its fields"):
-        moodle_xml(one)
-    xml = moodle_xml(one, is_partial=True).decode()
-    assert re.findall(r"<!-- (\S+) is left out", xml) == left_out
-    assert variants(one)
-    assert fits(ODD.variant(1))
+    with pytest.raises(InvalidField, match=r"signs.all asks for a basis of several vectors, .*; leave it out") as error:
+        moodle_xml(unasked())
+    assert error.value.field == "exercises/0"
+    xml = moodle_xml(unasked(), is_partial=True).decode()
+    assert re.findall(r"<!-- (\S+) asks .* is left out -->", xml) == ["signs.all"]
+    assert questions(xml.encode()) == []
+    assert all(fits(one.variant(0)) for one in homework().exercises)

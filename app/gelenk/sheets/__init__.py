@@ -3,6 +3,7 @@
 - `homework`: who gets which variants; a secret decides the numbers, and nothing is kept.
   `bounds`: how many.
 - `document`: parts of the printed pages; `pages`: the sheets and the booklet of solutions; `pdf`: printed by Chromium.
+- `normal_form`: answers in the one form that a comparison of numbers takes.
 - `cloze`, `moodle`: questions for Moodle. `prairielearn`: questions for PrairieLearn.
 - `key`: the right answers as a table. `table`: tables of texts as CSV; `grades`: what a table of answers earns.
 - `bundle`: all of these in one file.

@@ -14,20 +14,19 @@ import numpy as np
 
 from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.exercise import Variant
-from gelenk.exercises.fields import TURNS, NumberArray, SetField
+from gelenk.exercises.fields import NumberArray
 from gelenk.exercises.mistakes.catalogue import mistake
-from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
+from gelenk.sheets.normal_form import allowed, form_note, has_normal_form, normal_form, turns_of
 
 _SIGNS = str.maketrans({sign: f"&#{ord(sign)};" for sign in '~#}{\\=%"'})
-_KINDS = frozenset({"number", "vector", "matrix", "choice", "set"})
 _FINEST = 10_000
 """Parts of a point that weights tell apart."""
 
 
 def fits(variant: Variant[Any]) -> bool:
-    """Check whether Moodle has fields for all answers: not for a basis, of which any other is right as well."""
-    return all(one.kind in _KINDS for one in variant.fields)
+    """Check whether all answers can be compared number by number."""
+    return all(map(has_normal_form, variant.fields))
 
 
 def questions(variant: Variant[Any]) -> Iterator[tuple[AnswerField, str]]:
@@ -43,10 +42,14 @@ def _embedded(variant: Variant[Any], one: AnswerField, weight: int) -> str:
         told = {word: code for code, word in wrong.items()}
         parts = [_option(text, word == right, told.get(word)) for word, text in choices.items()]
         return f"{{{weight}:MULTICHOICE:{'~'.join(parts)}}}"
-    if isinstance(one, SetField):
-        cells = in_order(one, right)
-        table = [[_numerical(weight, _accepted(one.item, cell, row), ()) for cell in row] for row in cells]
-        return f"<p>{escape(order_note())}</p>{_table(table)}"
+    if note := form_note(one):
+        rows = normal_form(one, right)
+        turns, near = turns_of(one, np.shape(rows)), allowed(one, right)
+        table = [
+            [_numerical(weight, _accepted(*cell, near), ()) for cell in zip(*row, strict=True)]
+            for row in zip(rows, turns, strict=True)
+        ]
+        return f"<p>{escape(note)}</p>{_table(table)}"
     one, array = cast(NumberArray, one), np.asarray(right, float)
     cell = partial(_cell, one, array, {code: np.asarray(answer, float) for code, answer in wrong.items()}, weight)
     if array.ndim == 0:
@@ -58,36 +61,21 @@ def _embedded(variant: Variant[Any], one: AnswerField, weight: int) -> str:
 
 def _cell(one: NumberArray, right: Array, wrong: Mapping[str, Array], weight: int, place: tuple[int, ...]) -> str:
     """Return the question for one number of an answer; a wrong number that two mistakes share has no feedback."""
-    allowed = one.allowed(right)
+    right_near = one.allowed(right)
     found = [(float(answer[place]), one.allowed(answer), code) for code, answer in wrong.items()]
-    apart = [(float(right[place]), allowed), *((value, near) for value, near, _code in found)]
+    apart = [(float(right[place]), right_near), *((value, near) for value, near, _code in found)]
     clear = [
         (value, near, code)
         for i, (value, near, code) in enumerate(found, 1)
         if all(abs(value - other) > near + room for j, (other, room) in enumerate(apart) if j != i)
     ]
-    return _numerical(weight, _accepted(one, float(right[place]), right), clear)
+    turn = float(turns_of(one, ())[()])
+    return _numerical(weight, _accepted(float(right[place]), turn, right_near), clear)
 
 
-def _accepted(one: NumberArray, value: float, right: Any) -> list[tuple[float, float]]:
+def _accepted(value: float, turn: float, near: float) -> list[tuple[float, float]]:
     """Return the numbers that are right, each with its tolerance: an angle may differ by a turn."""
-    near = one.allowed(right)
-    turn = TURNS.get(one.unit, 0.0) if one.is_angle else 0.0
     return [(value + shift, near) for shift in ((0.0, turn, -turn) if turn else (0.0,))]
-
-
-def order_note() -> str:
-    """Return what to say about the order of a set, where fields have places."""
-    return _("In ascending order of the first number, each angle between half a turn backwards and forwards.")
-
-
-def in_order(one: SetField, right: Sequence[Any]) -> list[Array]:
-    """Return the solutions in ascending order, angles within half a turn."""
-    turn = TURNS[one.item.unit] if one.item.is_angle else math.inf
-    rows = [np.atleast_1d(np.asarray(row, float)) for row in right]
-    if one.item.is_angle:
-        rows = [row - turn * np.round(row / turn) for row in rows]
-    return sorted(rows, key=lambda row: [round(number, 6) for number in row.tolist()])
 
 
 def _numerical(weight: int, right: Sequence[tuple[float, float]], wrong: Sequence[tuple[float, float, str]]) -> str:

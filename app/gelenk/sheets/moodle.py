@@ -13,6 +13,7 @@ from gelenk.sheets.document import paragraphs
 from gelenk.sheets.homework import Homework
 
 _PICTURE = "picture.svg"
+_NOT_ASKED = "asks for a basis of several vectors, which Moodle cannot compare"
 
 
 def moodle_xml(homework: Homework, is_partial: bool = False) -> bytes:
@@ -24,8 +25,8 @@ def moodle_xml(homework: Homework, is_partial: bool = False) -> bytes:
     for i, (exercise, variants) in enumerate(homework.pools()):
         if not all(map(fits, variants)):
             if not is_partial:
-                raise InvalidField(f"exercises/{i}", "Moodle has no question for one of its fields; leave it out")
-            quiz.append(Comment(f" {exercise.id} is left out: Moodle has no question for one of its fields "))
+                raise InvalidField(f"exercises/{i}", f"{exercise.id} {_NOT_ASKED}; leave it out")
+            quiz.append(Comment(f" {exercise.id} {_NOT_ASKED} and is left out "))
             continue
         title = homework.title or _("Exercises")
         category = SubElement(SubElement(quiz, "question", type="category"), "category")

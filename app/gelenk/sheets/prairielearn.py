@@ -1,20 +1,21 @@
 """Questions for PrairieLearn: a folder for each exercise, with the variants of all participants to choose from."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from html import escape
-from typing import Any, cast
+from typing import Any
 from uuid import NAMESPACE_URL, uuid5
 
 import numpy as np
 
 from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.exercise import Exercise, Variant
-from gelenk.exercises.fields import NumberArray, NumberField, SetField
+from gelenk.exercises.fields import NumberField
 from gelenk.language import translated as _
-from gelenk.sheets.cloze import fits, in_order, order_note
+from gelenk.sheets.cloze import fits
 from gelenk.sheets.document import paragraphs, picture
 from gelenk.sheets.homework import Homework
+from gelenk.sheets.normal_form import allowed, form_note, normal_form, turns_of
 
 _SERVER = '''"""Chooses one of the variants in `variants.json`; PrairieLearn seeds `random` for each of its own."""
 
@@ -32,6 +33,20 @@ def generate(data):
     data["params"].update(variant["params"])
     for name, answer in variant["answers"].items():
         data["correct_answers"][name] = pl.to_json(np.array(answer)) if isinstance(answer, list) else answer
+
+
+def grade(data):
+    """Accept angles that differ by whole turns."""
+    for name, turns in data["params"]["turns"].items():
+        given, right = data["submitted_answers"].get(name), data["correct_answers"][name]
+        if given is None or data["partial_scores"].get(name) is None:
+            continue
+        apart = np.array(pl.from_json(given), float) - np.array(pl.from_json(right), float)
+        turns = np.array(turns)
+        whole = np.where(turns > 0, turns * np.round(apart / np.where(turns > 0, turns, 1)), 0)
+        if np.abs(apart - whole).max() <= data["params"][name]["tolerance"]:
+            data["partial_scores"][name]["score"] = 1.0
+    pl.set_weighted_score_data(data)
 '''
 
 
@@ -72,14 +87,14 @@ def _input(one: AnswerField) -> str:
         )
         return (
             f"<p>{label}</p>\n"
-            f'<pl-multiple-choice answers-name="{name}" fixed-order="true">\n{options}\n</pl-multiple-choice>'
+            f'<pl-multiple-choice answers-name="{name}" order="fixed">\n{options}\n</pl-multiple-choice>'
         )
     if isinstance(one, NumberField):
         unit = f' suffix="{escape(one.unit)}"' if one.unit else ""
         return f'<pl-number-input {compared} label="{label}"{unit}></pl-number-input>'
     unit = f" [{escape(one.unit)}]" if one.unit else ""
-    note = f" {escape(order_note())}" if isinstance(one, SetField) else ""
-    return f"<p>{label}{unit}.{note}</p>\n<pl-matrix-component-input {compared}></pl-matrix-component-input>"
+    note = f"<p>{label}{unit}. {escape(form_note(one))}</p>"
+    return f"{note}\n<pl-matrix-component-input {compared}></pl-matrix-component-input>"
 
 
 def _variant(variant: Variant[Any]) -> dict[str, Any]:
@@ -93,22 +108,25 @@ def _variant(variant: Variant[Any]) -> dict[str, Any]:
         "params": {
             "text": paragraphs(variant.exercise.text(variant.numbers)) + picture(variant),
             "solution": steps,
+            "turns": _turns(fields.values()),
             **{name: _params(one, right) for name, (one, right) in fields.items()},
         },
         "answers": {name: _answer(one, right) for name, (one, right) in fields.items() if not one.choices()},
     }
 
 
+def _turns(fields: Iterable[tuple[AnswerField, Any]]) -> dict[str, Any]:
+    """Return the turns of the numbers of each field that has angles."""
+    found = {one.name: turns_of(one, np.shape(_answer(one, right))) for one, right in fields if not one.choices()}
+    return {name: turns.tolist() for name, turns in found.items() if turns.any()}
+
+
 def _params(one: AnswerField, right: Any) -> dict[str, Any]:
     if choices := one.choices():
         return {f"c{i}": str(word == right).lower() for i, word in enumerate(choices)}
-    if isinstance(one, SetField):
-        return {"tolerance": min(one.item.allowed(row) for row in in_order(one, right))}
-    return {"tolerance": cast(NumberArray, one).allowed(right)}
+    return {"tolerance": allowed(one, right)}
 
 
 def _answer(one: AnswerField, right: Any) -> Any:
-    if isinstance(one, SetField):
-        return [row.tolist() for row in in_order(one, right)]
-    array = np.asarray(right, float)
+    array = np.asarray(normal_form(one, right))
     return float(array) if array.ndim == 0 else np.atleast_2d(array).tolist()
