@@ -66,7 +66,7 @@ def _numbers(one: NumberField | VectorField | MatrixField, right: Any, random: R
     moved = numbers + signs * allowed / 3 + (turn * turns if one.is_angle else 0.0)
     yield moved.tolist()
     yield _with_commas(moved.tolist())
-    yield np.round(numbers, math.ceil(-math.log10(2.0 * allowed)) if allowed else 0).tolist()
+    yield np.round(numbers, math.ceil(-math.log10(allowed)) if allowed else 0).tolist()
 
 
 def _with_commas(numbers: Any) -> Any:
