@@ -3,15 +3,17 @@
 A message is written in English where it is used, as `_("{n} links meet.").format(n=n)`, with this module's
 `translated` imported as `_`. One that is written before its language is known, such as in a table of a module, is
 `marked` there and `translated` where it is used. The catalogues in `app/gelenk/texts` hold all of them in the other
-languages; `./dev texts` compiles them.
+languages; `./dev texts` compiles them. Numbers that `.format` puts in get the decimal mark of the language; a number
+that is text already goes through `localised`, a list of numbers through `number_list`.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
 from gettext import NullTranslations, translation
-from typing import Literal, TypeAlias
+from string import Formatter
+from typing import Any, Literal, TypeAlias
 
 from gelenk.package_data import texts
 
@@ -22,12 +24,43 @@ _current: ContextVar[Language] = ContextVar("language", default="en")
 
 def translated(message: str) -> str:
     """Return a message in the current language; in English, and where no catalogue has it, as it is."""
-    return _catalogue(_current.get()).gettext(message)
+    found = _catalogue(_current.get()).gettext(message)
+    return _WithCommas(found) if has_decimal_comma() else found
 
 
 def marked(message: str) -> str:
     """Return a message as it is, to be translated where it is used; the mark lets `./dev texts` find it."""
     return message
+
+
+def has_decimal_comma() -> bool:
+    """Return whether the current language writes 0,25."""
+    return _current.get() == "de"
+
+
+def localised(number: str) -> str:
+    """Return a number with the decimal mark of the current language."""
+    return number.replace(".", ",") if has_decimal_comma() else number
+
+
+def number_list(values: Iterable[float]) -> str:
+    """Return numbers in a list, with six digits: 0.25, 1 or, behind decimal commas, 0,25; 1."""
+    return ("; " if has_decimal_comma() else ", ").join(localised(f"{value:g}") for value in values)
+
+
+class _CommaFormatter(Formatter):
+    def format_field(self, value: Any, format_spec: str) -> Any:
+        text = super().format_field(value, format_spec)
+        return localised(text) if isinstance(value, float) else text
+
+
+class _WithCommas(str):
+    """A message whose numbers get decimal commas."""
+
+    __slots__ = ()
+
+    def format(self, *args: Any, **kwargs: Any) -> str:
+        return _CommaFormatter().vformat(self, args, kwargs)
 
 
 def current_language() -> Language:

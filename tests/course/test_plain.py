@@ -25,6 +25,7 @@ from gelenk.course.plain import plain
         (r"\varphi - \cos^2 \psi + x", "φ - cos² ψ + x"),
         (r"x = \pm\sqrt{a} \pm b", "x = ±√(a) ± b"),
         (r"f(\pm y, \mp x)", "f(±y, ∓x)"),
+        (r"(0{,}3;\; 1)\begin{bmatrix} 0{,}5 & 1 \\ 2 & 3 \end{bmatrix}^2", "(0,3; 1)[0,5  1; 2  3]²"),
         (r"\det J = \det(J^T), \dim = 1", "det J = det(Jᵀ), dim = 1"),
     ],
 )

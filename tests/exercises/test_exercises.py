@@ -16,6 +16,7 @@ from gelenk.exercises.exercise import Exercise, Variant
 from gelenk.exercises.grading import graded
 from gelenk.exercises.mistakes.catalogue import catalogue
 from gelenk.exercises.mistakes.general import OF_FORM
+from gelenk.language import language
 from tests.exercises.figures import OF_FORMS, counted
 from tests.exercises.forms import same, sent
 
@@ -106,6 +107,18 @@ def test_the_text_has_all_numbers(exercise: Exercise[Any]) -> None:
         written = set(re.findall(r"\d+(?:\.\d+)?(?:e-?\d+)?", exercise.text(numbers)))
         numeric = {f"{abs(leaf):.12g}" for leaf in leaves(numbers) if isinstance(leaf, int | float)}
         assert numeric <= written
+
+
+@each
+def test_german_has_decimal_commas(exercise: Exercise[Any]) -> None:
+    """In the text, the same numbers; in the formulas of the solution {,}, which sets no space."""
+    numbers = exercise.variant(1).numbers
+    with language("de"):
+        text, steps = exercise.text(numbers), exercise.steps(numbers)
+    formulas = [line for step in steps for line in (step.text, *step.latex, *step.plain)]
+    assert not re.search(r"\d\.\d", " ".join((text, *formulas)))
+    english = re.findall(r"\d+\.\d+", exercise.text(numbers))
+    assert sorted(re.findall(r"\d+,\d+", text)) == sorted(one.replace(".", ",") for one in english)
 
 
 def test_mistakes_of_two_lectures_have_different_codes() -> None:

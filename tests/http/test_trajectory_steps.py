@@ -9,6 +9,7 @@ from starlette.testclient import TestClient
 
 from gelenk.contract.endpoints import BY_NAME
 from gelenk.contract.trajectory_answer import TrajectoryAnswer
+from tests.oracles.written import with_points
 
 READY = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 BESIDE = [0.3, -0.5, 0.1, -2.2, 0.05, 1.8, 0.9]
@@ -45,7 +46,7 @@ def test_formulas_are_the_same_in_both_languages(client: TestClient) -> None:
     english, german = (
         worked(client, start=READY, segments=[JOINT], language=code)[0]["steps"] for code in ("en", "de")
     )
-    assert [one["latex"] for one in english] == [one["latex"] for one in german]
+    assert [one["latex"] for one in english] == [list(map(with_points, one["latex"])) for one in german]
 
 
 @pytest.mark.parametrize(("law", "peaks"), [("cubic", (1.5, 6.0)), ("quintic", (1.875, 10 / math.sqrt(3), 60.0))])

@@ -10,6 +10,7 @@ from starlette.testclient import TestClient
 from gelenk.course.velocity.writing import number
 from tests.http.test_inverse import ik
 from tests.http.test_velocity import NPY, PLANE, READY, refusal, velocity
+from tests.oracles.written import with_points
 
 BENT = [0.3, 0.8]
 CALLS: list[tuple[str, str, dict[str, Any]]] = [
@@ -77,8 +78,8 @@ def test_steps_come_beside_the_same_numbers_in_the_language_asked_for(
 
 
 def formulas(step: dict[str, Any]) -> list[str]:
-    """The formulas of a step, without their words."""
-    return [re.sub(r"\\text\{[^}]*\}", "", line) for line in step["latex"]]
+    """The formulas of a step, without their words, and with the decimal marks of English."""
+    return [re.sub(r"\\text\{[^}]*\}", "", with_points(line)) for line in step["latex"]]
 
 
 def test_the_last_step_of_an_inversion_is_the_answer(client: TestClient) -> None:

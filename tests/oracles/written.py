@@ -10,6 +10,11 @@ _MATRIX = re.compile(r"\\begin\{bmatrix\}(.*?)\\end\{bmatrix\}")
 _VECTOR = re.compile(r"\(([^()]*,\\;[^()]*)\)")
 
 
+def with_points(latex: str) -> str:
+    """A German formula with the decimal marks and lists of an English one."""
+    return latex.replace("{,}", ".").replace(r";\;", r",\;")
+
+
 def value(text: str) -> float:
     """A number, perhaps with a power of ten."""
     mantissa, _, power = text.partition(r"\cdot 10^{")

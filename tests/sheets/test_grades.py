@@ -67,7 +67,14 @@ def test_grades_are_those_of_one_variant() -> None:
 
 @pytest.mark.parametrize(
     "form",
-    ["{} {} {} {} {}", "{}; {}; {}; {}; {}", "[{}, {}, {}, {}, {}]", "({} {} {} {} {})", " {}  {} {},0 {} {} "],
+    [
+        "{} {} {} {} {}",
+        "{}; {}; {}; {}; {}",
+        "[{}, {}, {}, {}, {}]",
+        "({} {} {} {} {})",
+        "({},0; {},0; {},0; {},0; {},0)",
+        " {}  {} {},0 {} {} ",
+    ],
 )
 def test_vectors_are_read_in_many_forms(form: str) -> None:
     (variant,) = homework("mobility.pairs", participants=("Ada",)).sheets[0].variants

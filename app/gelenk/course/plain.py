@@ -33,6 +33,8 @@ _SPACES = {",", ";", ":", "", "!"}
 _ROOTS = {"3": "∛", "4": "∜"}
 _APPLIED = "\u2061"
 """Stands behind the name of a function until it is known whether its argument needs a space."""
+_COMMA, _NEXT = "\u2063", "\u2064"
+"""A decimal comma, and what separates the entries of a row, until the rows are read."""
 _TOKEN = re.compile(r"\\(?:[A-Za-z]+\s*|.)|\s+|.", re.DOTALL)
 _SUPERSCRIPTS = str.maketrans("0123456789+-=()ni", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾ⁿⁱ")
 _RAISED = set("0123456789+-=()ni")
@@ -45,6 +47,7 @@ def plain(latex: str) -> str:
     text = re.sub(r"(?<=[^\s:])(?=[=≤≥] )|(?<=[α-ωϑϕϵ])(?=[+-] )", " ", text)
     # At the beginning of a formula, a bracket or an argument a sign belongs to what follows.
     text = re.sub(r"(?:(^|[(\[{])\s*|([,;=]\s*))([±∓]) ", r"\1\2\3", text)
+    text = text.replace(_NEXT, "\u2003" if _COMMA in text else ",").replace(_COMMA, ",")
     return re.sub(r" *\u2003 *", "  ", re.sub(r" +", " ", text)).strip()
 
 
@@ -71,13 +74,14 @@ class _Reader:
 
     def _read(self, part: str) -> str:
         if part == "{":
-            return self.group()
+            inner = self.group()
+            return _COMMA if inner == "," else inner
         if part == "^":
             return _raised(self._argument())
         if part == "_":
             return _lowered(self._argument())
         if part == "&":
-            return ", "
+            return _NEXT
         if not part.startswith("\\"):
             return part
         return self._command(part[1:])
@@ -119,7 +123,7 @@ class _Reader:
 
 def _rows(text: str) -> str:
     """Return the rows of a matrix, without the space that its source has around `&` and line ends."""
-    return re.sub(r"\s*([,;])\s*", r"\1 ", text).strip().removesuffix(";")
+    return re.sub(rf"\s*([{_NEXT},;])\s*", r"\1 ", text).strip().removesuffix(";")
 
 
 def _factor(text: str) -> str:

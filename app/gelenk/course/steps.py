@@ -1,12 +1,15 @@
 """Worked solutions: formulas as the lecture writes them, with the numbers substituted."""
 
 import math
+import re
 from dataclasses import dataclass
 
 from gelenk.course.plain import plain
+from gelenk.language import has_decimal_comma
 from gelenk.robot.result import Result
 
 _SHOWN_DIGITS = 10
+_POINT = re.compile(r"(?<=\d)\.(?=\d)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,8 +30,16 @@ class Step(Result):
 
 
 def step(title: str, text: str, *latex: str) -> Step:
-    """Return a step with any number of formulas."""
+    """Return a step with any number of formulas, whose numbers get the decimal mark of the language."""
+    latex = tuple(map(in_language, latex))
     return Step(title, text, latex, tuple(map(plain, latex)))
+
+
+def in_language(latex: str) -> str:
+    r"""Return a formula as the current language writes it: in German 0{,}25, and lists (a;\; b) instead of (a,\; b)."""
+    if not has_decimal_comma():
+        return latex
+    return _POINT.sub("{,}", latex).replace(r",\;", r";\;")
 
 
 def tex(value: float, unit: str = "", digits: int = _SHOWN_DIGITS) -> str:

@@ -5,6 +5,7 @@ import numpy as np
 from gelenk.course.steps import Step, step
 from gelenk.course.velocity.inverse_question import InverseQuestion
 from gelenk.course.velocity.writing import matrix, number, row
+from gelenk.language import localised
 from gelenk.language import translated as _
 
 _X = (r"\dot q", r"\ddot q", "q^{(3)}")
@@ -23,7 +24,7 @@ def _damping(question: InverseQuestion) -> Step:
         least = max(0.0, threshold**2 - float(question.inverse.factors[1][-1]) ** 2)
         lines = [rf"\max(0,\; \sigma_0^2 - \sigma_{{min}}^2) = {number(least)}", *lines]
         grown = _("It grows as the smallest singular value falls below σ_0 = {threshold}.")
-        text += " " + grown.format(threshold=f"{threshold:.6g}")
+        text += " " + grown.format(threshold=localised(f"{threshold:.6g}"))
         if damping > least * (1.0 + 1e-9):
             text += " " + _("A velocity limit asks for more.")
     return step(_("Damping"), text, *lines)

@@ -6,6 +6,7 @@ from gelenk.course.velocity.inverse_question import InverseQuestion
 from gelenk.course.velocity.null_space_steps import wish_steps
 from gelenk.course.velocity.pseudo_inverse_steps import pseudo_inverse_steps
 from gelenk.course.velocity.writing import largest, matrix, row
+from gelenk.language import localised
 from gelenk.language import translated as _
 
 _X = (r"\dot q", r"\ddot q", "q^{(3)}")
@@ -42,7 +43,7 @@ def _equation(question: InverseQuestion) -> Step:
     )
     if question.length is not None:
         scaled = _("Angular rows are multiplied by the length L = {length} m, so that all rows are in metres.")
-        text += " " + scaled.format(length=f"{question.length:.6g}")
+        text += " " + scaled.format(length=localised(f"{question.length:.6g}"))
     elif question.mixes_units:
         text += " " + _(
             "Metres and radians are mixed: the lengths that are made least, and so the pseudo-inverse, depend on the "

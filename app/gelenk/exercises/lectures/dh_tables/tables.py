@@ -14,7 +14,7 @@ from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import matrix, vector
 from gelenk.exercises.lectures.dh_tables.rows import typeset
 from gelenk.exercises.table_field import DhTableField, table_of
-from gelenk.language import marked
+from gelenk.language import localised, marked, number_list
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable
@@ -65,7 +65,7 @@ def _is_useless(one: CraigTable) -> bool:
 
 def listing(rows: tuple[_ROW, ...]) -> str:
     """Return rows as text, angles in degrees."""
-    return "; ".join(f"{a:g} m, {alpha:g}°, {d:g} m, {theta:g}°" for a, alpha, d, theta in rows)
+    return "; ".join(localised(f"{a:g} m, {alpha:g}°, {d:g} m, {theta:g}°") for a, alpha, d, theta in rows)
 
 
 def standard_rows(one: CraigTable) -> Array:
@@ -186,7 +186,7 @@ def _direction(vector: Array) -> str:
 
 
 def _point(vector: Array) -> str:
-    return ", ".join(f"{round(float(x), 6) + 0.0:g}" for x in vector)
+    return number_list(round(float(x), 6) + 0.0 for x in vector)
 
 
 def _axes_text(one: AxesTask) -> str:
@@ -199,7 +199,10 @@ def _axes_text(one: AxesTask) -> str:
         lines.append(line.format(number=i + 1, point=_point(point), direction=_direction(direction)))
     tip = one.table.pose((0.0,) * 3)
     units = ["m" if slide else "rad" for slide in one.slides]
-    names = [f"q{i} = {q:g} {unit}" for i, (q, unit) in enumerate(zip(one.positions, units, strict=True), start=1)]
+    names = [
+        f"q{i} = {localised(f'{q:g}')} {unit}"
+        for i, (q, unit) in enumerate(zip(one.positions, units, strict=True), start=1)
+    ]
     return _(
         "An arm of three joints is described at q = 0, in the axes of the base frame 0, lengths in metres.\n\n"
         "{axes}\n\n"

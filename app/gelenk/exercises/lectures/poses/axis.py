@@ -33,7 +33,7 @@ from gelenk.exercises.lectures.poses.triples import (
     zyz_solutions,
 )
 from gelenk.exercises.rational import RationalRotation, drawn_rotation
-from gelenk.language import marked
+from gelenk.language import marked, number_list
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import inverse, transform
@@ -173,9 +173,6 @@ def _camera_steps(one: CameraTask) -> list[Step]:
 
 
 def _camera_text(one: CameraTask) -> str:
-    def listed(values: tuple[float, ...]) -> str:
-        return ", ".join(f"{value:g}" for value in values)
-
     roll, pitch, yaw = one.rpy
     return _(
         "A gripper has its origin at ({gripper}) m in frame 0, and is turned about the fixed axes of frame 0: first by "
@@ -187,13 +184,13 @@ def _camera_text(one: CameraTask) -> str:
         "with angles between -π and π? About which axis, a unit vector, and by which angle between 0 and π is it "
         "turned against frame 0?"
     ).format(
-        gripper=listed(one.gripper),
+        gripper=number_list(one.gripper),
         roll=roll,
         pitch=pitch,
         yaw=yaw,
-        camera=listed(one.camera),
+        camera=number_list(one.camera),
         tilt=one.tilt,
-        seen=listed(one.seen),
+        seen=number_list(one.seen),
     )
 
 

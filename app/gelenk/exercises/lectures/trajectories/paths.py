@@ -13,7 +13,7 @@ from gelenk.course.motion.fly_over_steps import fly_over_steps
 from gelenk.exercises.draw import Draw
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import quantity, vector
-from gelenk.language import marked
+from gelenk.language import marked, number_list
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 
@@ -23,7 +23,7 @@ _Point = tuple[float, float, float]
 
 
 def _point(values: Sequence[float]) -> str:
-    return "(" + ", ".join(f"{value:g}" for value in values) + ")"
+    return f"({number_list(values)})"
 
 
 class LineTask(NamedTuple):

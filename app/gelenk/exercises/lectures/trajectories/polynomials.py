@@ -11,7 +11,7 @@ from gelenk.course.steps import Step
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import angle, quantity, vector
-from gelenk.language import marked
+from gelenk.language import marked, number_list
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.extremes import peaks
@@ -229,10 +229,6 @@ def _free_ends(one: SplineTask) -> Answers:
     return {"velocities": found.velocities[1:3, 0], "start": 0.0, "middle": float(middle[0, 0])}
 
 
-def _row(values: tuple[float, ...]) -> str:
-    return ", ".join(f"{value:g}" for value in values)
-
-
 SPLINE = Exercise(
     id="trajectories.spline",
     title=marked("A cubic spline through four knots"),
@@ -243,7 +239,7 @@ SPLINE = Exercise(
         "A joint passes four knots at the times {times} s, at {knots} degrees, by a cubic spline; it begins and ends "
         "at rest. What are the velocities at the two inner knots, the acceleration at the start, and the position "
         "halfway in time between the inner knots?"
-    ).format(times=_row(one.times), knots=_row(one.knots)),
+    ).format(times=number_list(one.times), knots=number_list(one.knots)),
     fields=lambda _one: (
         vector("velocities", _("Velocities at the inner knots"), 2, "°/s", 4.0, within=0.3),
         quantity("start", _("Acceleration at the start"), "°/s²", 2.0),
