@@ -1,6 +1,5 @@
 """Exact extremes of a motion: values at the ends of its pieces, and at the roots of the derivative between them.
 
-The derivative of a cubic is a quadratic, solved in closed form; higher degrees need eigenvalues of a companion matrix.
 A slightly inexact root does no harm, because the value is stationary there.
 """
 
@@ -9,9 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.robot.arrays import Array
+from gelenk.robot.compilation import compiled, inlined
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
-_ROUNDING = 1e-14
+_STEPS, _EXACT = 60, 1e-15
+"""Most steps to a zero, and the last one's length."""
 _SAME = 1e-12
 
 
@@ -44,7 +45,7 @@ def candidates(motion: PiecewisePolynomial) -> tuple[Array, Array]:
     These are both ends of each piece and the zeros of its derivative; zeros outside the piece are moved to its ends.
     """
     lengths = np.diff(motion.breaks)[:, None]
-    c = motion.coefficients * (lengths ** np.arange(motion.coefficients.shape[1]))[:, :, None]
+    c = np.ascontiguousarray(motion.coefficients) * (lengths ** np.arange(motion.coefficients.shape[1]))[:, :, None]
     inner = _stationary(c)
     ends = np.zeros((c.shape[0], 1, c.shape[2]))
     u = np.concatenate([ends, inner, ends + 1.0], axis=1)
@@ -56,44 +57,67 @@ def candidates(motion: PiecewisePolynomial) -> tuple[Array, Array]:
     return np.where(u == 1.0, stops, starts + u * lengths[:, :, None]), values
 
 
+@compiled
 def _stationary(c: Array) -> Array:
-    """Find the zeros in [0, 1] of the derivative of polynomials, lowest power first; (M, d + 1, n) → (M, d - 1, n)."""
-    degree = c.shape[1] - 1
-    if degree < 2:
-        return np.empty((c.shape[0], 0, c.shape[2]))
-    slope = c[:, 1:] * np.arange(1, degree + 1)[:, None]
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        if degree == 2:
-            roots = (-slope[:, 0] / slope[:, 1])[:, None]
-        elif degree == 3:
-            roots = _quadratic_roots(slope)
-        else:
-            roots = _roots(slope)
-    found: Array = np.clip(np.nan_to_num(roots, nan=0.0, posinf=0.0, neginf=0.0), 0.0, 1.0)
+    """Find the zeros in [0, 1] of the derivative of polynomials, lowest power first; (M, d + 1, n) → (M, d - 1, n).
+
+    The zeros of each derivative separate those of the one before it, so that between them each has one zero at most.
+    Where there are fewer than d - 1, or the derivative does not change its sign, the rest is 0.
+    """
+    pieces, size, n = c.shape
+    found, slope = np.zeros((pieces, max(size - 2, 0), n)), np.empty(max(size - 1, 1))
+    for i in range(pieces):
+        for j in range(n):
+            for k in range(1, size):
+                slope[k - 1] = k * c[i, k, j]
+            _zeros(slope, found[i, :, j])
     return found
 
 
-def _quadratic_roots(c: Array) -> Array:
-    """Return both roots, without cancellation; the real part of complex ones; (M, 3, n) → (M, 2, n)."""
-    half = -0.5 * c[:, 1]
-    root = np.sqrt(np.maximum(half**2 - c[:, 0] * c[:, 2], 0.0))
-    outer = half + np.copysign(root, half)
-    return np.stack([outer / c[:, 2], c[:, 0] / outer], axis=1)
+@compiled
+def _zeros(c: Array, zeros: Array) -> None:
+    """Write the zeros in (0, 1) of a polynomial of degree d at which its sign changes into the first of d places."""
+    degree, count = len(c) - 1, 0
+    edges = np.empty(degree + 2)
+    for order in range(degree - 1, -1, -1):
+        edges[0], edges[count + 1] = 0.0, 1.0
+        for k in range(count):
+            edges[k + 1] = zeros[k]
+        last, count = count + 1, 0
+        for k in range(last):
+            low, high = edges[k], edges[k + 1]
+            below, above = _derivative(c, order, low), _derivative(c, order, high)
+            if below * above < 0.0:
+                zeros[count] = _zero_between(c, order, low, high, below)
+                count += 1
+    zeros[count:] = 0.0
 
 
-def _roots(c: Array) -> Array:
-    """Return the real parts of all roots; (M, d + 1, n) → (M, d, n), padded with 0 where the degree is lower."""
-    pieces, size, joints = c.shape
-    rows = np.moveaxis(c, 1, 2).reshape(-1, size)
-    largest = np.abs(rows).max(axis=1, keepdims=True)
-    is_used = np.abs(rows) > _ROUNDING * largest
-    degrees = np.where(is_used.any(axis=1), size - 1 - np.argmax(is_used[:, ::-1], axis=1), 0)
-    found = np.zeros((len(rows), size - 1))
-    for degree in range(1, size):
-        chosen = np.flatnonzero(degrees == degree)
-        if len(chosen) > 0:
-            companion = np.zeros((len(chosen), degree, degree))
-            companion[:, np.arange(1, degree), np.arange(degree - 1)] = 1.0
-            companion[:, :, -1] = -rows[chosen, :degree] / rows[chosen, degree, None]
-            found[chosen, :degree] = np.linalg.eigvals(companion).real
-    return np.moveaxis(found.reshape(pieces, joints, size - 1), 1, 2)
+@inlined
+def _derivative(c: Array, order: int, x: float) -> float:
+    value = 0.0
+    for k in range(len(c) - 1, order - 1, -1):
+        factor = 1.0
+        for i in range(order):
+            factor *= k - i
+        value = value * x + factor * c[k]
+    return value
+
+
+@inlined
+def _zero_between(c: Array, order: int, low: float, high: float, below: float) -> float:
+    """Return the one zero between two places of unlike sign by Newton's method, halving where that leads out."""
+    x = 0.5 * (low + high)
+    for _ in range(_STEPS):
+        value, slope = _derivative(c, order, x), _derivative(c, order + 1, x)
+        if value * below > 0.0:
+            low = x
+        else:
+            high = x
+        following = x - value / slope if slope != 0.0 else low
+        if not low < following < high:
+            following = 0.5 * (low + high)
+        if abs(following - x) <= _EXACT:
+            return following
+        x = following
+    return x

@@ -3,15 +3,15 @@
 The path is cut into intervals of length Δ. In each of them u = s̈ is constant, so x = ṡ² goes from x_i to x_i + 2Δu.
 The admissible points (u, x_i) of an interval form a convex polygon, given by rows αu + βx ≤ 1; it always contains rest,
 u = x = 0. For a given x, the rows bound u from above and from below by lines in x; eliminating u from pairs of such
-lines leaves bounds of x. All pairs except those with the speed at the next node are evaluated in advance, so one step
-costs only three vector operations.
+lines leaves bounds of x. All pairs except those with the speed at the next node are evaluated in advance.
 """
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from gelenk.robot.arrays import Array
+from gelenk.robot.compilation import compiled
 
 _NO_WEIGHT = 1e-12
 """α of a row, as a fraction of the largest in its interval, below which the row does not bound u."""
@@ -19,8 +19,7 @@ _UNBOUNDED = 1e30
 _MOST_STEPS = 100
 
 
-@dataclass(frozen=True, slots=True)
-class Stages:
+class Stages(NamedTuple):
     """Constraints of a motion in each of N intervals.
 
     Attributes:
@@ -60,51 +59,49 @@ def stages(lengths: Array, alpha: Array, beta: Array, least_shares: Array) -> St
     return Stages(lengths, upper, lower, highest, least_shares)
 
 
-def _highest(upper: Array, lower: Array, x: Array) -> Array:
+@compiled
+def _highest(upper: Array, lower: Array, most: Array) -> Array:
     """Return the largest x at which no upper line is below a lower one, by Newton's method from the right.
 
     The gap between the lowest upper and the highest lower line is concave in x and nonnegative at 0: every step ends
     to the right of the zero, and finitely many steps reach it.
     """
-    rows = np.arange(len(x))
-    for _ in range(_MOST_STEPS):
-        i = (upper[0] + upper[1] * x[:, None]).argmin(axis=1)
-        j = (lower[0] + lower[1] * x[:, None]).argmax(axis=1)
-        room = upper[0, rows, i] - lower[0, rows, j]
-        slope = lower[1, rows, j] - upper[1, rows, i]
-        is_crossing = (slope > 0.0) & (slope * x > room)
-        if not is_crossing.any():
-            break
-        with np.errstate(divide="ignore", invalid="ignore"):
-            nearer = np.where(is_crossing, room / slope, x)
-        if (nearer >= x).all():
-            break
-        x = np.minimum(x, nearer)
-    return x
+    found = most.copy()
+    for row in range(len(most)):
+        for _ in range(_MOST_STEPS):
+            i = (upper[0, row] + upper[1, row] * found[row]).argmin()
+            j = (lower[0, row] + lower[1, row] * found[row]).argmax()
+            room, slope = upper[0, row, i] - lower[0, row, j], lower[1, row, j] - upper[1, row, i]
+            if not (slope > 0.0 and slope * found[row] > room and room / slope < found[row]):
+                break
+            found[row] = room / slope
+    return found
 
 
+@compiled
 def controllable(constraints: Stages, end: float) -> Array:
     """Return the largest x at each node from which x ≤ `end` can be reached at the end; shape (N + 1,)."""
-    most: Array = np.append(constraints.highest, end)
-    halves = 0.5 / constraints.lengths
-    climb = constraints.lower[1] + halves[:, None]
-    with np.errstate(divide="ignore"):
-        gains = np.where(climb > 0.0, 1.0 / climb, np.inf)
-    offsets = constraints.lower[0]
-    for i in range(len(constraints.lengths) - 1, -1, -1):
+    offsets, slopes = constraints.lower
+    most = np.append(constraints.highest, end)
+    for i in range(len(offsets) - 1, -1, -1):
         # No faster than the motion can brake to the largest x of the next node.
-        most[i] = min(most[i], ((most[i + 1] * halves[i] - offsets[i]) * gains[i]).min())
+        half = 0.5 / constraints.lengths[i]
+        for k in range(offsets.shape[1]):
+            climb = slopes[i, k] + half
+            if climb > 0.0:
+                most[i] = min(most[i], (most[i + 1] * half - offsets[i, k]) / climb)
         if constraints.least_shares[i] > 0.0:
             most[i] = min(most[i], most[i + 1] / constraints.least_shares[i])
     return most
 
 
+@compiled
 def fastest(constraints: Stages, most: Array, start: float) -> Array:
     """Return x at each node, from at most `start`, for the largest u that keeps x within `most`; shape (N + 1,)."""
-    x = min(start, most[0])
-    found = [x]
-    for twice, offsets, slopes, upper in zip(2.0 * constraints.lengths, *constraints.upper, most[1:], strict=True):
-        u = (offsets + slopes * x).min()
-        x = max(min(x + twice * u, upper), 0.0)
-        found.append(x)
-    return np.array(found)
+    offsets, slopes = constraints.upper
+    x = np.empty(len(most))
+    x[0] = min(start, most[0])
+    for i in range(len(offsets)):
+        u = (offsets[i] + slopes[i] * x[i]).min()
+        x[i + 1] = max(min(x[i] + 2.0 * constraints.lengths[i] * u, most[i + 1]), 0.0)
+    return x
