@@ -34,6 +34,8 @@ SQUARES, SQUARES_SECONDS = 20_000, 0.8e-3
 PANDA = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 TARGET = {"position": [0.4, 0.1, 0.5], "rpy": [3.0, 0.2, 0.4]}
 
+MOVE = {"start": PANDA, "segments": [{"type": "joint", "target": [0.3, -0.5, 0.1, -2.2, 0.05, 1.8, 0.9]}]}
+
 Steps = Callable[[Callable[[], object]], float]
 
 
@@ -114,6 +116,8 @@ def test_every_example(client: TestClient, longest_step: Steps) -> None:
         ("panda/manipulability", {"joint_positions": [PANDA] * 10}),
         ("panda/dynamics", {"joint_positions": [PANDA] * 10}),
         ("talos_full/dynamics", {"joint_positions": [[0.0] * 9]}),
+        ("panda/trajectory", {**MOVE, "sample_period": 3e-3}),
+        ("panda/trajectory", {**MOVE, "sample_period": 1e-5}),
     ],
     ids=lambda value: value if isinstance(value, str) else str(len(next(iter(value.values())))),
 )

@@ -1,10 +1,12 @@
 """Heavy requests of one client leave room for those of others; whose a request is."""
 
+import asyncio
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 from starlette.requests import Request
@@ -12,7 +14,7 @@ from starlette.testclient import TestClient
 
 from gelenk.contract.endpoint import Scope
 from gelenk.http.access.keyring import new_key
-from gelenk.http.workers.pool_client import client_of
+from gelenk.http.workers.pool_client import PoolClient, client_of
 from gelenk.main import create_app
 from gelenk.settings import Settings
 
@@ -36,6 +38,24 @@ def scope(**more: Any) -> Request:
 )
 def test_a_client_is_its_key_or_its_address(more: dict[str, Any], client: str) -> None:
     assert client_of(scope(**more)) == client
+
+
+def test_in_a_turn_of_the_event_loop_one_long_answer_is_computed_there() -> None:
+    async def turns() -> list[bool]:
+        pool_client = PoolClient(
+            cast(Any, SimpleNamespace(is_starting=False)), cast(Any, None), cast(Any, None), 1.0, 1
+        )
+        may = []
+        for seconds in (0.0, 2e-3):
+            with pool_client.computing_here():
+                until = time.thread_time() + seconds
+                while time.thread_time() < until:
+                    pass
+            may.append(pool_client.may_compute_here)
+        await asyncio.sleep(0)
+        return [*may, pool_client.may_compute_here]
+
+    assert asyncio.run(turns()) == [True, False, True]
 
 
 @pytest.mark.slow

@@ -91,34 +91,37 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
         if is_job or (endpoint.job and wants_answer_later(request.scope["headers"])):
             planned = await pool_client.content(request, plan_job, task_request())
             return await submitted(runner, endpoint.name, request, planned, {} if is_job else PREFERENCE_APPLIED)
-        if request.length <= INLINE_BYTES and not pool_client.pool.is_starting:
+        if request.length <= INLINE_BYTES and pool_client.may_compute_here:
             call, found = _parsed(endpoint, query, b"".join(pieces), is_npy), operation(endpoint.name)
             if wanted not in _PICTURES and not found.is_heavy(call):
-                outcome = await _on_the_loop(found, pool_client, request, call, limits, task_request)
+                robot = await _prepared(found, pool_client, request, call, task_request)
+                with pool_client.computing_here():
+                    outcome = found.run(None, call, limits) if robot is None else found.attempt(robot, call, limits)
                 if outcome is not None:
+                    if not pool_client.may_compute_here:  # Others get their turn before this is encoded.
+                        await asyncio.sleep(0)
                     return _answered(endpoint, call, outcome, wanted)
         return await pool_client.answer(request, answer, task_request())
 
     return handle
 
 
-async def _on_the_loop(
+async def _prepared(
     found: Operation,
     pool_client: PoolClient,
     request: BoundedRequest,
     call: Any,
-    limits: Limits,
     task_request: Callable[[], TaskRequest],
-) -> Outcome | None:
-    """Compute the outcome here if that is fast, else return None; a worker first finds what this needs of the robot."""
+) -> LoadedRobot | None:
+    """Load the robot of a request, if it has one; a worker first finds what a quick answer needs of it."""
     if not isinstance(found.endpoint, RobotEndpoint):
-        return found.run(None, call, limits)
+        return None
     robot = await pool_client.resident(request, request.path_params["robot"])
     if found.warm_up is not None and not found.warm_up.is_known(robot, call):
         content = await pool_client.content(request, find, task_request())
         known = pickle.loads(content)  # noqa: S301 - from a process of ours
         await asyncio.to_thread(found.warm_up.keep, robot, call, known)
-    return found.attempt(robot, call, limits)
+    return robot
 
 
 def route(endpoint: Endpoint[Any, Any], handle: Handler, max_body_bytes: int) -> DocumentedRoute:

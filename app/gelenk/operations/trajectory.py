@@ -2,17 +2,42 @@
 
 from typing import Any
 
-from gelenk.contract.trajectory_request import MAX_SAMPLES, TrajectoryRequest
+from gelenk.contract.pose import Pose
+from gelenk.contract.trajectory_request import MAX_SAMPLES, JointSegment, TrajectoryRequest
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.trajectory_planned import PlannedTrajectory, TrajectorySizeLimits
 from gelenk.robot.arrays import Array
+from gelenk.robot.compilation import is_awaited
 from gelenk.store.records import LoadedRobot
+
+_QUICK_SAMPLES = 1000
+"""Samples of a motion that the event loop plans, audits and encodes in about two milliseconds."""
 
 
 def run(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> Outcome:
     """Plan and audit a trajectory, and sample it."""
-    planned = PlannedTrajectory.of(loaded.robot, call, TrajectorySizeLimits(MAX_SAMPLES, limits.answer_numbers))
+    return _outcome(loaded, call, _planned(loaded, call, limits))
 
+
+def attempt(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> Outcome | None:
+    """Plan and audit a trajectory; return None if it has so many samples that they would take long."""
+    planned = _planned(loaded, call, limits)
+    duration = planned.found.motion.duration
+    return _outcome(loaded, call, planned) if duration <= _QUICK_SAMPLES * call.sample_period else None
+
+
+def is_heavy(call: TrajectoryRequest) -> bool:
+    """Check whether planning takes more than about a millisecond: all but one movement of the joints."""
+    first = call.segments[0]
+    is_move = isinstance(first, JointSegment) and not isinstance(first.target, Pose)
+    return len(call.segments) > 1 or not is_move or call.steps or call.coefficients or is_awaited()
+
+
+def _planned(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> PlannedTrajectory:
+    return PlannedTrajectory.of(loaded.robot, call, TrajectorySizeLimits(MAX_SAMPLES, limits.answer_numbers))
+
+
+def _outcome(loaded: LoadedRobot, call: TrajectoryRequest, planned: PlannedTrajectory) -> Outcome:
     def content() -> dict[str, Any]:
         samples = planned.samples(planned.times())
         return planned.to_json(samples.to_json(call.pose_format), planned.certificate(samples))
@@ -21,8 +46,3 @@ def run(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> Outcome
         return planned.table(planned.times()), planned.headers
 
     return Outcome(content, array, lambda kind: planned.picture(loaded.record.name, kind), planned.columns)
-
-
-def is_heavy(_: TrajectoryRequest) -> bool:
-    """Return True: planning a motion takes milliseconds."""
-    return True

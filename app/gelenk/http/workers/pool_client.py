@@ -1,8 +1,10 @@
 """Sends requests to the worker pool, with a deadline; a request is cancelled when its client disconnects."""
 
 import asyncio
+import time
 from collections import Counter
-from collections.abc import Coroutine
+from collections.abc import Coroutine, Iterator
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from starlette.requests import ClientDisconnect, Request
@@ -22,6 +24,9 @@ INLINE_BYTES = 4096
 For the same reason it compiles nothing: while the pool is starting, every request goes to the pool.
 """
 
+_LONG = 5e-4
+"""Duration of an answer after which the event loop computes no other one in the same turn, [s] of processor time."""
+
 PARSED_HERE_BYTES = 512 * 1024
 """Size of the largest body that a thread of this process parses, [bytes]: parsing delays the event loop."""
 
@@ -40,6 +45,27 @@ class PoolClient:
         self.pool, self._context, self._library, self._seconds = pool, context, library, seconds
         self._share = share
         self._requests: Counter[str] = Counter()
+        self._has_computed = False
+
+    @property
+    def may_compute_here(self) -> bool:
+        """Whether the event loop may answer a quick request itself.
+
+        In each of its turns it computes for less than `_LONG`, or one answer; of a crowd, the others go to the pool.
+        """
+        return not (self._has_computed or self.pool.is_starting)
+
+    @contextmanager
+    def computing_here(self) -> Iterator[None]:
+        """Note that the event loop computes an answer; if that takes long, it is the last of this turn."""
+        started = time.thread_time()
+        yield
+        if time.thread_time() - started > _LONG:
+            self._has_computed = True
+            asyncio.get_running_loop().call_soon(self._begin_turn)
+
+    def _begin_turn(self) -> None:
+        self._has_computed = False
 
     async def answer(self, request: Request, task: WorkerTask, task_request: TaskRequest) -> Response:
         """Run a task in a worker and return its response; raises as `WorkerPool.run` and `while_wanted`."""
