@@ -96,10 +96,13 @@ def _closed_forms() -> None:
 
 
 def _motions() -> None:
-    """Plan and audit a motion of the joints."""
+    """Plan and audit a movement of the joints and the fastest motion along a spline."""
     robot, chain, qs = _small_arm()
-    move = Segment("joint", "jerk_limited", SegmentLimits(*np.ones((3, 3))), configuration=qs[0] + 0.5)
-    plan(robot, chain, TrajectoryProblem(qs[0], (move,))).motion.rates_at(np.zeros(1))
+    limits, start = SegmentLimits(*np.ones((3, 3))), qs[0]
+    move = Segment("joint", "jerk_limited", limits, configuration=start + 0.5)
+    points = start + np.array([[0.2], [0.3]])
+    way = Segment("spline", "time_optimal", limits, configurations=points, stated_jerk=limits.jerk)
+    plan(robot, chain, TrajectoryProblem(start, (move, way))).motion.rates_at(np.zeros(1))
 
 
 def _answers() -> None:

@@ -6,6 +6,7 @@ code that plays, samples, scales or audits a motion needs to handle no other.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from math import comb, factorial
 
 import numpy as np
@@ -123,10 +124,13 @@ def cut(path: PiecewisePolynomial, nodes: Array) -> Array:
 
 def bernstein(c: Array) -> Array:
     """Convert power coefficients of polynomials to Bernstein coefficients on [0, 1]; shape (N, d + 1, n)."""
-    degree = c.shape[1] - 1
-    matrix = [[comb(j, k) / comb(degree, k) for k in range(degree + 1)] for j in range(degree + 1)]
-    result: Array = np.array(matrix) @ c
+    result: Array = _bernstein_matrix(c.shape[1] - 1) @ c
     return result
+
+
+@lru_cache
+def _bernstein_matrix(degree: int) -> Array:
+    return np.array([[comb(j, k) / comb(degree, k) for k in range(degree + 1)] for j in range(degree + 1)])
 
 
 def composed(pieces: Array, advance: Array) -> Array:

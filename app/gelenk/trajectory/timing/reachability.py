@@ -24,58 +24,60 @@ class Stages(NamedTuple):
 
     Attributes:
         lengths: Δ; shape (N,).
-        upper: Offsets and slopes of the lines in x that bound u from above, ∞ and 0 for none; shape (2, N, m).
+        upper: Offsets and slopes of the lines in x that bound u from above, ∞ and 0 for none; shape (2, N, m + 1).
         lower: The same for those that bound u from below, -∞ and 0 for none.
         highest: Largest x at the start of each interval from which the motion can continue; shape (N,).
-        least_shares: Smallest fraction of x that must be left at the end of each interval; shape (N,).
     """
 
     lengths: Array
     upper: Array
     lower: Array
     highest: Array
-    least_shares: Array
 
 
+@compiled
 def stages(lengths: Array, alpha: Array, beta: Array, least_shares: Array) -> Stages:
     """Build the constraints of intervals from their rows αu + βx ≤ 1.
 
     Args:
         lengths: Δ > 0; shape (N,).
         alpha, beta: α and β; shape (N, m).
-        least_shares: Those of `Stages`, from 0 to 1. Without them, where q' of a joint changes sign, the largest x may
-            be one from which the motion can only stop.
+        least_shares: Smallest fraction of x, from 0 to 1, that must be left at the end of each interval; shape (N,).
+            Without, where q' of a joint changes sign, the largest x may be one from which the motion can only stop.
     """
-    is_without = np.abs(alpha) <= _NO_WEIGHT * np.abs(alpha).max(axis=1, keepdims=True)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        offsets, slopes = 1.0 / alpha, -beta / alpha
-        bounds = np.where(is_without & (beta > 0.0), 1.0 / beta, _UNBOUNDED)
-    is_above, is_below = ~is_without & (alpha > 0.0), ~is_without & (alpha < 0.0)
-    upper = np.stack((np.where(is_above, offsets, np.inf), np.where(is_above, slopes, 0.0)))
-    lower = np.stack((np.where(is_below, offsets, -np.inf), np.where(is_below, slopes, 0.0)))
-    # x_i + 2Δu ≥ share x_i.
-    onward = np.stack((np.zeros_like(lengths), -0.5 * (1.0 - least_shares) / lengths))[:, :, None]
-    highest = _highest(upper, np.concatenate((lower, onward), axis=2), np.minimum(bounds.min(axis=1), _UNBOUNDED))
-    return Stages(lengths, upper, lower, highest, least_shares)
+    count, m = alpha.shape
+    upper, lower = np.zeros((2, count, m + 1)), np.zeros((2, count, m + 1))
+    upper[0], lower[0, :, :m] = np.inf, -np.inf
+    highest = np.full(count, _UNBOUNDED)
+    for i in range(count):
+        # x_i + 2Δu ≥ share x_i.
+        lower[1, i, m] = -0.5 * (1.0 - least_shares[i]) / lengths[i]
+        weightless = _NO_WEIGHT * np.abs(alpha[i]).max()
+        for k in range(m):
+            a, b = alpha[i, k], beta[i, k]
+            if abs(a) > weightless:
+                lines = upper if a > 0.0 else lower
+                lines[0, i, k], lines[1, i, k] = 1.0 / a, -b / a
+            elif b > 0.0:
+                highest[i] = min(highest[i], 1.0 / b)
+        highest[i] = _highest(upper[:, i], lower[:, i], highest[i])
+    return Stages(lengths, upper, lower, highest)
 
 
 @compiled
-def _highest(upper: Array, lower: Array, most: Array) -> Array:
+def _highest(upper: Array, lower: Array, x: float) -> float:
     """Return the largest x at which no upper line is below a lower one, by Newton's method from the right.
 
     The gap between the lowest upper and the highest lower line is concave in x and nonnegative at 0: every step ends
     to the right of the zero, and finitely many steps reach it.
     """
-    found = most.copy()
-    for row in range(len(most)):
-        for _ in range(_MOST_STEPS):
-            i = (upper[0, row] + upper[1, row] * found[row]).argmin()
-            j = (lower[0, row] + lower[1, row] * found[row]).argmax()
-            room, slope = upper[0, row, i] - lower[0, row, j], lower[1, row, j] - upper[1, row, i]
-            if not (slope > 0.0 and slope * found[row] > room and room / slope < found[row]):
-                break
-            found[row] = room / slope
-    return found
+    for _ in range(_MOST_STEPS):
+        i, j = (upper[0] + upper[1] * x).argmin(), (lower[0] + lower[1] * x).argmax()
+        room, slope = upper[0, i] - lower[0, j], lower[1, j] - upper[1, i]
+        if not (slope > 0.0 and slope * x > room and room / slope < x):
+            break
+        x = room / slope
+    return x
 
 
 @compiled
@@ -90,8 +92,6 @@ def controllable(constraints: Stages, end: float) -> Array:
             climb = slopes[i, k] + half
             if climb > 0.0:
                 most[i] = min(most[i], (most[i + 1] * half - offsets[i, k]) / climb)
-        if constraints.least_shares[i] > 0.0:
-            most[i] = min(most[i], most[i + 1] / constraints.least_shares[i])
     return most
 
 
