@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from gelenk.course.plain import plain
@@ -52,3 +53,17 @@ def tex(value: float, unit: str = "", digits: int = _SHOWN_DIGITS) -> str:
 def tex_factor(value: float) -> str:
     """Format a number as a factor in a product, in brackets if it is negative."""
     return tex(value) if math.copysign(1.0, value) > 0 else f"({tex(value)})"
+
+
+def bmatrix(rows: Iterable[Iterable[str]]) -> str:
+    """Return a LaTeX `bmatrix` of entries that are already formulas."""
+    return rf"\begin{{bmatrix}} {_lines(rows)} \end{{bmatrix}}"
+
+
+def table(head: Iterable[str], rows: Iterable[Iterable[str]], columns: str) -> str:
+    """Return a LaTeX `array` with a line below its head; `columns` such as `c|cc`."""
+    return rf"\begin{{array}}{{{columns}}} {_lines([head])} \\ \hline {_lines(rows)} \end{{array}}"
+
+
+def _lines(rows: Iterable[Iterable[str]]) -> str:
+    return r" \\ ".join(map(" & ".join, rows))

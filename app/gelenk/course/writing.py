@@ -1,4 +1,4 @@
-"""Numbers, vectors, matrices and tables in formulas, without what rounding leaves of a zero."""
+"""Numbers, vectors and matrices in formulas, without what rounding leaves of a zero."""
 
 import math
 from collections.abc import Callable, Iterable
@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from gelenk.course.steps import tex
+from gelenk.course.steps import bmatrix, tex
 from gelenk.robot.arrays import Array
 
 ROUNDING = 1e-12
@@ -43,20 +43,6 @@ def vector(values: Iterable[float], write: Write = number) -> str:
 def matrix(values: Array, write: Write = number) -> str:
     """Format rows of numbers, or a column; 0 if there are none."""
     return bmatrix(map(write, row) for row in values.reshape(len(values), -1).tolist()) if values.size else "0"
-
-
-def bmatrix(rows: Iterable[Iterable[str]]) -> str:
-    """Return a LaTeX `bmatrix` of entries that are already formulas."""
-    return rf"\begin{{bmatrix}} {_lines(rows)} \end{{bmatrix}}"
-
-
-def table(head: Iterable[str], rows: Iterable[Iterable[str]], columns: str) -> str:
-    """Return a LaTeX `array` with a line below its head; `columns` such as `c|cc`."""
-    return rf"\begin{{array}}{{{columns}}} {_lines([head])} \\ \hline {_lines(rows)} \end{{array}}"
-
-
-def _lines(rows: Iterable[Iterable[str]]) -> str:
-    return r" \\ ".join(map(" & ".join, rows))
 
 
 def theta(index: int) -> str:

@@ -8,9 +8,8 @@ from gelenk.course.dynamics.dynamics_steps import DynamicsQuestion, dynamics_ste
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import number
 from gelenk.dh.lagrangian.bodies import Gravity, LinkBody, MassProperties
-from gelenk.dh.tables.from_chain import dh_from_chain
+from gelenk.dh.tables.from_chain import standard_table
 from gelenk.dh.worked import worked_solution
-from gelenk.errors import InvalidField
 from gelenk.kinematics.dynamics.bodies import Load, Motions, motions
 from gelenk.kinematics.dynamics.lagrangian import State
 from gelenk.kinematics.dynamics.mechanism import ChainMechanism
@@ -75,9 +74,8 @@ def _closed_form(found: ChainMechanism, gravity: Array) -> list[Step]:
     chain = found.chain
     if not 0 < len(chain) == len(chain.flat.joints) <= _MOST_JOINTS or found.base[0] or len(found.bodies) != len(chain):
         return []
-    try:
-        table = dh_from_chain(found.robot.description, chain, "standard").table
-    except InvalidField:
+    table = standard_table(found.robot.description, chain)
+    if table is None:
         return []
     R = found.base[1].rotation
     size = float(np.linalg.norm(gravity))

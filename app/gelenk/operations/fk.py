@@ -5,8 +5,7 @@ from typing import Any
 from gelenk.contract.fk import ForwardRequest
 from gelenk.course.steps import Step
 from gelenk.dh.forward_steps import forward_steps, placement_steps
-from gelenk.dh.tables.from_chain import dh_from_chain
-from gelenk.errors import InvalidField
+from gelenk.dh.tables.from_chain import standard_table
 from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.operations.chains import chain_and_positions, check_numbers, check_worked, head
 from gelenk.operations.outcome import Limits, Outcome
@@ -49,8 +48,7 @@ def is_heavy(call: ForwardRequest) -> bool:
 
 
 def _worked(robot: RobotModel, chain: Chain, qs: Array, notation: str) -> list[list[Step]]:
-    try:
-        table = dh_from_chain(robot.description, chain, "standard").table
-    except InvalidField:
+    table = standard_table(robot.description, chain)
+    if table is None:
         return [placement_steps(chain.flat, q, notation) for q in qs]
     return [forward_steps(table, q, notation) for q in qs]

@@ -5,8 +5,7 @@ from gelenk.course.inverse.agreement import SentSolutions, hand_steps
 from gelenk.course.inverse.arm import HandArm, hand_arm
 from gelenk.course.inverse.solver import solver_step
 from gelenk.course.steps import Step
-from gelenk.dh.tables.from_chain import dh_from_chain
-from gelenk.errors import InvalidField
+from gelenk.dh.tables.from_chain import standard_table
 from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.verdict.result import InverseKinematics
 from gelenk.language import language
@@ -37,9 +36,7 @@ def _otherwise(result: InverseKinematics, rows: slice) -> Step:
 def _arm(problem: TargetProblem) -> HandArm | None:
     """Return the chain as a table; None where none describes it, or a row follows another joint."""
     chain = problem.chain
-    try:
-        table = dh_from_chain(problem.robot.description, chain, "standard").table
-    except InvalidField:
+    table = standard_table(problem.robot.description, chain)
+    if table is None or len(table.joints) != len(chain) or any(row.mimic is not None for row in table.joints):
         return None
-    plain = len(table.joints) == len(chain) and all(row.mimic is None for row in table.joints)
-    return hand_arm(table) if plain else None
+    return hand_arm(table)

@@ -10,9 +10,8 @@ from gelenk.course.steps import Step, step
 from gelenk.course.velocity.singularity_steps import SingularityQuestion, singularity_steps
 from gelenk.course.writing import number
 from gelenk.dh.derive.steps import determinant_steps
-from gelenk.dh.tables.from_chain import dh_from_chain
+from gelenk.dh.tables.from_chain import standard_table
 from gelenk.dh.worked import WorkedSolution, worked_solution
-from gelenk.errors import InvalidField
 from gelenk.kinematics.singularity.report import SingularityReport
 from gelenk.kinematics.velocity.task_space import TaskSpace, random_configurations
 from gelenk.operations.derive_dh import in_time
@@ -57,11 +56,8 @@ def _factored(robot: RobotModel, chain: Chain, space: TaskSpace) -> list[Step]:
     if not 0 < len(chain) <= 6:
         return []
     trials = random_configurations(chain, _TRIALS)
-    try:
-        table = dh_from_chain(robot.description, chain, "standard").table
-    except InvalidField:
-        return []
-    if any(row.mimic is not None for row in table.joints):
+    table = standard_table(robot.description, chain)
+    if table is None or any(row.mimic is not None for row in table.joints):
         return []
     found = worked_solution(table, list(map(tuple, trials.tolist())), run=in_time, deadline=time.monotonic() + _SECONDS)
     plain = TaskSpace(space.task, None, space.reference)

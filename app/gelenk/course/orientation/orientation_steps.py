@@ -10,8 +10,8 @@ from gelenk.course.orientation.composition import About, Composition
 from gelenk.course.orientation.orientation import Notations, Triple
 from gelenk.course.orientation.rotations import Validation
 from gelenk.course.orientation.symbols import product
-from gelenk.course.steps import Step, step
-from gelenk.course.writing import atan2, bmatrix, matrix, number, vector
+from gelenk.course.steps import Step, bmatrix, step
+from gelenk.course.writing import atan2, matrix, number, vector
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 

@@ -3,7 +3,7 @@ r"""Products of elementary rotations in symbols: entries such as c_1 s_2 of R_z(
 from functools import lru_cache
 from typing import TypeAlias
 
-from gelenk.course.writing import bmatrix
+from gelenk.course.steps import bmatrix
 
 _Term: TypeAlias = tuple[int, tuple[str, ...]]
 """A sign, and the factors of a product."""

@@ -5,9 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gelenk.course.steps import Step, step
+from gelenk.course.steps import Step, step, table
 from gelenk.course.velocity.writing import matrix, number, row
-from gelenk.course.writing import table
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 

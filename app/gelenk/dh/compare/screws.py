@@ -16,6 +16,7 @@ import numpy as np
 
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import FlatChain
+from gelenk.robot.cross_products import cross_matrices
 from gelenk.robot.dh import Convention, DhTable
 from gelenk.robot.notations import rotations_from_vectors, vectors_from_rotations
 
@@ -158,7 +159,7 @@ def jacobians(convention: Convention, found: TableAxes, unknowns: Indices, with_
     if not with_tip:
         return J
     p = found.tips[:, :3, 3]
-    linear = columns[:, :3] - _skew(p) @ columns[:, 3:]
+    linear = columns[:, :3] - cross_matrices(p) @ columns[:, 3:]
     return np.concatenate((J, linear, columns[:, 3:]), axis=1)
 
 
@@ -265,20 +266,11 @@ def _twists(Ts: Array, axis: int, slides: bool) -> Array:
     return twists
 
 
-def _skew(vectors: Array) -> Array:
-    """Cross product matrices [v]× of vectors; shape (…, 3) → (…, 3, 3)."""
-    K = np.zeros((*vectors.shape[:-1], 3, 3))
-    x, y, z = np.moveaxis(vectors, -1, 0)
-    K[..., 0, 1], K[..., 0, 2], K[..., 1, 2] = -z, y, -x
-    K[..., 1, 0], K[..., 2, 0], K[..., 2, 1] = z, -y, x
-    return K
-
-
 def _adjoint(twists: Array) -> Array:
     """Matrices of the Lie bracket [V, ·] of twists; shape (…, 6) → (…, 6, 6)."""
     ad = np.zeros((*twists.shape[:-1], 6, 6))
-    angular = _skew(twists[..., 3:])
-    ad[..., :3, :3], ad[..., 3:, 3:], ad[..., :3, 3:] = angular, angular, _skew(twists[..., :3])
+    angular = cross_matrices(twists[..., 3:])
+    ad[..., :3, :3], ad[..., 3:, 3:], ad[..., :3, 3:] = angular, angular, cross_matrices(twists[..., :3])
     return ad
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Literal, TypeAlias
 
-from gelenk.course.writing import table
+from gelenk.course.steps import table
 
 Column: TypeAlias = Literal["a", "alpha", "d", "theta"]
 

@@ -54,7 +54,6 @@ from gelenk.dh.derive.typeset import (
     Formula,
     MatrixFormula,
     Notation,
-    Style,
     decimal,
     function_of,
     indexed,
@@ -71,9 +70,7 @@ MAX_FACTOR_TERMS = 40
 def formulas(question: SymbolicRequest) -> Formulas:
     """Return transforms and Jacobian of a table in symbols."""
     table = read_table(question.table)
-    notation = notation_of(
-        table, table.group, question.style, {} if question.keeps_symbols else table.values, question.before
-    )
+    notation = notation_of(table, table.group, question, table.values)
     rows, frames, before = row_transforms(table), frames_from(table, 0)[1:], question.before
     tip = None if frames[-1] is None else _shown(composed(frames[-1], table.tool, table.group))
     base_tip = None if tip is None else _shown(composed(table.base, tip, table.group))
@@ -106,9 +103,7 @@ def formulas(question: SymbolicRequest) -> Formulas:
 def singularities(question: SymbolicRequest) -> Singularities:
     """Return the determinant of a table's square block, and the configurations at which it vanishes."""
     table = read_table(question.table)
-    notation = notation_of(
-        table, table.group, question.style, {} if question.keeps_symbols else table.values, question.before
-    )
+    notation = notation_of(table, table.group, question, table.values)
     frames = [frame for frame in frames_from(table, 0) if frame is not None]
     if len(frames) <= len(table.rows):
         return Singularities()
@@ -137,10 +132,11 @@ def singularities(question: SymbolicRequest) -> Singularities:
     )
 
 
-def notation_of(table: Table, group: Group, style: Style, numbers: Mapping[Atom, float], before: int = 0) -> Notation:
-    """Return the notation of a table's formulas; see `Notation`."""
+def notation_of(table: Table, group: Group, question: SymbolicRequest, values: Mapping[Atom, float]) -> Notation:
+    """Return the notation of a table's formulas as requested, with the values of its symbols; see `Notation`."""
+    before, numbers = question.before, {} if question.keeps_symbols else values
     offset = {row.index for row in table.rows if row.angle and (row.offset or not row.is_revolute)}
-    return Notation(style, group, offset, numbers, len(table.rows) + before >= 10, before)
+    return Notation(question.style, group, offset, numbers, len(table.rows) + before >= 10, before)
 
 
 def _product(table: Table, setting: Setting) -> tuple[Fraction, list[Polynomial]]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Literal, TypeAlias
 
-from gelenk.course.writing import bmatrix
+from gelenk.course.steps import bmatrix
 from gelenk.dh.derive.algebra import (
     ONE,
     ROOT,

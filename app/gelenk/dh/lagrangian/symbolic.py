@@ -52,7 +52,7 @@ def motion(question: MotionQuestion) -> MotionTexts | NoMotion:
     except TooManyTerms:
         return NoMotion(_("the equations of motion have too many terms to be written out"))
     known = {**table.values, **values}
-    notation = notation_of(table, one_group, request.style, {} if request.keeps_symbols else known)
+    notation = notation_of(table, one_group, request, known)
     of_motion = [entry for row in (*found.mass_matrix, *found.coriolis, found.gravity_vector) for entry in row]
     needed = {atom for entry in of_motion for atom in entry.atoms if atom.name in _MOVING - {"qd"}}
 

@@ -153,6 +153,14 @@ def dh_from_chain(
     return ChainTable(table, notes, tuple(lines.rounded), tuple(lines.far), lines.reach)
 
 
+def standard_table(description: Description, chain: Chain) -> DhTable | None:
+    """Return the standard table of a chain; None where no table can describe it."""
+    try:
+        return dh_from_chain(description, chain, "standard").table
+    except InvalidField:
+        return None
+
+
 class _Lines:
     """The axes of one chain, and the frames placed on them; its arguments are those of `dh_from_chain`."""
 

@@ -18,12 +18,10 @@ import numpy as np
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain, FlatChain, build_chain
+from gelenk.robot.cross_products import cross_matrices
 from gelenk.robot.description import MOVABLE, Description, Inertial, Joint, Link
 from gelenk.robot.notations import origin_of, placement, rotations_from_vectors
 from gelenk.robot.poses import transform
-
-_SKEW = -np.cross(np.eye(3)[:, None], np.eye(3)[None]).reshape(3, 9)
-"""Linear map from r to the entries of [r]×, row by row; shape (3, 9)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -170,7 +168,7 @@ class Motions:
     def velocity_products(self) -> Array:
         """Return S; shape (N, n, n). S q̇ are the Coriolis and centrifugal torques, S + Sᵀ = Ṁ."""
         omegas = self.angular @ self.speeds[:, None, :, None]
-        turning = _skew(omegas[..., 0]) @ (self.inertias @ self.angular)
+        turning = cross_matrices(omegas[..., 0]) @ (self.inertias @ self.angular)
         return _summed(self.linear, self.masses[:, None, None] * self.linear_rates) + _summed(
             self.angular, self.inertias @ self.angular_rates + turning
         )
@@ -222,20 +220,17 @@ def motions(carried: Sequence[Body], qs: Array, speeds: Array | None = None) -> 
     levers = np.einsum("kbij,bj->kbi", rotations, np.array([body.center for body in carried]).reshape(-1, 3))
     linear, angular = Js[:, :, :3], Js[:, :, 3:]
     # ω × r = [r]×ᵀ ω, column by column.
-    across = _skew(levers).swapaxes(2, 3)
+    across = cross_matrices(levers).swapaxes(2, 3)
     linear = linear + across @ angular
     linear_rates, angular_rates = rates[:, :, :3], rates[:, :, 3:]
     if speeds is not None:
         lever_rates = across @ (angular @ speeds[:, None, :, None])
-        linear_rates = linear_rates + across @ angular_rates + _skew(lever_rates[..., 0]).swapaxes(2, 3) @ angular
+        linear_rates = (
+            linear_rates + across @ angular_rates + cross_matrices(lever_rates[..., 0]).swapaxes(2, 3) @ angular
+        )
     inertias = rotations @ tensors @ rotations.swapaxes(2, 3)
     still = speeds if speeds is not None else np.zeros_like(qs)
     return Motions(masses, positions + levers, inertias, linear, angular, still, linear_rates, angular_rates)
-
-
-def _skew(vectors: Array) -> Array:
-    """[r]×, so that [r]× a = r × a; shape (…, 3) → (…, 3, 3)."""
-    return np.asarray((vectors @ _SKEW).reshape(*vectors.shape, 3))
 
 
 def _summed(left: Array, right: Array) -> Array:

@@ -18,6 +18,7 @@ from gelenk.kinematics.judge.words import Reference, TipMotionCertificate
 from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain, FlatChain
+from gelenk.robot.cross_products import cross_matrices
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 
@@ -130,7 +131,7 @@ def _jacobian_series(flat: FlatChain, derivatives: Array) -> Array:
     axes, points, tip = _axes_series(flat, _motion_series(values, slides))
     # v = z × (p - o) for a revolute joint, as a product with the matrix [z]×.
     arms = tip[:, :, None] - points
-    turning = series_product(_cross_matrices(axes), arms[..., None])[..., 0]
+    turning = series_product(cross_matrices(axes), arms[..., None])[..., 0]
     columns = np.concatenate(
         (np.where(slides[:, None], axes, turning), np.where(slides[:, None], 0.0, axes)), axis=-1
     )  # (K, N, m, 6)
@@ -194,16 +195,6 @@ def _blocks(series: Array) -> Array:
     return blocks.transpose(2, 3, 0, 4, 1, 5).reshape(count, joints, 4 * orders, 4 * orders)
 
 
-def _cross_matrices(vectors: Array) -> Array:
-    """Matrices [v]× with [v]× u = v × u; shape (…, 3) → (…, 3, 3)."""
-    matrices = np.zeros((*vectors.shape, 3))
-    x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
-    matrices[..., 0, 1], matrices[..., 0, 2] = -z, y
-    matrices[..., 1, 0], matrices[..., 1, 2] = z, -x
-    matrices[..., 2, 0], matrices[..., 2, 1] = -y, x
-    return matrices
-
-
 def _turned(poses: Poses, vectors: Array) -> Array:
     """Express both halves of vectors (N, 6) in the tip's axes."""
     halves = vectors.reshape(-1, 2, 3) @ poses.rotations
@@ -212,7 +203,7 @@ def _turned(poses: Poses, vectors: Array) -> Array:
 
 def _at_base_origin(poses: Poses, derivatives: tuple[Array, ...]) -> tuple[Array, ...]:
     """Derivatives at the base's origin: p⁽ᵏ⁾ - R⁽ᵏ⁾Rᵀ p, where G = R(t)Rᵀ satisfies Ġ = [ω]× G with G(0) = 1."""
-    spins = [_cross_matrices(derivative[:, 3:]) / math.factorial(k) for k, derivative in enumerate(derivatives)]
+    spins = [cross_matrices(derivative[:, 3:]) / math.factorial(k) for k, derivative in enumerate(derivatives)]
     turns = [np.broadcast_to(np.eye(3), spins[0].shape)]
     results = []
     for k, derivative in enumerate(derivatives, start=1):

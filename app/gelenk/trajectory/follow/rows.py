@@ -14,8 +14,8 @@ from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
+from gelenk.robot.cross_products import cross_matrices
 from gelenk.trajectory.paths.paths import PathSamples
-from gelenk.trajectory.paths.rotation_splines import skew
 
 _SMALL = 0.1
 """Angle below which a series is used, [rad]."""
@@ -97,7 +97,7 @@ def _rate_matrices(vectors: Array) -> Array:
     series = 1.0 / 12.0 + squares * (1.0 / 720.0 + squares * (1.0 / 30240.0 + squares / 1209600.0))
     safe = np.maximum(angles, _SMALL)
     c = np.where(angles < _SMALL, series, (1.0 - 0.5 * safe / np.tan(0.5 * safe)) / (safe * safe))
-    across = skew(vectors)
+    across = cross_matrices(vectors)
     result: Array = np.eye(3) + 0.5 * across + c[:, None, None] * (across @ across)
     return result
 

@@ -15,6 +15,7 @@ from typing import TypeAlias, cast
 import numpy as np
 
 from gelenk.robot.arrays import Array
+from gelenk.robot.cross_products import cross_matrices
 from gelenk.robot.notations import rotations_from_vectors, vectors_from_rotations
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.paths.orientation_paths import travelled
@@ -137,18 +138,10 @@ def _turned(matrices: Array, vectors: Array) -> Array:
     return cast(Array, np.einsum("nij,nj->ni", matrices, vectors))
 
 
-def skew(vectors: Array) -> Array:
-    """Return [v]×, for which [v]× w = v × w; shape (N, 3) → (N, 3, 3)."""
-    matrices = np.zeros((len(vectors), 3, 3))
-    matrices[:, 2, 1], matrices[:, 0, 2], matrices[:, 1, 0] = vectors.T
-    matrices[:, 1, 2], matrices[:, 2, 0], matrices[:, 0, 1] = -vectors.T
-    return matrices
-
-
 def rate_matrices(thetas: Array) -> Array:
     """Return A(θ), the right Jacobian of SO(3); shape (N, 3) → (N, 3, 3)."""
     k1, k2, _, _ = _coefficients(np.linalg.norm(thetas, axis=1))
-    crosses = skew(thetas)
+    crosses = cross_matrices(thetas)
     return np.eye(3) - k1[:, None, None] * crosses + k2[:, None, None] * (crosses @ crosses)
 
 

@@ -6,8 +6,8 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from gelenk.course.steps import Step, step, tex
-from gelenk.course.writing import decimal, table
+from gelenk.course.steps import Step, step, table, tex
+from gelenk.course.writing import decimal
 from gelenk.dh.tables.convert import converted
 from gelenk.exercises.draw import Draw
 from gelenk.exercises.exercise import Answers, Exercise
