@@ -21,7 +21,7 @@ from tests.test_serve import free_port, get
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 CLIENT_BYTES = 120e6
-COMPUTING = {"pin", "numba", "llvmlite", "scipy", "sympy", "matplotlib", "ruckig", "example-robot-data"}
+COMPUTING = {"pin", "numba", "llvmlite", "scipy", "sympy", "matplotlib", "example-robot-data"}
 SERVING = {"fastapi", "starlette", "uvicorn", "uvloop", "prometheus-client"}
 CLIENT_ALONE = """
 import sys

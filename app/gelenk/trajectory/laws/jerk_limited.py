@@ -1,28 +1,27 @@
-"""Point-to-point motion in the least time under limits of velocity, acceleration and jerk, all joints synchronized.
+"""Motion from state to state under limits of velocity, acceleration and jerk, in the least time or a given one.
 
-The switching times come from Ruckig [Berscheid2021], which finds them in closed form; its features that call a server
-are not used. Ruckig accepts an error of 1e-8 at the target. So its profiles are integrated here, and if the end is off
+`jerk_profiles` finds the profiles of each joint. All joints take the least time that every one of them can take; one
+that could be faster mixes its highest and its lowest profile. The profiles are integrated here, and if the end is off
 by more than rounding, the smallest change of the jerks closes the gap: the motion ends exactly at its target.
 """
 
 import numpy as np
-import ruckig
 
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
+from gelenk.trajectory.laws.jerk_profiles import JERKS, least_times, profiles
 from gelenk.trajectory.laws.time_scaling import LARGEST, check_limits
 from gelenk.trajectory.motion.extremes import peaks
 from gelenk.trajectory.motion.phases import merged
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
-LONGEST = 7600.0
-"""Longest duration for which Ruckig's arithmetic is accurate, [s]."""
-
 _SAME = 1e-12
 """Switching times that differ by less, in fractions of the whole motion, are merged."""
 _ROUNDING = 1e-13
 _EXCESS = 1e-9
-"""Allowed relative excess over a limit from closing the gap at the end."""
+"""Allowed relative excess over a limit from closing the gap at the end, and of a state that is given."""
+_SHORTER = 1e-9
+"""Relative shortfall of a given duration that still means the least one."""
 _ATTEMPTS = 4
 _FACTORIALS = np.array([[1.0], [1.0], [2.0]])
 
@@ -32,8 +31,8 @@ def at_rest(positions: Array) -> Array:
     return np.array([positions, np.zeros_like(positions), np.zeros_like(positions)])
 
 
-def jerk_limited(start: Array, end: Array, limits: Array) -> PiecewisePolynomial:
-    """Return the motion of least duration from one state to another: cubics, C² throughout, from time 0 on.
+def jerk_limited(start: Array, end: Array, limits: Array, duration: float | None = None) -> PiecewisePolynomial:
+    """Return the motion from one state to another in the least time, or a given one: cubics, C² throughout, from 0 s.
 
     All joints start and end together. With zero duration it is one piece whose two breaks are equal.
 
@@ -42,64 +41,85 @@ def jerk_limited(start: Array, end: Array, limits: Array) -> PiecewisePolynomial
             (3, n), [rad or m per sᵏ].
         end: Likewise, and reachable without exceeding the limits before.
         limits: Of velocity, acceleration and jerk, for both directions; each > 0; shape (3, n).
+        duration: T, [s]; the least if None.
 
     Raises:
-        InvalidField: A limit is out of range, a state is beyond the limits, or no motion is shorter than `LONGEST`.
+        InvalidField: A limit is out of range, a state is beyond the limits, or not all joints can take this time.
     """
     _check(start, end, limits)
-    if start.shape[1] == 0:  # Ruckig divides by the number of joints.
-        return PiecewisePolynomial(np.zeros(2), np.empty((1, 1, 0)))
+    if start.shape[1] == 0:
+        return PiecewisePolynomial(np.array([0.0, duration or 0.0]), np.empty((1, 1, 0)))
     tightened = limits
     for _ in range(_ATTEMPTS):
-        motion, is_as_found = _of_profiles(start, end, *_profiles(start, end, tightened))
+        motion, is_as_found = _of_profiles(start, end, tightened, duration)
         excess = 0.0 if is_as_found else _excess(motion, limits)
         if excess <= _EXCESS:
             return motion
         tightened = (1.0 - 2.0 * excess) * tightened
         # Both ends have to keep the smaller limits too.
         tightened[:2] = np.maximum.reduce((tightened[:2], np.abs(start[1:]), np.abs(end[1:])))
-    raise InvalidField("limits", "the numbers of this motion differ by too many powers of ten to be planned accurately")
+    raise _too_far_apart()
+
+
+def _too_far_apart() -> InvalidField:
+    return InvalidField(
+        "limits", "the numbers of this motion differ by too many powers of ten to be planned accurately"
+    )
 
 
 def _check(start: Array, end: Array, limits: Array) -> None:
     check_limits(limits)
-    for field, state in (("start", start), ("end", end)):
+    for field, state, sign in (("start", start, 1.0), ("end", end, -1.0)):
         if not (np.abs(state[0]) <= LARGEST).all():
             raise InvalidField(field, f"positions must be of magnitude ≤ {LARGEST:g}")
-        if not (np.abs(state[1:]) <= limits[:2] * (1.0 + _ROUNDING)).all():
-            raise InvalidField(field, "is beyond the limits of velocity or acceleration")
+        for name, values, most in zip(("velocities", "accelerations"), state[1:], limits, strict=False):
+            _refuse_beyond(f"{field}_{name}", values, most, "is {:.10g}, beyond its limit {:.10g}")
+        # Where the velocity goes to, or comes from, while the jerk changes the acceleration.
+        v, a, j = state[1], state[2], limits[2]
+        reason = "takes the velocity to {:.10g}, beyond its limit {:.10g}, because the jerk is limited"
+        _refuse_beyond(f"{field}_accelerations", v + sign * 0.5 * a * np.abs(a) / j, limits[0], reason)
 
 
-def _profiles(start: Array, end: Array, limits: Array) -> tuple[Array, Array]:
-    """Return durations [s] and jerks of the phases of each joint; shape (n, phases) each."""
-    joints = start.shape[1]
-    task, found = ruckig.InputParameter(joints), ruckig.Trajectory(joints)
-    # Only differences matter, and they are exact even if positions are far from zero.
-    task.target_position = (end[0] - start[0]).tolist()
-    _, task.current_velocity, task.current_acceleration = start.tolist()
-    _, task.target_velocity, task.target_acceleration = end.tolist()
-    task.max_velocity, task.max_acceleration, task.max_jerk = limits.tolist()
-    try:
-        ruckig.Ruckig(joints).calculate(task, found)
-    except ruckig.RuckigError as error:
-        reason = "no motion was found: these limits and this distance are too many powers of ten apart"
-        raise InvalidField("limits", reason) from error
-    except ValueError as error:  # Ruckig's Python binding has no name for this result.
-        raise InvalidField("limits", f"the motion would take longer than {LONGEST:g} s") from error
-    profiles = found.profiles[0]
-    durations = np.array([[*p.brake.t, *p.t, *p.accel.t] for p in profiles])
-    return durations, np.array([[*p.brake.j, *p.j, *p.accel.j] for p in profiles])
+def _refuse_beyond(field: str, values: Array, most: Array, reason: str) -> None:
+    wrong = ~(np.abs(values) <= most * (1.0 + _EXCESS))
+    if wrong.any():
+        j = int(wrong.argmax())
+        raise InvalidField(field, f"that of joint {j + 1} {reason.format(values[j], most[j])}")
 
 
-def _of_profiles(start: Array, end: Array, durations: Array, jerks: Array) -> tuple[PiecewisePolynomial, bool]:
-    """Merge the phases of each joint into one motion; return also whether their jerks ended it exactly."""
-    switches = np.cumsum(durations, axis=1)
-    breaks = merged(switches, _SAME)
-    if breaks[-1] == 0.0:
+def _common_duration(start: Array, end: Array, limits: Array, wanted: float | None) -> float:
+    """Return the least time that every joint can take, or the wanted one if every joint can take it, [s]."""
+    least, times = least_times(start, end, limits)
+    if not np.isfinite(least).all():
+        raise _too_far_apart()
+    slowest = int(least.argmax())
+    if wanted is not None and wanted < least[slowest] * (1.0 - _SHORTER):
+        raise InvalidField("duration", f"must be at least {least[slowest]:.10g} s, which joint {slowest + 1} needs")
+    after = max(least[slowest], wanted or 0.0)
+    for time in (after, *np.unique(times[(times > after) & np.isfinite(times)])):
+        if profiles(start, end, limits, time)[2]:
+            break
+    else:
+        raise _too_far_apart()
+    if wanted is not None and time > after:
+        reason = f"not all joints can take {wanted:.10g} s from these velocities and accelerations, but {time:.10g} s"
+        raise InvalidField("duration", reason)
+    return float(time)
+
+
+def _of_profiles(start: Array, end: Array, limits: Array, wanted: float | None) -> tuple[PiecewisePolynomial, bool]:
+    """Mix and merge the profiles of the joints into one motion; return also whether their jerks ended it exactly."""
+    duration = _common_duration(start, end, limits, wanted)
+    if duration == 0.0:
         return PiecewisePolynomial(np.zeros(2), end[None] / _FACTORIALS), True
+    durations, shares, _ = profiles(start, end, limits, duration)
+    weights = np.array([shares, shares - 1.0])
+    switches = np.where(weights[:, :, None] == 0.0, duration, np.cumsum(durations, axis=2))
+    switches[:, :, -1] = duration
+    breaks = merged(switches, _SAME)
     middle = 0.5 * (breaks[:-1] + breaks[1:])
-    phases = np.minimum((switches[:, None, :] <= middle[:, None]).sum(axis=2), jerks.shape[1] - 1)
-    rows = np.take_along_axis(jerks, phases, axis=1).T
+    phases = np.minimum((switches[:, :, None] <= middle[:, None]).sum(axis=3), len(JERKS) - 1)
+    rows = np.einsum("kn,n,knm->mn", weights, limits[2], JERKS[phases])
     coefficients, is_as_found = _closed(start, end, np.diff(breaks), rows)
     return PiecewisePolynomial(breaks, coefficients), is_as_found
 
