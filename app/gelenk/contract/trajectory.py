@@ -10,7 +10,8 @@ ENDPOINT = RobotEndpoint(
     answer=TrajectoryAnswer,
     summary="Trajectory",
     description="""
-    A motion from rest to rest through segments: joints, lines, circles and splines of the tip.
+    A motion through segments: joints, lines, circles and splines of the tip. It begins and ends at rest, or with given
+    velocities and accelerations of the joints, or out of a running motion (`at`).
 
     A `joint` segment moves all joints together to a configuration or a pose; `line`, `circle` and `spline` lead the
     tip along a path in space, which the joints follow within `path_tolerance`, also between samples, on one branch of

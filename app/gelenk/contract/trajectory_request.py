@@ -222,12 +222,32 @@ Segment = Annotated[
 ]
 
 
-class TrajectoryRequest(ChainOptions, MotionOptions, WithSteps):
-    """A motion from rest to rest through segments, one after the other."""
+_RATES = (
+    "one number per joint or by joint name; at rest if left out. That segment is a `joint` motion with the law `cubic` "
+    "(velocities), `quintic`, `septic` or `jerk_limited`, or a `spline` through configurations with the law `cubic` "
+    "and the boundary `clamped` (velocities) or `assigned`."
+)
 
-    start: Configuration = Field(
+
+class Motion(ChainOptions, MotionOptions, WithSteps):
+    """A motion through segments, one after the other."""
+
+    start: Configuration | None = Field(
+        default=None,
         description="Configuration in which the motion begins, one number per joint of the chain or by joint name, "
-        "[rad or m]."
+        "[rad or m]; required without `at`.",
+    )
+    start_velocities: Configuration | None = Field(
+        default=None, description=f"At the start of the first segment, [rad/s or m/s], {_RATES}"
+    )
+    start_accelerations: Configuration | None = Field(
+        default=None, description="Likewise, [rad/s² or m/s²]; not with `cubic`, unless the boundary is `assigned`."
+    )
+    end_velocities: Configuration | None = Field(
+        default=None, description="At the end of the last segment, [rad/s or m/s], likewise."
+    )
+    end_accelerations: Configuration | None = Field(
+        default=None, description="At the end of the last segment, [rad/s² or m/s²], likewise."
     )
     segments: Annotated[
         Sequence[Segment], OnTheWire(Annotated[list[Segment], Field(min_length=1, max_length=MAX_SEGMENTS)])
@@ -287,3 +307,23 @@ class TrajectoryRequest(ChainOptions, MotionOptions, WithSteps):
     coefficients: bool = Field(default=False, description="Whether to include each segment's polynomials in full.")
     tip_poses: bool = Field(default=True, description="Whether to include the tip's poses at the samples.")
     pose_format: AnswerFormat = "quaternion_xyzw"
+
+
+class RunningMotion(Payload):
+    """A motion that is being carried out, by the request that it was planned from, and a time in it."""
+
+    trajectory: Motion = Field(
+        description="The former request, with its `start`; it is planned again, and nothing needs to be stored. Of a "
+        "motion that began with `at` itself, give the start with its velocities and accelerations."
+    )
+    time: float = Field(ge=0.0, le=1e6, description="Since its start, [s].")
+
+
+class TrajectoryRequest(Motion):
+    """A motion through segments, one after the other, from rest, from given rates, or out of another motion."""
+
+    at: RunningMotion | None = Field(
+        default=None,
+        description="Instead of `start`, a running motion and a time: the new one begins in its state there, with its "
+        "velocities and, if the first segment's law takes them, accelerations.",
+    )

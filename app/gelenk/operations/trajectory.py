@@ -13,6 +13,9 @@ from gelenk.store.records import LoadedRobot
 _QUICK_SAMPLES = 1000
 """Samples of a motion that the event loop plans, audits and encodes in about two milliseconds."""
 
+_MOVING = ("at", "start_velocities", "start_accelerations", "end_velocities", "end_accelerations")
+"""Fields of a motion that does not begin or end at rest."""
+
 
 def run(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> Outcome:
     """Plan and audit a trajectory, and sample it."""
@@ -27,10 +30,11 @@ def attempt(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> Out
 
 
 def is_heavy(call: TrajectoryRequest) -> bool:
-    """Check whether planning takes more than about a millisecond: all but one movement of the joints."""
+    """Check whether planning takes more than about a millisecond: all but one movement of resting joints."""
     first = call.segments[0]
     is_move = isinstance(first, JointSegment) and not isinstance(first.target, Pose)
-    return len(call.segments) > 1 or not is_move or call.steps or call.coefficients or is_awaited()
+    is_moving = any(getattr(call, name) is not None for name in _MOVING)
+    return len(call.segments) > 1 or not is_move or is_moving or call.steps or call.coefficients or is_awaited()
 
 
 def _planned(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> PlannedTrajectory:

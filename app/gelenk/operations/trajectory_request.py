@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import cast
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from gelenk.errors import InvalidField, InvalidPose, OutsideLimits, counted
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.ik.search.words import DIRECTIONS
 from gelenk.operations.pose_arrays import poses_from
+from gelenk.operations.trajectory_ends import state_of, with_rates
 from gelenk.operations.trajectory_limits import OwnVelocities, SourcedLimits, bounds_of, has_own_limits, own_velocities
 from gelenk.robot.arrays import Array, Configuration
 from gelenk.robot.chain import Chain
@@ -53,9 +55,11 @@ def parse(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedPr
         bounds_of(chain, own, {"": call, f"segments.{i}.": one}) if has_own_limits(one) else overall
         for i, one in enumerate(call.segments)
     )
+    state = None if call.at is None else state_of(robot, chain, call.at, lambda *former: parse(*former).problem)
+    segments = tuple(_segment(chain, call, i, bounds[i]) for i in range(len(call.segments)))
     problem = TrajectoryProblem(
-        _within(chain, call.start, "start"),
-        tuple(_segment(chain, call, i, bounds[i]) for i in range(len(call.segments))),
+        _start(chain, call, state),
+        with_rates(chain, call, segments, state),
         Following(
             _task(call),
             call.path_tolerance,
@@ -67,6 +71,18 @@ def parse(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedPr
         call.compare_timing,
     )
     return SourcedProblem(problem, own, overall, bounds)
+
+
+def _start(chain: Chain, call: TrajectoryRequest, state: Array | None) -> Array:
+    """Return where the motion begins, by the request or in the state of a running motion; shape (n,), [rad or m]."""
+    if state is None:
+        if call.start is None:
+            raise InvalidField("start", "is missing: give it, or a running motion with `at`")
+        return _within(chain, call.start, "start")
+    for name in ("start", "start_velocities", "start_accelerations"):
+        if getattr(call, name) is not None:
+            raise InvalidField(name, "is not allowed beside `at`, which determines it")
+    return cast(Array, state[0])
 
 
 def shortest_duration(problem: TrajectoryProblem) -> float:

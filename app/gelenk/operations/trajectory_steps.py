@@ -11,6 +11,7 @@ from gelenk.course.cartesian.segment_steps import (
     corner_step,
     joint_steps,
     knots_step,
+    moving_step,
     path_law_step,
     tip_spline_step,
     titled,
@@ -19,6 +20,7 @@ from gelenk.course.steps import Step
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
+from gelenk.trajectory.laws.laws import LAWS
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.paths.curves import arc_through
 from gelenk.trajectory.problem.problem import Segment, SegmentReport, Trajectory
@@ -62,6 +64,13 @@ def _of_joints(segment: Segment, report: SegmentReport, motion: PiecewisePolynom
         times = motion.breaks[inside]
         return (knots_step(times - begin, motion.derivative().at(times)),)
     start, target = motion.at(np.array([begin, end]))
+    if segment.ends is not None:
+        ends, count = segment.ends, 1 + LAWS[segment.law].end_rates
+        states = (
+            (start, ends.start_velocity, ends.start_acceleration),
+            (target, ends.end_velocity, ends.end_acceleration),
+        )
+        return (moving_step([state[:count] for state in states], end - begin),)
     limits = segment.limits
     task = JointTask(start, target, (limits.velocity, limits.acceleration, limits.jerk), end - begin)
     return joint_steps(task, segment.law)

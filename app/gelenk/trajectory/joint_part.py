@@ -1,6 +1,7 @@
 """Segments in joint space: to a configuration, to a pose by inverse kinematics, or through waypoints."""
 
 import math
+from dataclasses import replace
 from typing import cast
 
 import numpy as np
@@ -21,11 +22,13 @@ from gelenk.trajectory.audit.tip import tip_peaks
 from gelenk.trajectory.audit.words import StopReason
 from gelenk.trajectory.joints.excess import first_limit_excess
 from gelenk.trajectory.joints.motion import compared_point_to_point, point_to_point_motion
+from gelenk.trajectory.joints.moving_ends import given_rates, moving_motion
 from gelenk.trajectory.joints.splines import JointSpline, promised
 from gelenk.trajectory.joints.via_blends import via_blends
 from gelenk.trajectory.joints.waypoints import check_within
-from gelenk.trajectory.laws.laws import scaled_law
+from gelenk.trajectory.laws.laws import LAWS, scaled_law
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.splines import EndRates
 from gelenk.trajectory.problem.parts import PlannedPart, in_field, standing
 from gelenk.trajectory.problem.problem import Segment, SegmentReport, TrajectoryProblem
 from gelenk.trajectory.problem.result import PlanningFailure, TimingComparison
@@ -54,8 +57,12 @@ def joint_part(
         if isinstance(found, PlanningFailure):
             return PlannedPart(standing(start), (), Demands(), found, 0.0)
         target = found
-    with in_field(f"segments.{index}"):
-        return _planned(chain, start, target, segment, index, problem)
+    if segment.ends is None or segment.duration is not None or len(problem.segments) > 1:
+        with in_field(f"segments.{index}"):
+            return _planned(chain, start, target, segment, index, problem)
+    # Its duration, which cannot be changed later, is that of the whole.
+    with in_field(f"segments.{index}", "duration"):
+        return _planned(chain, start, target, replace(segment, duration=problem.duration), index, problem)
 
 
 def _planned(
@@ -66,6 +73,9 @@ def _planned(
     notes: tuple[str, ...] = ()
     if target is not None:
         check_within(chain, target[None], "target")
+    if segment.ends is not None:
+        motion = moving_motion(chain, start, target, segment, segment.ends)
+    elif target is not None:
         motion = point_to_point_motion(start, target, segment.law, segment.limits, segment.duration)
     elif segment.blends:
         motion, note = _beside(chain, start, segment)
@@ -145,6 +155,9 @@ def _within_tip_limits(chain: Chain, motion: PiecewisePolynomial, segment: Segme
     factor = max(math.sqrt(ratio) if "acceleration" in name else ratio for name, ratio in ratios.items())
     if factor <= 1.0:
         return motion
+    if segment.ends is not None:
+        reason = f"with it the tip would be too fast: {factor:.6g} times the time would keep its limits from rest"
+        raise InvalidField(given_rates(segment.ends), reason)
     given = "times" if segment.times is not None else "duration"
     if segment.times is not None or segment.duration is not None:
         reason = f"the tip would be too fast: its limits are kept in {factor:.6g} times the time"
@@ -155,8 +168,8 @@ def _within_tip_limits(chain: Chain, motion: PiecewisePolynomial, segment: Segme
 def _comparison(
     chain: Chain, start: Array, target: Array | None, segment: Segment, index: int
 ) -> TimingComparison | None:
-    """Compare two timings of the same path; None if its times are given."""
-    if segment.times is not None or segment.blends:
+    """Compare two timings of the same path; None if its times or rates are given."""
+    if segment.times is not None or segment.blends or segment.ends is not None:
         return None
     law, limits = segment.law, segment.limits
     if target is not None:
@@ -176,4 +189,13 @@ def _demands(segment: Segment, start: Array, end: Array, task: Task) -> Demands:
         continuous=continuous,
         keeps_jerk=keeps_jerk,
         stated_jerk=segment.stated_jerk,
+        end_rates=None if segment.ends is None else _end_rates(segment, segment.ends),
     )
+
+
+def _end_rates(segment: Segment, ends: EndRates) -> tuple[Array, Array]:
+    """Return the rates that a motion must have at both ends, of those that its law or its spline determines there."""
+    count = 2 if segment.boundary == "assigned" else LAWS[segment.law].end_rates
+    start = np.array([ends.start_velocity, ends.start_acceleration])
+    end = np.array([ends.end_velocity, ends.end_acceleration])
+    return start[:count], end[:count]

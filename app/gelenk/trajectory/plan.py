@@ -122,6 +122,11 @@ def _factor(parts: list[PlannedPart], problem: TrajectoryProblem) -> float:
     least = sum(part.motion.duration for part in parts)
     if parts[-1].failure is not None or least == 0.0:
         return 1.0
+    if any(segment.ends is not None for segment in problem.segments):
+        if len(problem.segments) == 1:
+            return 1.0
+        reason = "would change the velocities at the ends: give the segments durations of their own"
+        raise InvalidField("duration", reason)
     if problem.duration < least * (1.0 - _SAME_DURATION):
         raise InvalidField("duration", f"the limits allow no less than {least:.6g} s")
     return max(1.0, problem.duration / least)

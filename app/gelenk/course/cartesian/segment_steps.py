@@ -59,6 +59,17 @@ def joint_steps(task: JointTask, law: Law) -> tuple[Step, ...]:
     return way, step(_("Time law"), _("The fastest motion within the limits."), rf"T = {tex(task.duration, 's')}")
 
 
+def moving_step(states: Sequence[Sequence[Array]], duration: float) -> Step:
+    """Return the conditions of a motion whose ends move: positions, (n,), and rates at both, and its duration, [s]."""
+    formulas = [
+        rf"{name}({time}) = ({tex_row(row)})"
+        for time, state in zip(("0", "T"), states, strict=True)
+        for name, row in zip(("q", r"\dot q", r"\ddot q"), state, strict=False)
+    ]
+    text = _("At its ends the joints have the velocities and accelerations that are given there.")
+    return step(_("From state to state"), text, *formulas, rf"T = {tex(duration, 's')}")
+
+
 def _least_text(least: float, duration: float) -> str:
     if duration <= least * (1.0 + _SAME):
         return _("The slowest joint sets the time for all.")

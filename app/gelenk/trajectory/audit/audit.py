@@ -209,8 +209,8 @@ class _Examination:
         errors: dict[str, float] = {}
         last = len(pieces.widths) - 1
         for i, (end, piece, tau) in enumerate((("start", 0, 0.0), ("end", last, 1.0))):
-            rest = np.zeros(len(names))
-            for order, wanted in enumerate((None if demands.ends is None else demands.ends[i], rest)):
+            rates = np.zeros((1, len(names))) if demands.end_rates is None else demands.end_rates[i]
+            for order, wanted in enumerate((None if demands.ends is None else demands.ends[i], *rates)):
                 if wanted is None or not names:
                     continue
                 quantity = DERIVATIVES[order]

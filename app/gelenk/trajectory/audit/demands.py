@@ -49,8 +49,7 @@ class Demands:
     """The limits that a motion must keep, and the path it must follow.
 
     Attributes:
-        ends: Configurations at the start and the end, shape (n,) each, [rad or m]; None leaves them open. The motion
-            rests at both.
+        ends: Configurations at the start and the end, shape (n,) each, [rad or m]; None leaves them open.
         path: Demanded pose at each time; None if the tip is free.
         task: Directions that count for the path and for the smallest singular value.
         path_tolerance: Allowed distance from the path, [m].
@@ -62,6 +61,8 @@ class Demands:
         way_error: How far the planned motion is from the exact path; None if it follows no path.
         tolerance: Allowed relative excess over a limit, and allowed error at the ends, relative to the derivative's
             peak or to 1; also the allowed jump of position, ten times as much for velocity, and so on.
+        end_rates: Velocities, and accelerations if they count, at the start and the end, shape (1 or 2, n) each;
+            if None the motion rests at both.
     """
 
     joints: JointLimits = field(default_factory=JointLimits)
@@ -77,3 +78,4 @@ class Demands:
     stated_jerk: Array | None = None
     way_error: PathError | None = None
     tolerance: float = 1e-9
+    end_rates: tuple[Array, Array] | None = None

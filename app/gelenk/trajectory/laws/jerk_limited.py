@@ -46,6 +46,7 @@ def jerk_limited(start: Array, end: Array, limits: Array, duration: float | None
     Raises:
         InvalidField: A limit is out of range, a state is beyond the limits, or not all joints can take this time.
     """
+    start, end, limits = (np.ascontiguousarray(rows, dtype=float) for rows in (start, end, limits))
     _check(start, end, limits)
     if start.shape[1] == 0:
         return PiecewisePolynomial(np.array([0.0, duration or 0.0]), np.empty((1, 1, 0)))
@@ -72,12 +73,17 @@ def _check(start: Array, end: Array, limits: Array) -> None:
     for field, state, sign in (("start", start, 1.0), ("end", end, -1.0)):
         if not (np.abs(state[0]) <= LARGEST).all():
             raise InvalidField(field, f"positions must be of magnitude ≤ {LARGEST:g}")
-        for name, values, most in zip(("velocities", "accelerations"), state[1:], limits, strict=False):
-            _refuse_beyond(f"{field}_{name}", values, most, "is {:.10g}, beyond its limit {:.10g}")
+        check_rates(field, state[1:], limits)
         # Where the velocity goes to, or comes from, while the jerk changes the acceleration.
         v, a, j = state[1], state[2], limits[2]
         reason = "takes the velocity to {:.10g}, beyond its limit {:.10g}, because the jerk is limited"
         _refuse_beyond(f"{field}_accelerations", v + sign * 0.5 * a * np.abs(a) / j, limits[0], reason)
+
+
+def check_rates(side: str, rates: Array, limits: Array) -> None:
+    """Refuse velocities and accelerations at the `start` or the `end`, (2, n), beyond their limits, (3, n)."""
+    for name, values, most in zip(("velocities", "accelerations"), rates, limits, strict=False):
+        _refuse_beyond(f"{side}_{name}", values, most, "is {:.10g}, beyond its limit {:.10g}")
 
 
 def _refuse_beyond(field: str, values: Array, most: Array, reason: str) -> None:

@@ -143,8 +143,9 @@ def _furthest(task: Array, duration: float, phases: Array) -> float:
     phases[:] = x - a0, h, before, coast, after, k, y + a1
     np.maximum(phases, 0.0, phases)
     peak = w0 + x * (x + h)
-    virtual = (w0 + peak) * (x + 0.5 * h) + (w1 + peak) * (y + 0.5 * k) + peak * coast
-    return virtual - a0 * (v0 - a0 * a0 / 3.0) + a1 * (v1 - a1 * a1 / 3.0)
+    covered = (w0 + peak) * (x + 0.5 * h) + (w1 + peak) * (y + 0.5 * k) + peak * coast
+    distance: float = covered - a0 * (v0 - a0 * a0 / 3.0) + a1 * (v1 - a1 * a1 / 3.0)
+    return distance
 
 
 @compiled

@@ -18,6 +18,7 @@ class TimeLaw:
         peaks: Largest magnitudes of a polynomial's velocity, acceleration and, if it is kept, jerk, from 0 to 1 in 1 s.
         scales_splines: Whether a spline that is at rest at both ends is the motion itself, all times multiplied by one
             factor; another law leads along the spline.
+        end_rates: How many derivatives of joints may be given at its ends, from the velocity on; else it rests there.
         adapts_to_corners: Whether it is slow only at the corners of blended lines. Another law is chosen for each line,
             with constant speed in the corners, if that takes less time than one law along all of them.
     """
@@ -26,6 +27,7 @@ class TimeLaw:
     conditions: int | None = None
     peaks: tuple[float, ...] = ()
     scales_splines: bool = False
+    end_rates: int = 0
     adapts_to_corners: bool = False
 
     @property
@@ -35,12 +37,12 @@ class TimeLaw:
 
 
 LAWS: Final[dict[Law, TimeLaw]] = {
-    "cubic": TimeLaw(continuous=1, conditions=2, peaks=(1.5, 6.0), scales_splines=True),
-    "quintic": TimeLaw(continuous=2, conditions=3, peaks=(1.875, 10.0 / math.sqrt(3.0), 60.0)),
+    "cubic": TimeLaw(continuous=1, conditions=2, peaks=(1.5, 6.0), scales_splines=True, end_rates=1),
+    "quintic": TimeLaw(continuous=2, conditions=3, peaks=(1.875, 10.0 / math.sqrt(3.0), 60.0), end_rates=2),
     # s' = 140 y³, s'' = 420 y² (1 - 2λ), s''' = 840 (y - 5y²) with y = λ (1 - λ).
-    "septic": TimeLaw(continuous=3, conditions=4, peaks=(2.1875, 16.8 / math.sqrt(5.0), 52.5)),
+    "septic": TimeLaw(continuous=3, conditions=4, peaks=(2.1875, 16.8 / math.sqrt(5.0), 52.5), end_rates=2),
     "trapezoidal": TimeLaw(continuous=1, scales_splines=True, adapts_to_corners=True),
-    "jerk_limited": TimeLaw(continuous=2),
+    "jerk_limited": TimeLaw(continuous=2, end_rates=2),
     "time_optimal": TimeLaw(continuous=1, adapts_to_corners=True),
 }
 

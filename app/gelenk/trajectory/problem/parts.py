@@ -61,9 +61,11 @@ def standing(configuration: Array, duration: float = 0.0) -> PiecewisePolynomial
 
 
 @contextmanager
-def in_field(field: str) -> Iterator[None]:
-    """Name the part of the request in refusals of its fields."""
+def in_field(field: str, *whole: str) -> Iterator[None]:
+    """Name the part of the request in refusals of its fields, but for rates at the ends and fields of the `whole`."""
     try:
         yield
     except InvalidField as error:
+        if error.field.startswith(("start_", "end_")) or error.field in whole:
+            raise
         raise InvalidField(f"{field}.{error.field}", error.reason) from error

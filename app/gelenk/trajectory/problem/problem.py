@@ -1,8 +1,8 @@
 """The request for a trajectory, and its result.
 
-A trajectory starts at rest at a configuration and runs through segments: the joints move to a configuration or a pose,
-or the tip along a line, a circle or a spline. Each segment has its own time law and limits. The motion stops between
-two segments unless they are blended lines.
+A trajectory starts at a configuration and runs through segments: the joints move to a configuration or a pose, or the
+tip along a line, a circle or a spline. Each segment has its own time law and limits. The motion stops between two
+segments unless they are blended lines; at its start and its end it may move, if joint motions are there.
 """
 
 from dataclasses import dataclass, field, replace
@@ -16,7 +16,7 @@ from gelenk.trajectory.audit.demands import TipLimits
 from gelenk.trajectory.audit.result import Audit
 from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw, SegmentType
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
-from gelenk.trajectory.motion.splines import Boundary
+from gelenk.trajectory.motion.splines import Boundary, EndRates
 from gelenk.trajectory.problem.result import Damping, PlanningFailure, SegmentBlend, TimingComparison
 
 OPEN = np.full((3, 3), np.nan)
@@ -61,6 +61,7 @@ class Segment:
         blends: Whether joints pass beside the waypoints on straight lines with parabolic blends, not on a spline.
         stated_jerk: Requested jerk limits, which hold for every law; ∞ where none was requested; shape (n,),
             [rad/s³ or m/s³].
+        ends: Rates at both ends of a joint segment, of a law that allows them; at rest if None.
     """
 
     type: SegmentType
@@ -80,6 +81,7 @@ class Segment:
     boundary: Boundary = "clamped"
     blends: bool = False
     stated_jerk: Array | None = None
+    ends: EndRates | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +109,7 @@ class TrajectoryProblem:
     """The request for a trajectory.
 
     Attributes:
-        start: At rest; shape (n,), [rad or m].
+        start: Shape (n,), [rad or m].
         segments: At least one, in order.
         duration: Of the whole, [s]; the shortest within the limits if None.
         compares_timing: Whether to compare uniform and time-optimal timing of each segment.
