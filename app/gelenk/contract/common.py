@@ -135,9 +135,5 @@ class ChainEnds(Payload):
 class ChainOptions(Payload):
     """The chain a call addresses."""
 
-    base_frame: FrameName | None = Field(
-        default=None, description="Frame in which poses are expressed; the default chain's if left out."
-    )
-    tip_frame: FrameName | None = Field(
-        default=None, description="Frame whose pose is computed; the default chain's if left out."
-    )
+    base_frame: FrameName | None = optional("Frame in which poses are expressed; the default chain's if left out.")
+    tip_frame: FrameName | None = optional("Frame whose pose is computed; the default chain's if left out.")

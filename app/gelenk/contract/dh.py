@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from gelenk.contract.common import Answer, Payload
+from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.options import WithSteps
 from gelenk.contract.pose import Pose
 from gelenk.course.steps import Step
@@ -33,9 +33,7 @@ class MimicPayload(Payload):
 class DhJointRow(Payload):
     """A row of the table; the joint's position adds to `theta` (revolute) or to `d` (prismatic)."""
 
-    name: JointName | None = Field(
-        default=None, description="Unique in the table; `joint_1`, `joint_2`, … if left out."
-    )
+    name: JointName | None = optional("Unique in the table; `joint_1`, `joint_2`, … if left out.")
     type: Literal["revolute", "prismatic"] = Field(
         description="Whether the joint turns about or slides along its axis."
     )
@@ -43,17 +41,12 @@ class DhJointRow(Payload):
     alpha: float = Field(description="Twist about the common normal, [rad].")
     d: float = Field(description="Offset along the joint axis, [m].")
     theta: float = Field(description="Angle about the joint axis, [rad].")
-    lower: float | None = Field(
-        default=None, description="Lower limit of the position, [rad or m]; -π or -1 m if left out."
-    )
-    upper: float | None = Field(
-        default=None, description="Upper limit of the position, [rad or m]; π or 1 m if left out."
-    )
+    lower: float | None = optional("Lower limit of the position, [rad or m]; -π or -1 m if left out.")
+    upper: float | None = optional("Upper limit of the position, [rad or m]; π or 1 m if left out.")
     velocity: float | None = Field(default=None, ge=0, description="Velocity limit, [rad/s or m/s].")
     effort: float | None = Field(default=None, ge=0, description="Effort limit, [N m or N].")
-    mimic: MimicPayload | None = Field(
-        default=None,
-        description="The joint that this one follows; if left out, its position is a variable of the table.",
+    mimic: MimicPayload | None = optional(
+        "The joint that this one follows; if left out, its position is a variable of the table."
     )
 
     def row(self, number: int) -> DhJoint:
@@ -71,8 +64,8 @@ class DhTablePayload(Payload):
 
     convention: Literal["standard", "modified"] = Field(description="How the four parameters of a row are composed.")
     joints: list[DhJointRow] = Field(min_length=1, max_length=MAX_JOINTS, description="The rows, base to tip.")
-    base: Pose | None = Field(default=None, description="T_base_0; the identity if left out.")
-    tool: Pose | None = Field(default=None, description="T_n_tool; the identity if left out.")
+    base: Pose | None = optional("T_base_0; the identity if left out.")
+    tool: Pose | None = optional("T_n_tool; the identity if left out.")
 
     def table(self) -> DhTable:
         """Return the core's table.

@@ -4,6 +4,7 @@ from typing import Annotated, get_args
 
 from pydantic import Field
 
+from gelenk.contract.common import optional
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import AboutChain, Configurations, Matrix
 from gelenk.contract.options import BatchRequest, WithSteps, WorkedSolutions
@@ -29,20 +30,16 @@ class DynamicsOptions(WrenchOptions, WithSteps):
 class DynamicsRequest(BatchRequest, DynamicsOptions, WrenchRequest):
     """Dynamics of a batch of configurations."""
 
-    joint_velocities: Configurations | None = Field(
-        default=None, description="One entry per configuration, [rad/s or m/s]; zero if left out."
+    joint_velocities: Configurations | None = optional("One entry per configuration, [rad/s or m/s]; zero if left out.")
+    joint_accelerations: Configurations | None = optional(
+        "For inverse dynamics: one entry per configuration, [rad/s² or m/s²]."
     )
-    joint_accelerations: Configurations | None = Field(
-        default=None, description="For inverse dynamics: one entry per configuration, [rad/s² or m/s²]."
+    torques: Configurations | None = optional(
+        "For forward dynamics: τ of the motors, one entry per configuration, [N m], or [N] for sliding."
     )
-    torques: Configurations | None = Field(
-        default=None,
-        description="For forward dynamics: τ of the motors, one entry per configuration, [N m], or [N] for sliding.",
-    )
-    wrenches: Wrenches | None = Field(
-        default=None,
-        description="γ, exerted by the tip on its surroundings, force before moment, six numbers, [N] and [N m]: a "
-        "list of one for all configurations or of one each.",
+    wrenches: Wrenches | None = optional(
+        "γ, exerted by the tip on its surroundings, force before moment, six numbers, [N] and [N m]: a list of one for "
+        "all configurations or of one each."
     )
 
 
@@ -51,38 +48,29 @@ class DynamicsAnswer(AboutChain):
 
     root_frame: str = Field(description="The root link, which is fixed and in whose axes gravity is given.")
     gravity: list[float] = Field(description="In the axes of the root link, [m/s²].")
-    mass_matrices: list[Matrix] | None = Field(
-        default=None, description="M(q): [kg m²] for two turning joints, [kg m] for one, [kg] for none."
+    mass_matrices: list[Matrix] | None = optional(
+        "M(q): [kg m²] for two turning joints, [kg m] for one, [kg] for none."
     )
-    coriolis_matrices: list[Matrix] | None = Field(
-        default=None,
-        description="C(q, q̇): of the many matrices with this C q̇ the one for which dM/dt - 2C is skew, "
-        "[kg m², kg m or kg] per second.",
+    coriolis_matrices: list[Matrix] | None = optional(
+        "C(q, q̇): of the many matrices with this C q̇ the one for which dM/dt - 2C is skew, [kg m², kg m or kg] per "
+        "second."
     )
-    coriolis_torques: list[list[float]] | None = Field(
-        default=None, description="C q̇, Coriolis and centrifugal torques, [N m or N]."
+    coriolis_torques: list[list[float]] | None = optional("C q̇, Coriolis and centrifugal torques, [N m or N].")
+    gravity_torques: list[list[float]] | None = optional("g(q), the motor torques that hold the weight, [N m or N].")
+    kinetic_energies: list[float] | None = optional("½ q̇ᵀM q̇, [J].")
+    potential_energies: list[float] | None = optional(
+        "Of all that the chain's joints move, [J]: zero where its centre of mass is level with the origin of the root "
+        "link."
     )
-    gravity_torques: list[list[float]] | None = Field(
-        default=None, description="g(q), the motor torques that hold the weight, [N m or N]."
+    wrench_torques: list[list[float]] | None = optional("Jᵀγ, where wrenches were given, [N m or N].")
+    torques: list[list[float]] | None = optional(
+        "By inverse dynamics, where `joint_accelerations` were given, [N m or N]."
     )
-    kinetic_energies: list[float] | None = Field(default=None, description="½ q̇ᵀM q̇, [J].")
-    potential_energies: list[float] | None = Field(
-        default=None,
-        description="Of all that the chain's joints move, [J]: zero where its centre of mass is level with the origin "
-        "of the root link.",
+    joint_accelerations: list[list[float]] | None = optional(
+        "By forward dynamics, where `torques` were given, [rad/s² or m/s²]."
     )
-    wrench_torques: list[list[float]] | None = Field(
-        default=None, description="Jᵀγ, where wrenches were given, [N m or N]."
-    )
-    torques: list[list[float]] | None = Field(
-        default=None, description="By inverse dynamics, where `joint_accelerations` were given, [N m or N]."
-    )
-    joint_accelerations: list[list[float]] | None = Field(
-        default=None, description="By forward dynamics, where `torques` were given, [rad/s² or m/s²]."
-    )
-    overloaded_joints: list[list[str]] | None = Field(
-        default=None,
-        description="By inverse dynamics: joints whose torque is beyond the effort limit of the description.",
+    overloaded_joints: list[list[str]] | None = optional(
+        "By inverse dynamics: joints whose torque is beyond the effort limit of the description."
     )
     notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or assume.")
     steps: WorkedSolutions = None

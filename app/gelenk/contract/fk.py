@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from gelenk.contract.common import ChainOptions, FrameName
+from gelenk.contract.common import ChainOptions, FrameName, optional
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import AboutChain
 from gelenk.contract.options import BatchRequest, RespectLimits, WithSteps, WorkedSolutions
@@ -16,8 +16,8 @@ class ForwardOptions(ChainOptions, WithSteps):
     """Options of forward kinematics."""
 
     pose_format: AnswerFormat = "quaternion_xyzw"
-    frames: list[FrameName] | Literal["all"] | None = Field(
-        default=None, description='Further frames that the chain moves, by name, or "all" of them.'
+    frames: list[FrameName] | Literal["all"] | None = optional(
+        'Further frames that the chain moves, by name, or "all" of them.'
     )
     respect_limits: RespectLimits = False
 
@@ -32,8 +32,8 @@ class ForwardAnswer(AboutChain):
     base_frame: str = Field(description="Frame in which the poses are expressed.")
     tip_frame: str = Field(description="Frame whose poses they are.")
     poses: list[Pose] = Field(description="T_base_tip at each configuration.")
-    frames: list[dict[str, Pose]] | None = Field(
-        default=None, description="If frames were requested: T_base_frame by name, one entry per configuration."
+    frames: list[dict[str, Pose]] | None = optional(
+        "If frames were requested: T_base_frame by name, one entry per configuration."
     )
     steps: WorkedSolutions = None
     certificate: PoseCertificate

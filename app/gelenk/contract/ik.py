@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, ChainOptions, OnTheWire
+from gelenk.contract.common import Answer, ChainOptions, OnTheWire, optional
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import Configuration, Configurations
 from gelenk.contract.options import Directions, WithSteps
@@ -92,11 +92,10 @@ class InverseOptions(ChainOptions, WithSteps):
         default=False,
         description="With `all`: whether solutions that differ by full turns count, where limits allow them.",
     )
-    objective: ObjectiveName | None = Field(
-        default=None,
-        description="How to use a redundant arm's freedom: to stay near `posture` (the seed if left out) or the middle "
-        "of the ranges, to keep away from the limits, or to be manipulable (√det JJᵀ). The nearest minimum along the "
-        "self-motion from the solution that was found; without freedom it stays as it is.",
+    objective: ObjectiveName | None = optional(
+        "How to use a redundant arm's freedom: to stay near `posture` (the seed if left out) or the middle of the "
+        "ranges, to keep away from the limits, or to be manipulable (√det JJᵀ). The nearest minimum along the "
+        "self-motion from the solution that was found; without freedom it stays as it is."
     )
     step_size: float | None = Field(
         default=None, gt=0, le=1e6, description="α of the gradient; if left out, a line search finds it."
@@ -110,11 +109,10 @@ class InverseOptions(ChainOptions, WithSteps):
     switch_error: float = Field(
         default=1e-2, gt=0, le=1e6, description="‖e‖ at which `gradient_then_newton` changes over, [m and rad]."
     )
-    elbow_angle: float | None = Field(
-        default=None,
-        description="With `analytic`, of seven joints with a spherical shoulder and wrist: the angle of the elbow "
-        "about the line from shoulder to wrist, from the plane of that line and the first axis, [rad]; if left out "
-        "that of the seed, or another where it does not fit into the limits.",
+    elbow_angle: float | None = optional(
+        "With `analytic`, of seven joints with a spherical shoulder and wrist: the angle of the elbow about the line "
+        "from shoulder to wrist, from the plane of that line and the first axis, [rad]; if left out that of the seed, "
+        "or another where it does not fit into the limits."
     )
     fixed_joints: dict[str, float] | None = Field(
         default=None,
@@ -136,13 +134,12 @@ class InverseRequest(InverseOptions):
     """Inverse kinematics of a batch of targets."""
 
     targets: Targets
-    seeds: Configurations | None = Field(
-        default=None,
-        description="Where to start, and the configurations that solutions should be near: a list of one configuration "
-        "for all targets, or of one each, not necessarily within the limits; if left out `posture`, or the middle of "
-        "the ranges.",
+    seeds: Configurations | None = optional(
+        "Where to start, and the configurations that solutions should be near: a list of one configuration for all "
+        "targets, or of one each, not necessarily within the limits; if left out `posture`, or the middle of the "
+        "ranges."
     )
-    posture: Configuration | None = Field(default=None, description="For the objective `posture`, [rad or m].")
+    posture: Configuration | None = optional("For the objective `posture`, [rad or m].")
 
 
 class SolutionInfo(Answer):
@@ -163,13 +160,11 @@ class SolutionInfo(Answer):
         "`wrist` no_flip or flip, as far as the arm has that choice; `arm` counts the roots where they are those of a "
         "quartic."
     )
-    free_joints: list[str] | None = Field(
-        default=None,
-        description="Joints that a singularity leaves free: at the seed's positions if the others can follow, "
-        "otherwise elsewhere.",
+    free_joints: list[str] | None = optional(
+        "Joints that a singularity leaves free: at the seed's positions if the others can follow, otherwise elsewhere."
     )
-    elbow_angle: float | None = Field(
-        default=None, description="Of an arm with a spherical shoulder and wrist: see the field of the request, [rad]."
+    elbow_angle: float | None = optional(
+        "Of an arm with a spherical shoulder and wrist: see the field of the request, [rad]."
     )
 
 
@@ -196,39 +191,32 @@ class InverseResult(Answer):
     )
     solutions: list[SolutionInfo] = Field(description="Nearest to the seed first; empty unless solved.")
     reason: str | None = Field(description="Why it is not solved; or, with `all`, why there may be other solutions.")
-    nearest: NearestInfo | None = Field(default=None, description="Of an unsolved target.")
-    blocking_joints: list[BlockingJoint] | None = Field(default=None, description="With `outside_limits`.")
-    unserved_directions: list[list[float]] | None = Field(
-        default=None,
-        description="Of an unsolved target: unit twists in the base's axes, linear before angular, that the tip cannot "
-        "follow at `nearest`.",
+    nearest: NearestInfo | None = optional("Of an unsolved target.")
+    blocking_joints: list[BlockingJoint] | None = optional("With `outside_limits`.")
+    unserved_directions: list[list[float]] | None = optional(
+        "Of an unsolved target: unit twists in the base's axes, linear before angular, that the tip cannot follow at "
+        "`nearest`."
     )
-    complete: bool | None = Field(
-        default=None,
-        description="With `all`: whether these are proved to be all solutions. False for the results of a search, and "
-        "next to a singularity, where rounding may lose a solution.",
+    complete: bool | None = optional(
+        "With `all`: whether these are proved to be all solutions. False for the results of a search, and next to a "
+        "singularity, where rounding may lose a solution."
     )
-    families: list[Family] | None = Field(
-        default=None,
-        description="With `all`, where there are infinitely many solutions: the families that `solutions` samples. "
-        "Empty where none was found; at most 32.",
+    families: list[Family] | None = optional(
+        "With `all`, where there are infinitely many solutions: the families that `solutions` samples. Empty where "
+        "none was found; at most 32."
     )
-    stop_reason: StopReason | None = Field(
-        default=None,
-        description="If one start was followed: why it stopped (`stagnated`: e lies in ker Jᵀ). "
-        "`time_limit`: the call's time ran out before the target was solved, explained or brought to its objective.",
+    stop_reason: StopReason | None = optional(
+        "If one start was followed: why it stopped (`stagnated`: e lies in ker Jᵀ). `time_limit`: the call's time ran "
+        "out before the target was solved, explained or brought to its objective."
     )
-    trace: list[Iterate] | None = Field(
-        default=None,
-        description="If requested: every configuration of the iteration; with `auto` from the start that counts, or "
-        "from the seed if none does. Joints that turn freely may leave their limits meanwhile; in the solution they "
-        "are turned back.",
+    trace: list[Iterate] | None = optional(
+        "If requested: every configuration of the iteration; with `auto` from the start that counts, or from the seed "
+        "if none does. Joints that turn freely may leave their limits meanwhile; in the solution they are turned back."
     )
-    note: str | None = Field(default=None, description="What a long `trace` leaves out.")
-    steps: list[Step] | None = Field(
-        default=None,
-        description="If requested: the solution by hand where the arm has one, else how these numbers were found. "
-        "Steps state only numbers that agree with `solutions`.",
+    note: str | None = optional("What a long `trace` leaves out.")
+    steps: list[Step] | None = optional(
+        "If requested: the solution by hand where the arm has one, else how these numbers were found. Steps state only "
+        "numbers that agree with `solutions`."
     )
 
 

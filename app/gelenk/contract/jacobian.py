@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from gelenk.contract.common import ChainOptions
+from gelenk.contract.common import ChainOptions, optional
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import AboutChain, Configurations, Matrix
 from gelenk.contract.options import BatchRequest, Fraction, RespectLimits, WithSteps, WorkedSolutions
@@ -44,8 +44,8 @@ class JacobianOptions(ChainOptions, WithSteps):
 class JacobianRequest(BatchRequest, JacobianOptions):
     """Jacobians of a batch of configurations."""
 
-    joint_velocities: Configurations | None = Field(
-        default=None, description="For `time_variation`: one entry per configuration, [rad/s or m/s]."
+    joint_velocities: Configurations | None = optional(
+        "For `time_variation`: one entry per configuration, [rad/s or m/s]."
     )
 
 
@@ -62,11 +62,9 @@ class JacobianAnswer(AboutChain):
         description="Largest over smallest singular value; no unit; null if the Jacobian does not have full rank."
     )
     rank_tolerance: float = Field(description="Relative to the largest singular value.")
-    time_variations: list[Matrix] | None = Field(
-        default=None, description="dJ/dt, 6 rows, n columns: [m or rad] per [rad or m] and second."
-    )
-    hessians: list[list[Matrix]] | None = Field(
-        default=None, description="∂J/∂q: entry [k][i][j] is ∂J[k][i]/∂q_j, [m or rad] per [rad or m] squared."
+    time_variations: list[Matrix] | None = optional("dJ/dt, 6 rows, n columns: [m or rad] per [rad or m] and second.")
+    hessians: list[list[Matrix]] | None = optional(
+        "∂J/∂q: entry [k][i][j] is ∂J[k][i]/∂q_j, [m or rad] per [rad or m] squared."
     )
     steps: WorkedSolutions = None
     certificate: JacobianCertificate

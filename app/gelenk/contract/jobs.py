@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer
+from gelenk.contract.common import Answer, optional
 
 JobName = Annotated[
     str,
@@ -44,9 +44,8 @@ class JobInfo(Answer):
         description="Number of starts since its last progress: more than one if the service ended in between; after "
         "three it is given up.",
     )
-    robot_digest: str | None = Field(
-        default=None,
-        description="SHA-256 of the robot's URDF as `GET /v1/robots/{robot}/urdf` returned it then: another robot may "
-        "have that name by now.",
+    robot_digest: str | None = optional(
+        "SHA-256 of the robot's URDF as `GET /v1/robots/{robot}/urdf` returned it then: another robot may have that "
+        "name by now."
     )
-    error: JobError | None = Field(default=None, description="Of a failed job.")
+    error: JobError | None = optional("Of a failed job.")

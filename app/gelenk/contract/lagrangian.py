@@ -5,7 +5,7 @@ from typing import Annotated, Any, TypeAlias
 
 from pydantic import Discriminator, Field, Tag, field_validator
 
-from gelenk.contract.common import Answer, Payload
+from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.kinematics import Configuration
 from gelenk.dh.derive.typeset import Formula, MatrixFormula
 from gelenk.dh.lagrangian.bodies import STANDARD_GRAVITY, Gravity, LinkBody, MassProperties
@@ -38,11 +38,10 @@ class LinkPayload(Payload):
     """The mass of a link; what is left out stays a symbol."""
 
     mass: float | None = Field(default=None, ge=0, le=MAX_MASS, description="m_i, [kg].")
-    center_of_mass: CenterOfMass | None = Field(
-        default=None,
-        description="[x, y, z] in frame i, [m]; or one number along the link, l_ci, [m]: behind a revolute joint from "
-        "its axis along x_i (along the next joint's axis where the link has no length along x and that joint slides), "
-        "behind a prismatic joint from the origin of frame i along its axis.",
+    center_of_mass: CenterOfMass | None = optional(
+        "[x, y, z] in frame i, [m]; or one number along the link, l_ci, [m]: behind a revolute joint from its axis "
+        "along x_i (along the next joint's axis where the link has no length along x and that joint slides), behind a "
+        "prismatic joint from the origin of frame i along its axis."
     )
     inertia: float | None = Field(
         default=None,
@@ -93,8 +92,8 @@ class DynamicsPayload(Payload):
         description="Acceleration of free fall in the base, [m/s²], or its size and direction. Left out it points "
         "along -z of the base, so that an arm in the x-y plane of the base is horizontal.",
     )
-    joint_velocities: Annotated[list[Configuration], Field(max_length=MAX_CONFIGURATIONS)] | None = Field(
-        default=None, description="For C in numbers: one entry per configuration of `joint_positions`, [rad/s or m/s]."
+    joint_velocities: Annotated[list[Configuration], Field(max_length=MAX_CONFIGURATIONS)] | None = optional(
+        "For C in numbers: one entry per configuration of `joint_positions`, [rad/s or m/s]."
     )
 
     def dynamics(self) -> MassProperties:

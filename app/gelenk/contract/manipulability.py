@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, ChainOptions, Payload
+from gelenk.contract.common import Answer, ChainOptions, Payload, optional
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import AboutChain, Configuration
 from gelenk.contract.options import (
@@ -42,10 +42,9 @@ class ManipulabilityOptions(ChainOptions, WithSteps):
         "base's (the course's). `local`: the tip's, which is what an `ik` task that leaves a turn about the tool free "
         "is about; an image has the base's only.",
     )
-    characteristic_length: Positive | None = Field(
-        default=None,
-        description="Length L that converts radians to metres, [m]: it adds the combined ellipsoid of "
-        "(v, L ω) and (F, M / L). Without it translation and rotation are never mixed.",
+    characteristic_length: Positive | None = optional(
+        "Length L that converts radians to metres, [m]: it adds the combined ellipsoid of (v, L ω) and (F, M / L). "
+        "Without it translation and rotation are never mixed."
     )
     rank_tolerance: Fraction = Field(
         default=1e-10,
@@ -64,11 +63,9 @@ class ManipulabilityOptions(ChainOptions, WithSteps):
 class RateAndEffortLimits(Payload):
     """Limits of the chain's joints instead of those in the robot's description; each number is positive."""
 
-    joint_velocity: Configuration | None = Field(
-        default=None, description="Largest joint velocities, base to tip or by name, [rad/s or m/s]."
-    )
-    joint_effort: Configuration | None = Field(
-        default=None, description="Largest joint torques or forces, base to tip or by name, [N m or N]."
+    joint_velocity: Configuration | None = optional("Largest joint velocities, base to tip or by name, [rad/s or m/s].")
+    joint_effort: Configuration | None = optional(
+        "Largest joint torques or forces, base to tip or by name, [N m or N]."
     )
 
 
@@ -83,9 +80,7 @@ class ManipulabilityRequest(BatchRequest, ManipulabilityOptions):
         "counts, their length has no unit.",
         examples=[[[1.0, 0.0, 0.0]]],
     )
-    limits: RateAndEffortLimits | None = Field(
-        default=None, description="For `polytopes`: limits other than the robot's own."
-    )
+    limits: RateAndEffortLimits | None = optional("For `polytopes`: limits other than the robot's own.")
 
 
 class SpaceInfo(Answer):
@@ -206,18 +201,13 @@ class PartInfo(Answer):
     isotropy: float | None = Field(
         description="Shortest over longest velocity semi-axis, 0 where one vanishes; no unit; null where all do."
     )
-    gradient: list[float] | None = Field(
-        default=None,
-        description="∂w/∂q_j of `measure`, if requested; `measure_unit` per [rad or m]; null where the measure "
-        "vanishes: it has a kink there.",
+    gradient: list[float] | None = optional(
+        "∂w/∂q_j of `measure`, if requested; `measure_unit` per [rad or m]; null where the measure vanishes: it has a "
+        "kink there."
     )
-    transmission: list[Transmission] | None = Field(default=None, description="Where `directions` were given.")
-    velocity_polytope: VelocityPolytope | None = Field(
-        default=None, description="If requested and all joints have a velocity limit."
-    )
-    force_polytope: ForcePolytope | None = Field(
-        default=None, description="If requested and all joints have an effort limit."
-    )
+    transmission: list[Transmission] | None = optional("Where `directions` were given.")
+    velocity_polytope: VelocityPolytope | None = optional("If requested and all joints have a velocity limit.")
+    force_polytope: ForcePolytope | None = optional("If requested and all joints have an effort limit.")
 
 
 class ManipulabilityInfo(Answer):
@@ -240,11 +230,11 @@ class ManipulabilityAnswer(AboutChain):
     rank_tolerance: float = Field(description="Relative to the longest semi-axis; no unit.")
     characteristic_length: float | None = Field(description="Of the combined part, [m].")
     spaces: list[SpaceInfo] = Field(description="For each part that exists.")
-    joints_without_velocity_limit: list[str] | None = Field(
-        default=None, description="If polytopes were requested: joints without a velocity limit; then there is none."
+    joints_without_velocity_limit: list[str] | None = optional(
+        "If polytopes were requested: joints without a velocity limit; then there is none."
     )
-    joints_without_effort_limit: list[str] | None = Field(
-        default=None, description="If polytopes were requested: joints without an effort limit; then there is none."
+    joints_without_effort_limit: list[str] | None = optional(
+        "If polytopes were requested: joints without an effort limit; then there is none."
     )
     results: list[ManipulabilityInfo]
     steps: WorkedSolutions = None

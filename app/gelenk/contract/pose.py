@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
-from gelenk.contract.common import Payload, as_lists
+from gelenk.contract.common import Payload, as_lists, optional
 from gelenk.errors import InvalidArray, InvalidPose
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import nearest_rotation, transform, unit_quaternion
@@ -42,17 +42,16 @@ class Pose(Payload):
         json_schema_extra={"examples": [{"position": [0.3, 0.0, 0.6], "quaternion_xyzw": [0.0, 0.0, 0.0, 1.0]}]}
     )
 
-    position: Vector3 | None = Field(default=None, description="Origin, [m].")
-    quaternion_xyzw: Vector4 | None = Field(default=None, description="Unit quaternion, scalar last.")
-    quaternion_wxyz: Vector4 | None = Field(default=None, description="Unit quaternion, scalar first.")
-    rpy: Vector3 | None = Field(
-        default=None,
-        description="Roll, pitch, yaw about the fixed axes x, y, z (URDF): R = Rz(yaw) Ry(pitch) Rx(roll), [rad].",
+    position: Vector3 | None = optional("Origin, [m].")
+    quaternion_xyzw: Vector4 | None = optional("Unit quaternion, scalar last.")
+    quaternion_wxyz: Vector4 | None = optional("Unit quaternion, scalar first.")
+    rpy: Vector3 | None = optional(
+        "Roll, pitch, yaw about the fixed axes x, y, z (URDF): R = Rz(yaw) Ry(pitch) Rx(roll), [rad]."
     )
-    zyz: Vector3 | None = Field(default=None, description="Euler angles φ, θ, ψ: R = Rz(φ) Ry(θ) Rz(ψ), [rad].")
-    rotation_vector: Vector3 | None = Field(default=None, description="Axis times angle, [rad].")
-    rotation: Matrix3 | None = Field(default=None, description="Rotation matrix, row by row.")
-    matrix: Matrix4 | None = Field(default=None, description="Homogeneous transform, row by row; translation in [m].")
+    zyz: Vector3 | None = optional("Euler angles φ, θ, ψ: R = Rz(φ) Ry(θ) Rz(ψ), [rad].")
+    rotation_vector: Vector3 | None = optional("Axis times angle, [rad].")
+    rotation: Matrix3 | None = optional("Rotation matrix, row by row.")
+    matrix: Matrix4 | None = optional("Homogeneous transform, row by row; translation in [m].")
 
     @model_validator(mode="after")
     def _one_notation(self) -> "Pose":

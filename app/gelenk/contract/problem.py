@@ -2,6 +2,8 @@
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from gelenk.contract.common import optional
+
 
 class FieldError(BaseModel):
     """An error at one place in a payload."""
@@ -20,7 +22,5 @@ class Problem(BaseModel):
     status: int = Field(description="HTTP status.")
     detail: str = Field(description="This occurrence, in one sentence for human readers.")
     instance: str = Field(description="Path of the request.")
-    request_id: str | None = Field(default=None, description="The answer's `X-Request-Id`, for searching the log.")
-    errors: list[FieldError] | None = Field(
-        default=None, description="The invalid places in the payload, if there are several."
-    )
+    request_id: str | None = optional("The answer's `X-Request-Id`, for searching the log.")
+    errors: list[FieldError] | None = optional("The invalid places in the payload, if there are several.")

@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
-from gelenk.contract.common import Answer, ChainEnds, FrameName, Payload, RobotName, Strict
+from gelenk.contract.common import Answer, ChainEnds, FrameName, Payload, RobotName, Strict, optional
 from gelenk.contract.dh import DhTablePayload
 from gelenk.contract.pose import Pose
 from gelenk.contract.shapes import LinkShape
@@ -25,10 +25,10 @@ class RobotFile(Payload):
     description: Text = ""
     format: Literal["urdf", "dh"]
     model: str | PackagedFile = Field(description="The URDF or DH file, in this folder or in a package.")
-    meshes: str | None = Field(default=None, description="Folder of the mesh files, in this folder.")
+    meshes: str | None = optional("Folder of the mesh files, in this folder.")
     urdf_folder: str = Field(default="", description="Where the URDF stood among the mesh files.")
-    digest: str | None = Field(default=None, description="SHA-256 of the model and its meshes, of an uploaded robot.")
-    owner: str | None = Field(default=None, description="Which client uploaded it; null where none did.")
+    digest: str | None = optional("SHA-256 of the model and its meshes, of an uploaded robot.")
+    owner: str | None = optional("Which client uploaded it; null where none did.")
     kept_bytes: int = Field(default=0, description="Of the model and its meshes, of an uploaded robot.")
     left_out: int = Field(default=0, description="Files of the archive, meshes or pictures, that nothing names.")
     default_chain: ChainEnds | None = None
@@ -40,13 +40,12 @@ class RobotFile(Payload):
 class RobotReplacement(Payload):
     """A robot as URDF text or as a DH table: exactly one of the two."""
 
-    urdf: str | None = Field(default=None, description="The URDF as text, xacro expanded.")
-    dh: DhTablePayload | None = Field(default=None, description="The robot as a Denavit-Hartenberg table.")
+    urdf: str | None = optional("The URDF as text, xacro expanded.")
+    dh: DhTablePayload | None = optional("The robot as a Denavit-Hartenberg table.")
     description: Text = Field(default="", description="One sentence for human readers.")
     strict: Strict = False
-    default_chain: ChainEnds | None = Field(
-        default=None,
-        description="Chain used by calls that name none; root link → leaf with the longest movable chain if left out.",
+    default_chain: ChainEnds | None = optional(
+        "Chain used by calls that name none; root link → leaf with the longest movable chain if left out."
     )
 
     @model_validator(mode="after")
@@ -67,12 +66,8 @@ class ArchiveReplacement(Payload):
 
     description: Text = Field(default="", description="One sentence for human readers.")
     strict: Annotated[Strict, Field(strict=False)] = False
-    base_frame: FrameName | None = Field(
-        default=None, description="Base frame of the default chain; requires `tip_frame`."
-    )
-    tip_frame: FrameName | None = Field(
-        default=None, description="Tip frame of the default chain; requires `base_frame`."
-    )
+    base_frame: FrameName | None = optional("Base frame of the default chain; requires `tip_frame`.")
+    tip_frame: FrameName | None = optional("Tip frame of the default chain; requires `base_frame`.")
 
     @model_validator(mode="after")
     def _both_ends(self) -> "ArchiveReplacement":
@@ -157,7 +152,7 @@ class RobotInfo(RobotSummary):
     root: str = Field(description="The link without a parent.")
     joints: list[JointInfo]
     joint_names: list[str] = Field(description="The default chain's joints, base to tip: the order of a configuration.")
-    dh: DhTablePayload | None = Field(default=None, description="The table, of a robot that was given as one.")
+    dh: DhTablePayload | None = optional("The table, of a robot that was given as one.")
     degrees_of_freedom: int = Field(description="Joints of the whole robot with a position of their own.")
     links: list[str] = Field(description="Their names.")
     frames: list[str] = Field(description="Names of the frames that calls may use.")

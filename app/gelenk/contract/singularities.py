@@ -4,7 +4,7 @@ import math
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, ChainOptions
+from gelenk.contract.common import Answer, ChainOptions, optional
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import AboutChain
 from gelenk.contract.options import BatchRequest, Directions, Positive, RankTolerance, WithSteps, WorkedSolutions
@@ -38,10 +38,9 @@ class SingularityOptions(ChainOptions, WithSteps):
         "tool free is about. `world`: the base's axes, of the point of the tip's body that passes the base's origin. "
         "Lost directions are always given in the base's axes, at the tip.",
     )
-    characteristic_length: Positive | None = Field(
-        default=None,
-        description="Factor of the angular rows that makes them comparable with linear ones, [m]; if left out, metres "
-        "and radians are mixed where both count.",
+    characteristic_length: Positive | None = optional(
+        "Factor of the angular rows that makes them comparable with linear ones, [m]; if left out, metres and radians "
+        "are mixed where both count."
     )
     rank_tolerance: RankTolerance = 1e-10
     respect_limits: bool = Field(
@@ -159,10 +158,10 @@ class NearestSingularityInfo(Answer):
 class SingularityEntry(SingularityInfo):
     """The report of one configuration."""
 
-    nearest: NearestSingularityInfo | None = Field(
-        default=None, description="If requested; null if none was found, for the reason in `nearest_reason`."
+    nearest: NearestSingularityInfo | None = optional(
+        "If requested; null if none was found, for the reason in `nearest_reason`."
     )
-    nearest_reason: str | None = Field(default=None, description="Why there is none.")
+    nearest_reason: str | None = optional("Why there is none.")
 
 
 class SingularPlaceInfo(Answer):
@@ -197,7 +196,7 @@ class SingularityAnswer(AboutChain):
         "the configuration is singular does not."
     )
     singularities: list[SingularityEntry]
-    path: SingularPathInfo | None = Field(default=None, description="If requested.")
+    path: SingularPathInfo | None = optional("If requested.")
     steps: WorkedSolutions = None
     certificate: SingularityCertificate
 

@@ -4,7 +4,7 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag
 
-from gelenk.contract.common import Answer, ChainOptions, FrameName, OnTheWire, Payload, Vectors
+from gelenk.contract.common import Answer, ChainOptions, FrameName, OnTheWire, Payload, Vectors, optional
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS, AboutChain, Configurations, Matrix
 from gelenk.contract.options import BatchRequest, Directions, Fraction, RespectLimits, WithSteps, WorkedSolutions
@@ -54,10 +54,9 @@ class PayloadInfo(Payload):
     center_of_mass: Annotated[list[_Length], Field(min_length=3, max_length=3)] = Field(
         default=[0.0, 0.0, 0.0], description="In the tip frame, [m]."
     )
-    inertia: Annotated[list[_Moment], Field(min_length=6, max_length=6)] | None = Field(
-        default=None,
-        description="ixx, ixy, ixz, iyy, iyz, izz about the centre of mass in the tip's axes, [kg m²]; left out, the "
-        "mass is a point.",
+    inertia: Annotated[list[_Moment], Field(min_length=6, max_length=6)] | None = optional(
+        "ixx, ixy, ixz, iyy, iyz, izz about the centre of mass in the tip's axes, [kg m²]; left out, the mass is a "
+        "point."
     )
 
 
@@ -69,26 +68,22 @@ class WrenchOptions(ChainOptions):
         description="`local_world_aligned`: base axes, at the tip. `local`: tip axes, at the tip. `world`: base axes, "
         "at the base origin.",
     )
-    expressed_in: FrameName | None = Field(
-        default=None,
-        description="Frame whose axes are taken instead of those of `reference`: any of the robot, with joints outside "
-        "the chain at zero.",
+    expressed_in: FrameName | None = optional(
+        "Frame whose axes are taken instead of those of `reference`: any of the robot, with joints outside the chain "
+        "at zero."
     )
-    point_frame: FrameName | None = Field(
-        default=None, description="Frame of `point`, any of the robot likewise; the tip if left out."
-    )
+    point_frame: FrameName | None = optional("Frame of `point`, any of the robot likewise; the tip if left out.")
     respect_limits: RespectLimits = False
 
 
 class WrenchRequest(WrenchOptions):
     """The axes and the point in which a wrench is expressed."""
 
-    point: Annotated[list[_Component], Field(min_length=3, max_length=3)] | None = Field(
-        default=None,
-        description="Where the force acts, and the moment is about, instead of where `reference` says: coordinates in "
-        "`point_frame`, [m].",
+    point: Annotated[list[_Component], Field(min_length=3, max_length=3)] | None = optional(
+        "Where the force acts, and the moment is about, instead of where `reference` says: coordinates in "
+        "`point_frame`, [m]."
     )
-    payload: PayloadInfo | None = Field(default=None, description="A load carried by the tip.")
+    payload: PayloadInfo | None = optional("A load carried by the tip.")
 
 
 class StaticsOptions(WrenchOptions, WithSteps):
@@ -126,22 +121,15 @@ class StaticsRequest(BatchRequest, StaticsOptions, WrenchRequest):
         "all configurations or of one each.",
         examples=[[[10.0, 0.0, -5.0, 0.0, 0.0, 0.0]]],
     )
-    torques: Configurations | None = Field(
-        default=None,
-        description="τ of the motors, [N m] or [N] of a sliding joint, instead of `wrenches`: one for all "
-        "configurations or one for each.",
+    torques: Configurations | None = optional(
+        "τ of the motors, [N m] or [N] of a sliding joint, instead of `wrenches`: one for all configurations or one "
+        "for each."
     )
-    test_twists: _Vectors | None = Field(
-        default=None, description="Tip velocities to be split into range(J) and ker(Jᵀ), [m/s] and [rad/s]."
-    )
-    test_wrenches: _Vectors | None = Field(
-        default=None, description="Wrenches to be split into range(J) and ker(Jᵀ), [N] and [N m]."
-    )
-    test_torques: _Vectors | None = Field(
-        default=None, description="Joint torques to be split into range(Jᵀ) and ker(J), [N m or N]."
-    )
-    test_joint_velocities: _Vectors | None = Field(
-        default=None, description="Joint velocities to be split into range(Jᵀ) and ker(J), [rad/s or m/s]."
+    test_twists: _Vectors | None = optional("Tip velocities to be split into range(J) and ker(Jᵀ), [m/s] and [rad/s].")
+    test_wrenches: _Vectors | None = optional("Wrenches to be split into range(J) and ker(Jᵀ), [N] and [N m].")
+    test_torques: _Vectors | None = optional("Joint torques to be split into range(Jᵀ) and ker(J), [N m or N].")
+    test_joint_velocities: _Vectors | None = optional(
+        "Joint velocities to be split into range(Jᵀ) and ker(J), [rad/s or m/s]."
     )
 
 
@@ -167,10 +155,10 @@ class SubspacesInfo(Answer):
     )
     row_space: Matrix = Field(description="range(Jᵀ): torques that a wrench balances, [N m or N] mixed.")
     kernel: Matrix = Field(description="ker(J): joint velocities that leave the tip at rest, [rad or m] mixed.")
-    twists: list[SplitInfo] | None = Field(default=None, description="Of `test_twists`.")
-    wrenches: list[SplitInfo] | None = Field(default=None, description="Of `test_wrenches`.")
-    torques: list[SplitInfo] | None = Field(default=None, description="Of `test_torques`.")
-    joint_velocities: list[SplitInfo] | None = Field(default=None, description="Of `test_joint_velocities`.")
+    twists: list[SplitInfo] | None = optional("Of `test_twists`.")
+    wrenches: list[SplitInfo] | None = optional("Of `test_wrenches`.")
+    torques: list[SplitInfo] | None = optional("Of `test_torques`.")
+    joint_velocities: list[SplitInfo] | None = optional("Of `test_joint_velocities`.")
 
 
 class BalanceInfo(Answer):
@@ -202,14 +190,14 @@ class StaticsAnswer(AboutChain):
     torques: list[list[float]] = Field(
         description="τ = Jᵀγ + g(q), the motor torques, [N m], or [N] of a sliding joint; or as they were given."
     )
-    gravity_torques: list[list[float]] | None = Field(
-        default=None, description="g(q), the part of `torques` that holds the weight, [N m or N]."
+    gravity_torques: list[list[float]] | None = optional(
+        "g(q), the part of `torques` that holds the weight, [N m or N]."
     )
-    balance: BalanceInfo | None = Field(default=None, description="Where `torques` were given.")
+    balance: BalanceInfo | None = optional("Where `torques` were given.")
     overloaded_joints: list[list[str]] = Field(
         description="Joints whose torque is beyond the effort limit of the description."
     )
-    subspaces: list[SubspacesInfo] | None = Field(default=None, description="If requested.")
+    subspaces: list[SubspacesInfo] | None = optional("If requested.")
     notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or assume.")
     steps: WorkedSolutions = None
     certificate: StaticsCertificate

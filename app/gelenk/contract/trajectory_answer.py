@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer
+from gelenk.contract.common import Answer, optional
 from gelenk.contract.pose import Pose
 from gelenk.course.steps import Step
 from gelenk.kinematics.judge.words import PoseCertificate
@@ -63,8 +63,8 @@ class TrajectorySegmentInfo(Answer):
         "the others."
     )
     notes: list[str] = Field(description="Further remarks.")
-    polynomials: PolynomialsInfo | None = Field(
-        default=None, description="If `coefficients` were requested: the pieces that begin in this segment."
+    polynomials: PolynomialsInfo | None = optional(
+        "If `coefficients` were requested: the pieces that begin in this segment."
     )
 
 
@@ -88,12 +88,10 @@ class TrajectoryAnswer(Answer):
     tip_poses: list[Pose] | None = Field(description="T_base_tip at each sample; null if not requested.")
     segments: list[TrajectorySegmentInfo] = Field(description="The segments completed, wholly or in part.")
     audit: Audit
-    timing: list[TimingComparison] | None = Field(default=None, description="If `compare_timing` was requested.")
+    timing: list[TimingComparison] | None = optional("If `compare_timing` was requested.")
     limits: MotionLimitsInfo = Field(description="Of the trajectory; each segment has its own.")
     limit_sources: LimitSourcesInfo
-    steps: list[Step] | None = Field(
-        default=None, description="If requested: path, time law and corners of each segment, with their numbers."
-    )
+    steps: list[Step] | None = optional("If requested: path, time law and corners of each segment, with their numbers.")
     notes: list[str] = Field(description="What was assumed.")
     certificate: PoseCertificate | None = Field(
         description="Of `tip_poses`, a sample of them recomputed through Pinocchio; null without them."

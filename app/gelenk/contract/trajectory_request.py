@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from gelenk.contract.common import ChainOptions, OnTheWire, Payload
+from gelenk.contract.common import ChainOptions, OnTheWire, Payload, optional
 from gelenk.contract.course_motion import Duration
 from gelenk.contract.kinematics import ByName, ByOrder, Configuration
 from gelenk.contract.options import Directions, WithSteps
@@ -74,55 +74,44 @@ class TrajectoryLimits(Payload):
     joints that it leaves out keep their limits.
     """
 
-    joint_velocity: JointValues | None = Field(
-        default=None,
-        description="|q̇|, [rad/s or m/s]. If left out that of the robot's description; where it has none (or 0, or "
-        "100 and more, which stand for none) 1 rad/s, of a sliding joint 0.25 m/s. A given limit applies even if the "
-        "description's is lower, and `notes` then says so.",
+    joint_velocity: JointValues | None = optional(
+        "|q̇|, [rad/s or m/s]. If left out that of the robot's description; where it has none (or 0, or 100 and more, "
+        "which stand for none) 1 rad/s, of a sliding joint 0.25 m/s. A given limit applies even if the description's "
+        "is lower, and `notes` then says so."
     )
-    joint_acceleration: JointValues | None = Field(
-        default=None,
-        description="|q̈|, [rad/s² or m/s²]; no robot's description has one. If left out, that with which the limit of "
-        "the velocity is reached in 0.5 s.",
+    joint_acceleration: JointValues | None = optional(
+        "|q̈|, [rad/s² or m/s²]; no robot's description has one. If left out, that with which the limit of the "
+        "velocity is reached in 0.5 s."
     )
-    joint_jerk: JointValues | None = Field(
-        default=None,
-        description="|q⃛|, [rad/s³ or m/s³]; no robot's description has one. If left out, that with which the limit of "
-        "the acceleration is reached in 0.1 s. Where a law lets the acceleration jump, the jump does not count.",
+    joint_jerk: JointValues | None = optional(
+        "|q⃛|, [rad/s³ or m/s³]; no robot's description has one. If left out, that with which the limit of the "
+        "acceleration is reached in 0.1 s. Where a law lets the acceleration jump, the jump does not count."
     )
-    tip_velocity: _Bound | None = Field(default=None, description="Speed of the tip, [m/s]; none if left out.")
-    tip_acceleration: _Bound | None = Field(
-        default=None, description="Of the tip, along and across, [m/s²]; none if left out."
-    )
-    tip_angular_velocity: _Bound | None = Field(default=None, description="‖ω‖ of the tip, [rad/s]; none if left out.")
-    tip_angular_acceleration: _Bound | None = Field(
-        default=None, description="‖ω̇‖ of the tip, [rad/s²]; none if left out."
-    )
+    tip_velocity: _Bound | None = optional("Speed of the tip, [m/s]; none if left out.")
+    tip_acceleration: _Bound | None = optional("Of the tip, along and across, [m/s²]; none if left out.")
+    tip_angular_velocity: _Bound | None = optional("‖ω‖ of the tip, [rad/s]; none if left out.")
+    tip_angular_acceleration: _Bound | None = optional("‖ω̇‖ of the tip, [rad/s²]; none if left out.")
 
 
 class MotionOptions(Payload):
     """Limits and scales of a motion; a segment takes those that it leaves out from the trajectory."""
 
-    limits: TrajectoryLimits | None = Field(
-        default=None,
-        description="Limits of the joints and the tip; in a segment, each field left out is taken from the trajectory.",
+    limits: TrajectoryLimits | None = optional(
+        "Limits of the joints and the tip; in a segment, each field left out is taken from the trajectory."
     )
-    velocity_scale: _Scale | None = Field(
-        default=None,
-        description="Factor of all velocity limits, the tip's too, from 1e-6 to 1; no unit. 1 if left out.",
+    velocity_scale: _Scale | None = optional(
+        "Factor of all velocity limits, the tip's too, from 1e-6 to 1; no unit. 1 if left out."
     )
-    acceleration_scale: _Scale | None = Field(
-        default=None, description="Factor of all acceleration limits, the tip's too, and of the jerks; likewise."
+    acceleration_scale: _Scale | None = optional(
+        "Factor of all acceleration limits, the tip's too, and of the jerks; likewise."
     )
 
 
 class SegmentOptions(MotionOptions):
     """Options that every segment has."""
 
-    law: Law | None = Field(default=None, description="Time law; the trajectory's if left out.")
-    duration: Duration | None = Field(
-        default=None, description="Duration of the segment, [s]; one shorter than its limits allow is refused."
-    )
+    law: Law | None = optional("Time law; the trajectory's if left out.")
+    duration: Duration | None = optional("Duration of the segment, [s]; one shorter than its limits allow is refused.")
 
 
 class JointSegment(SegmentOptions):
@@ -147,18 +136,15 @@ class LineSegment(SegmentOptions):
         description="Distance from the target at which the motion leaves this line for the next one, along a parabola, "
         "without a stop, [m]. The next segment must be a line.",
     )
-    blend_acceleration: _Bound | None = Field(
-        default=None,
-        description="Instead of `blend_radius`, a_max of the course's fly-over, [m/s²]: the tip's acceleration in the "
-        "blend is no more. The radius is v ΔT/2 with ΔT = ‖v K_BC - v K_AB‖/a_max, v the smallest `tip_velocity` of "
-        "the lines that are blended. With `trapezoidal` and `time_optimal` the corner then takes ΔT, or longer if the "
-        "joints need it.",
+    blend_acceleration: _Bound | None = optional(
+        "Instead of `blend_radius`, a_max of the course's fly-over, [m/s²]: the tip's acceleration in the blend is no "
+        "more. The radius is v ΔT/2 with ΔT = ‖v K_BC - v K_AB‖/a_max, v the smallest `tip_velocity` of the lines that "
+        "are blended. With `trapezoidal` and `time_optimal` the corner then takes ΔT, or longer if the joints need it."
     )
-    blend_time: Duration | None = Field(
-        default=None,
-        description="Instead of `blend_radius`, ΔT of the course's fly-over, [s]: the radius is v ΔT/2, v the smallest "
+    blend_time: Duration | None = optional(
+        "Instead of `blend_radius`, ΔT of the course's fly-over, [s]: the radius is v ΔT/2, v the smallest "
         "`tip_velocity` of the lines that are blended, and the tip's acceleration in the blend at most ‖v K_BC - v "
-        "K_AB‖/ΔT. With `trapezoidal` and `time_optimal` the corner then takes ΔT, or longer if the joints need it.",
+        "K_AB‖/ΔT. With `trapezoidal` and `time_optimal` the corner then takes ΔT, or longer if the joints need it."
     )
     orientation: OrientationLaw = Field(
         default="axis_angle",
@@ -266,8 +252,8 @@ class Motion(ChainOptions, MotionOptions, WithSteps):
         description="Whether another law may replace one that cannot be kept: `time_optimal`, with `near_singularity` "
         "`slow_down`. Each segment of the answer gives its `law`. Otherwise the call is refused.",
     )
-    duration: Duration | None = Field(
-        default=None, description="Duration of the whole motion, [s]; one shorter than the limits allow is refused."
+    duration: Duration | None = optional(
+        "Duration of the whole motion, [s]; one shorter than the limits allow is refused."
     )
     sample_period: _Bound = Field(
         default=0.01,

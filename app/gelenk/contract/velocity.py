@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from gelenk.contract.common import Answer, ChainOptions, OnTheWire, Payload, Vectors
+from gelenk.contract.common import Answer, ChainOptions, OnTheWire, Payload, Vectors, optional
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS, AboutChain, Configuration, Configurations, Matrix
 from gelenk.contract.options import (
@@ -54,22 +54,18 @@ _SIX = "Each as many numbers as `task` names directions, in its order, or six, l
 class NullSpace(Payload):
     """A motion of the joints whose part that leaves the tip at rest, (I - J#J) ξ, is added."""
 
-    joint_velocities: Configurations | None = Field(
-        default=None,
-        description="ξ, with `twists`: a list of one configuration for all entries, or of one each; [rad/s or m/s].",
+    joint_velocities: Configurations | None = optional(
+        "ξ, with `twists`: a list of one configuration for all entries, or of one each; [rad/s or m/s]."
     )
-    joint_accelerations: Configurations | None = Field(
-        default=None, description="ξ, with `tip_accelerations`, likewise; [rad/s² or m/s²]."
-    )
-    objective: ObjectiveName | None = Field(
-        default=None,
-        description="With `twists`: ξ is `gain` times the direction in which an objective improves fastest: to come "
-        "nearer to `posture` (the objective is ½‖q - posture‖²) or mid-range (½Σ((q - mid)/range)²), "
-        "to keep away from limits (¼Σ range²/((upper - q)(q - lower)), pushing no harder in the last twentieth of a "
-        "range), or to be more manipulable (the logarithm of √det JJᵀ of the directions that count).",
+    joint_accelerations: Configurations | None = optional("ξ, with `tip_accelerations`, likewise; [rad/s² or m/s²].")
+    objective: ObjectiveName | None = optional(
+        "With `twists`: ξ is `gain` times the direction in which an objective improves fastest: to come nearer to "
+        "`posture` (the objective is ½‖q - posture‖²) or mid-range (½Σ((q - mid)/range)²), to keep away from limits "
+        "(¼Σ range²/((upper - q)(q - lower)), pushing no harder in the last twentieth of a range), or to be more "
+        "manipulable (the logarithm of √det JJᵀ of the directions that count)."
     )
     gain: float = Field(default=1.0, gt=0, le=1000, description="Of the objective's gradient, [1/s].")
-    posture: Configuration | None = Field(default=None, description="For the objective `posture`, [rad or m].")
+    posture: Configuration | None = optional("For the objective `posture`, [rad or m].")
 
     @model_validator(mode="after")
     def _one_motion(self) -> "NullSpace":
@@ -104,11 +100,10 @@ class VelocityOptions(ChainOptions, WithSteps):
         description="`exact`: J⁻¹, of as many joints as directions. `pseudo_inverse`: the smallest joint velocities of "
         "those with the smallest residual. `damped`: λ q̇ᵀWq̇ + ‖Jq̇ - v‖² is minimal.",
     )
-    damping: Damping | None = Field(
-        default=None,
-        description="λ of `damped`, q̇ = Jᵀ(JJᵀ + λI)⁻¹v, where others write λ²; no unit of its own, metres and "
-        "radians are mixed. `adaptive`, the default: max(0, σ₀² - σ_min²), σ₀ being `damping_threshold`, and of "
-        "`twists` so much more that no joint exceeds its velocity limit.",
+    damping: Damping | None = optional(
+        "λ of `damped`, q̇ = Jᵀ(JJᵀ + λI)⁻¹v, where others write λ²; no unit of its own, metres and radians are mixed. "
+        "`adaptive`, the default: max(0, σ₀² - σ_min²), σ₀ being `damping_threshold`, and of `twists` so much more "
+        "that no joint exceeds its velocity limit."
     )
     damping_threshold: float | None = Field(
         default=None,
@@ -118,11 +113,10 @@ class VelocityOptions(ChainOptions, WithSteps):
         "damping sets in, and no gain exceeds 1/σ₀; 0.05 if left out.",
     )
     rank_tolerance: RankTolerance = 1e-10
-    characteristic_length: Positive | None = Field(
-        default=None,
-        description="Length that a radian counts as, [m]: angular rows are multiplied by it before inversion. If left "
-        "out, metres and radians are mixed: what the least residual is and what is near to a singularity depends on "
-        "the unit of length.",
+    characteristic_length: Positive | None = optional(
+        "Length that a radian counts as, [m]: angular rows are multiplied by it before inversion. If left out, metres "
+        "and radians are mixed: what the least residual is and what is near to a singularity depends on the unit of "
+        "length."
     )
     jacobian_derivatives: bool = Field(
         default=False, description="Whether to include J and as many of J̇, J̈, J⃛ as the given rates determine."
@@ -138,18 +132,10 @@ class VelocityOptions(ChainOptions, WithSteps):
 class VelocityRequest(BatchRequest, VelocityOptions):
     """Motion of the tip (`joint_velocities` given), or of the joints (`twists`, `tip_accelerations`, `tip_jerks`)."""
 
-    joint_velocities: Configurations | None = Field(
-        default=None, description="q̇, one entry per configuration, [rad/s or m/s]."
-    )
-    joint_accelerations: Configurations | None = Field(
-        default=None, description="q̈, beside `joint_velocities`, [rad/s² or m/s²]."
-    )
-    joint_jerks: Configurations | None = Field(
-        default=None, description="Third derivative of q, beside those before it, [rad/s³ or m/s³]."
-    )
-    joint_snaps: Configurations | None = Field(
-        default=None, description="Fourth derivative of q, beside those before it, [rad/s⁴ or m/s⁴]."
-    )
+    joint_velocities: Configurations | None = optional("q̇, one entry per configuration, [rad/s or m/s].")
+    joint_accelerations: Configurations | None = optional("q̈, beside `joint_velocities`, [rad/s² or m/s²].")
+    joint_jerks: Configurations | None = optional("Third derivative of q, beside those before it, [rad/s³ or m/s³].")
+    joint_snaps: Configurations | None = optional("Fourth derivative of q, beside those before it, [rad/s⁴ or m/s⁴].")
     twists: _Vectors | None = Field(
         default=None, description=f"v, to be inverted: one entry per configuration, [m/s, rad/s]. {_SIX}"
     )
@@ -163,14 +149,11 @@ class VelocityRequest(BatchRequest, VelocityOptions):
         description="Jerks, to be inverted at given `joint_velocities` and `joint_accelerations`: "
         f"J#(jerk - 2J̇q̈ - J̈q̇), [m/s³, rad/s³]. {_SIX}",
     )
-    weights: Configuration | None = Field(
-        default=None,
-        description="Diagonal of W, one positive number per joint, between 1e-6 and 1e6, no unit: a joint of larger "
-        "weight moves less. The pseudo-inverse is W⁻¹Jᵀ(JW⁻¹Jᵀ)⁻¹.",
+    weights: Configuration | None = optional(
+        "Diagonal of W, one positive number per joint, between 1e-6 and 1e6, no unit: a joint of larger weight moves "
+        "less. The pseudo-inverse is W⁻¹Jᵀ(JW⁻¹Jᵀ)⁻¹."
     )
-    null_space: NullSpace | None = Field(
-        default=None, description="How to use a redundant arm's freedom; with `pseudo_inverse` and `damped`."
-    )
+    null_space: NullSpace | None = optional("How to use a redundant arm's freedom; with `pseudo_inverse` and `damped`.")
 
 
 class VelocitySingularity(Answer):
@@ -199,37 +182,28 @@ class VelocitySingularity(Answer):
 class VelocityResult(Answer):
     """The result at one configuration."""
 
-    status: InverseStatus | None = Field(
-        default=None,
-        description="Of an inversion. `solved`: the residual vanishes. `approximate`: it does not. `singular`: `exact` "
-        "was requested and the Jacobian has no inverse, so there is no answer.",
+    status: InverseStatus | None = optional(
+        "Of an inversion. `solved`: the residual vanishes. `approximate`: it does not. `singular`: `exact` was "
+        "requested and the Jacobian has no inverse, so there is no answer."
     )
-    reason: str | None = Field(default=None, description="Why it is not solved.")
-    residual: list[float] | None = Field(
-        default=None,
-        description="Requested motion minus the tip's motion, v - Jq̇, in the directions that count; [m/s, rad/s], of "
-        "accelerations [m/s², rad/s²], of jerks [m/s³, rad/s³].",
+    reason: str | None = optional("Why it is not solved.")
+    residual: list[float] | None = optional(
+        "Requested motion minus the tip's motion, v - Jq̇, in the directions that count; [m/s, rad/s], of "
+        "accelerations [m/s², rad/s²], of jerks [m/s³, rad/s³]."
     )
-    residual_linear: float | None = Field(default=None, description="Its length, linear part, [m/s], [m/s²] or [m/s³].")
-    residual_angular: float | None = Field(
-        default=None, description="Its length, angular part, [rad/s], [rad/s²] or [rad/s³]."
-    )
-    damping: float | None = Field(
-        default=None, description="λ that was used; 0 without damping; metres and radians mixed."
-    )
-    null_space_share: float | None = Field(
-        default=None,
-        description="With `null_space`: fraction of that motion that fits within the velocity limits, which the "
-        "adaptive damping keeps; from 0 to 1, no unit.",
+    residual_linear: float | None = optional("Its length, linear part, [m/s], [m/s²] or [m/s³].")
+    residual_angular: float | None = optional("Its length, angular part, [rad/s], [rad/s²] or [rad/s³].")
+    damping: float | None = optional("λ that was used; 0 without damping; metres and radians mixed.")
+    null_space_share: float | None = optional(
+        "With `null_space`: fraction of that motion that fits within the velocity limits, which the adaptive damping "
+        "keeps; from 0 to 1, no unit."
     )
     velocity_limits_exceeded: list[ExceededLimit] = Field(
         description="Joints whose velocity, given or found, exceeds the limit of the description."
     )
     singularity: VelocitySingularity
-    singularity_report: SingularityInfo | None = Field(default=None, description="If requested.")
-    derivation: Derivation | None = Field(
-        default=None, description="With `steps`, of an inversion: the matrices that the steps arrive at."
-    )
+    singularity_report: SingularityInfo | None = optional("If requested.")
+    derivation: Derivation | None = optional("With `steps`, of an inversion: the matrices that the steps arrive at.")
 
 
 _Rows = list[list[float]]
@@ -242,34 +216,24 @@ class VelocityAnswer(AboutChain):
     reference: Reference = Field(description="As requested.")
     task: list[Direction] = Field(description="The directions that count, in the order of a residual.")
     rank_tolerance: float = Field(description="Relative to the largest singular value; no unit.")
-    twists: _Rows | None = Field(default=None, description="Jq̇, (ṗ; ω), [m/s, rad/s].")
-    accelerations: _Rows | None = Field(
-        default=None, description="Classical: Jq̈ + J̇q̇ = (p̈; ω̇), p the tip's position, [m/s², rad/s²]."
+    twists: _Rows | None = optional("Jq̇, (ṗ; ω), [m/s, rad/s].")
+    accelerations: _Rows | None = optional("Classical: Jq̈ + J̇q̇ = (p̈; ω̇), p the tip's position, [m/s², rad/s²].")
+    spatial_accelerations: _Rows | None = optional(
+        "Pinocchio's: the derivative of the twist's coordinates in the tip's axes, turned to `reference`; in "
+        "`local_world_aligned` (p̈ - ω × ṗ; ω̇), [m/s², rad/s²]."
     )
-    spatial_accelerations: _Rows | None = Field(
-        default=None,
-        description="Pinocchio's: the derivative of the twist's coordinates in the tip's axes, turned to `reference`; "
-        "in `local_world_aligned` (p̈ - ω × ṗ; ω̇), [m/s², rad/s²].",
+    jerks: _Rows | None = optional(
+        "J q⃛ + 2 J̇ q̈ + J̈ q̇: third derivative of the tip's position, second of ω, [m/s³, rad/s³]."
     )
-    jerks: _Rows | None = Field(
-        default=None,
-        description="J q⃛ + 2 J̇ q̈ + J̈ q̇: third derivative of the tip's position, second of ω, [m/s³, rad/s³].",
+    snaps: _Rows | None = optional(
+        "J q⁗ + 3 J̇ q⃛ + 3 J̈ q̈ + J⃛ q̇: fourth derivative of the tip's position, third of ω, [m/s⁴, rad/s⁴]."
     )
-    snaps: _Rows | None = Field(
-        default=None,
-        description="J q⁗ + 3 J̇ q⃛ + 3 J̈ q̈ + J⃛ q̇: fourth derivative of the tip's position, third of ω, [m/s⁴, rad/s⁴].",
-    )
-    joint_velocities: _Solutions | None = Field(
-        default=None, description="Of `twists`, [rad/s or m/s]; null where `exact` has no answer."
-    )
-    joint_accelerations: _Solutions | None = Field(
-        default=None, description="Of `tip_accelerations`, likewise, [rad/s² or m/s²]."
-    )
-    joint_jerks: _Solutions | None = Field(default=None, description="Of `tip_jerks`, likewise, [rad/s³ or m/s³].")
-    jacobian_derivatives: list[list[Matrix]] | None = Field(
-        default=None,
-        description="If requested: J, J̇, J̈, J⃛ of `local_world_aligned`, 6 rows and n columns each, one fewer than "
-        "rates are given or found; [m or rad] per [rad or m], and per s, s², s³.",
+    joint_velocities: _Solutions | None = optional("Of `twists`, [rad/s or m/s]; null where `exact` has no answer.")
+    joint_accelerations: _Solutions | None = optional("Of `tip_accelerations`, likewise, [rad/s² or m/s²].")
+    joint_jerks: _Solutions | None = optional("Of `tip_jerks`, likewise, [rad/s³ or m/s³].")
+    jacobian_derivatives: list[list[Matrix]] | None = optional(
+        "If requested: J, J̇, J̈, J⃛ of `local_world_aligned`, 6 rows and n columns each, one fewer than rates are "
+        "given or found; [m or rad] per [rad or m], and per s, s², s³."
     )
     results: list[VelocityResult]
     steps: WorkedSolutions = None

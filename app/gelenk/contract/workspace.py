@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, ChainOptions, Payload
+from gelenk.contract.common import Answer, ChainOptions, Payload, optional
 from gelenk.contract.endpoint import RobotEndpoint, Scope
 from gelenk.contract.jobs import JobInfo, JobName
 from gelenk.contract.options import Directions
@@ -55,10 +55,9 @@ class WorkspaceRequest(ChainOptions):
         "all, so that a planar arm has a measure too.",
         examples=[["x", "y"]],
     )
-    plane: SlicePlane | None = Field(
-        default=None,
-        description="Only positions in a slice; its voxels are squares in its plane. An arm that moves in a plane gets "
-        "squares in that plane by default.",
+    plane: SlicePlane | None = optional(
+        "Only positions in a slice; its voxels are squares in its plane. An arm that moves in a plane gets squares in "
+        "that plane by default."
     )
     joint_ranges: dict[str, JointRange] = Field(
         default_factory=dict,
@@ -198,7 +197,7 @@ class WorkspaceAnswer(Answer):
     """A workspace, estimated from samples."""
 
     robot: str = Field(description="Name of the robot.")
-    robot_digest: str | None = Field(default=None, description="As in the job.")
+    robot_digest: str | None = optional("As in the job.")
     joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
     base_frame: str = Field(description="Frame in which positions are expressed.")
     tip_frame: str = Field(description="Frame whose positions they are.")
