@@ -62,48 +62,42 @@ def _file(description: str, *kinds: str) -> dict[int, dict[str, Any]]:
     return {200: {"content": {kind: {} for kind in kinds}, "description": description}}
 
 
+_query = partial(Resource, method="GET", scope=Scope.READ)
+_monitoring = partial(Resource, method="GET", tag="Service", scope=None)
 _about_exercise = partial(Resource, tag="Course", scope=Scope.READ, problems=_EXERCISE)
 
 RESOURCES = (
-    Resource(
+    _query(
         name="list_robots",
-        method="GET",
         path="v1/robots",
         tag="Robots",
-        scope=Scope.READ,
         answer=RobotList,
         problems=_BY_WORKER,
         summary="All robots",
         description="Lists the catalogue's robots, then the uploaded ones, each part sorted by name.",
     ),
-    Resource(
+    _query(
         name="get_robot",
-        method="GET",
         path="v1/robots/{robot}",
         tag="Robots",
-        scope=Scope.READ,
         answer=RobotInfo,
         problems=_OF_ROBOT,
         summary="A robot",
         description="Joints, links, frames, chains, licence, and warnings about the description.",
     ),
-    Resource(
+    _query(
         name="get_robot_urdf",
-        method="GET",
         path="v1/robots/{robot}/urdf",
         tag="Robots",
-        scope=Scope.READ,
         responses=_file("The URDF", "application/xml"),
         problems=_OF_ROBOT,
         summary="A robot's URDF",
         description="The description as uploaded, or as generated from the DH table.",
     ),
-    Resource(
+    _query(
         name="get_robot_mesh",
-        method="GET",
         path="v1/robots/{robot}/meshes/{path:path}",
         tag="Robots",
-        scope=Scope.READ,
         responses=_file("The file", *MESH_TYPES.values()),
         problems=_OF_ROBOT,
         summary="A mesh file of a robot",
@@ -154,24 +148,20 @@ RESOURCES = (
         summary="Replace an uploaded robot",
         description="Replaces an uploaded robot atomically: requests see either the old one or the new one.",
     ),
-    Resource(
+    _query(
         name="get_robot_dh",
-        method="GET",
         path="v1/robots/{robot}/dh",
         tag="DH tables",
-        scope=Scope.READ,
         answer=FromUrdfAnswer,
         problems=_OF_ROBOT,
         summary="A robot's chain as a table",
         description="Returns the DH table of the default chain, or of the chain between the named frames, as "
         "`from-urdf` does.",
     ),
-    Resource(
+    _query(
         name="get_dh_picture",
-        method="GET",
         path="v1/dh/picture",
         tag="DH tables",
-        scope=Scope.READ,
         responses=_file("The picture", "image/svg+xml", "image/png"),
         problems=(422, *_BY_WORKER),
         summary="Picture of the DH parameters",
@@ -181,36 +171,30 @@ RESOURCES = (
         SVG unless `Accept` says `image/png`. The same call with POST draws any table.
         """,
     ),
-    Resource(
+    _query(
         name="list_pictures",
-        method="GET",
         path="v1/course/pictures",
         tag="Course",
-        scope=Scope.READ,
         answer=CoursePictures,
         problems=(422,),
         summary="The course's pictures",
         description="Lists the pictures that need no request, with their titles. Others are answers of the "
         "calculators, which draw them with `Accept: image/svg+xml`.",
     ),
-    Resource(
+    _query(
         name="get_picture",
-        method="GET",
         path="v1/course/pictures/{picture}",
         tag="Course",
-        scope=Scope.READ,
         responses=_file("The picture", "image/svg+xml", "image/png"),
         problems=_OF_ROBOT,
         summary="A picture of the course",
         description="Kinematic pairs, coincident joints, spaces, the spherical wrist and more, as SVG, or as PNG "
         "with `Accept: image/png`. Texts are drawn as paths, in the language asked for.",
     ),
-    Resource(
+    _query(
         name="get_job",
-        method="GET",
         path="v1/jobs/{job}",
         tag="Jobs",
-        scope=Scope.READ,
         answer=JobInfo,
         problems=(404, 422),
         summary="A job",
@@ -220,12 +204,10 @@ RESOURCES = (
         A job whose process ended is `queued` until another process resumes the unfinished part.
         """,
     ),
-    Resource(
+    _query(
         name="watch_job",
-        method="GET",
         path="v1/jobs/{job}/events",
         tag="Jobs",
-        scope=Scope.READ,
         responses={
             200: {"content": {"text/event-stream": {"itemSchema": _EVENT}}, "description": "Server-sent events"},
             204: {"description": "The last event was received before"},
@@ -239,12 +221,10 @@ RESOURCES = (
         `GET /v1/jobs/{job}` has it. Comments keep the connection alive between them.
         """,
     ),
-    Resource(
+    _query(
         name="get_job_result",
-        method="GET",
         path="v1/jobs/{job}/result",
         tag="Jobs",
-        scope=Scope.READ,
         answer=WorkspaceAnswer | InverseAnswer | TrajectoryAnswer,
         responses={
             200: {
@@ -287,12 +267,10 @@ RESOURCES = (
         is removed together with its result; the answer shows it one last time.
         """,
     ),
-    Resource(
+    _query(
         name="list_exercises",
-        method="GET",
         path="v1/course/exercises",
         tag="Course",
-        scope=Scope.READ,
         answer=ExerciseList,
         problems=(422,),
         summary="All exercises",
@@ -371,22 +349,16 @@ RESOURCES = (
         follows `Accept-Language`. Where keys are on, it needs `teach`.
         """,
     ),
-    Resource(
+    _monitoring(
         name="health",
-        method="GET",
         path="healthz",
-        tag="Service",
-        scope=None,
         answer=Health,
         summary="Is the process alive?",
         description="Answers as long as the process is alive.",
     ),
-    Resource(
+    _monitoring(
         name="readiness",
-        method="GET",
         path="readyz",
-        tag="Service",
-        scope=None,
         answer=Health,
         problems=(503,),
         summary="Is it ready for work?",
