@@ -235,9 +235,9 @@ class BoundedProtocol(HttpToolsProtocol):
         """Note that the response is sent; after a refusal, do not read for a while."""
         self.since = self.loop.time()
         super().on_response_complete()
-        told = self.cycle.scope["state"].get("retry_after")
-        if self.cycle.response_complete and told is not None:
-            self._pause(told)
+        seconds = self.cycle.scope["state"].get("retry_after")
+        if self.cycle.response_complete and seconds is not None:
+            self._pause(seconds)
 
     def _start_asgi_task(self, cycle: RequestResponseCycle, app: Any) -> None:
         begin = partial(super()._start_asgi_task, cycle, app)
@@ -261,11 +261,11 @@ class BoundedProtocol(HttpToolsProtocol):
             return
         self.on_response_complete()
 
-    def _pause(self, told: float) -> None:
+    def _pause(self, seconds: float) -> None:
         """Read nothing for nearly as long as the client is asked to wait, [s]."""
         if not self.transport.is_closing():
             self.flow.pause_reading()
-            pause = min(told, _LONGEST_PAUSE) * uniform(_SHORTEST_PAUSE, 1.0)  # noqa: S311 - nothing secret
+            pause = min(seconds, _LONGEST_PAUSE) * uniform(_SHORTEST_PAUSE, 1.0)  # noqa: S311 - nothing secret
             self.loop.call_later(pause, self._listen)
 
     def _listen(self) -> None:

@@ -78,8 +78,8 @@ def main() -> None:
     where = f"Gelenk at http://{arguments.host}:{arguments.port}{settings.root_path}/"
     print(f"{where}, robots of your own in {settings.data_dir}", flush=True)
     if (reason := why_not(settings.data_dir)) is not None:
-        told = f"nothing can be kept in {settings.data_dir}: {reason}; GELENK_DATA_DIR names another folder"
-        print(told, file=sys.stderr)
+        sentence = f"nothing can be kept in {settings.data_dir}: {reason}; GELENK_DATA_DIR names another folder"
+        print(sentence, file=sys.stderr)
     bounds = ConnectionLimits(connections=min(settings.connections, room), waiting=settings.requests_waiting)
     config = uvicorn.Config(
         "gelenk.main:from_environment",

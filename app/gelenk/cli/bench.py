@@ -46,9 +46,9 @@ def bench(
         f"{robot} at {where}: medians of calls one after the other for {seconds:g} s, arrays in and out, from the call "
         "to the answer in Python; random configurations within the limits, targets that can be reached"
     )
-    told = [dict(zip(_KEYS, row, strict=True)) for row in rows]
+    entries = [dict(zip(_KEYS, row, strict=True)) for row in rows]
     shown = [(operation, round(single, 3), round(each, 3), round(ratio)) for operation, single, each, ratio in rows]
-    answer = {"robot": robot, "where": where, "batch": batch, "rows": told}
+    answer = {"robot": robot, "where": where, "batch": batch, "rows": entries}
     shared.output.write(lambda: json.dumps(answer), AnswerRows(columns, shown, (note,)))
 
 

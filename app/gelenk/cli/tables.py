@@ -32,8 +32,12 @@ def _rows(dh: "DhTablePayload", notes: tuple[str, ...] = ()) -> AnswerRows:
     columns = ("name", "type", "a", "alpha", "d", "theta", "lower", "upper", "velocity", "effort")
     rows = [[getattr(row, column) for column in columns] for row in dh.joints]
     places = {"base": dh.base, "tool": dh.tool}
-    told = [f"{name}: {pose.model_dump_json(exclude_unset=True)}" for name, pose in places.items() if pose is not None]
-    return AnswerRows(columns, rows, (f"{dh.convention} convention", *notes), (f"convention: {dh.convention}", *told))
+    written = [
+        f"{name}: {pose.model_dump_json(exclude_unset=True)}" for name, pose in places.items() if pose is not None
+    ]
+    return AnswerRows(
+        columns, rows, (f"{dh.convention} convention", *notes), (f"convention: {dh.convention}", *written)
+    )
 
 
 @tables.command("to-urdf", epilog=example_of("dh to-urdf"))

@@ -78,8 +78,8 @@ class _Brief:
             known = ((one.name, getattr(value, one.name)) for one in fields(value))  # type: ignore[arg-type]
             parts = ", ".join(f"{name}={_Brief(item)!r}" for name, item in known if item is not None)
             return f"{type(value).__name__}({parts})"
-        told = repr(value)
-        return told if not isinstance(value, str) or len(told) <= _LONGEST_SHOWN else f"{told[:_LONGEST_SHOWN]}...'"
+        text = repr(value)
+        return text if not isinstance(value, str) or len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}...'"
 
 
 _MOST_SHOWN, _FIRST_SHOWN = 12, 3

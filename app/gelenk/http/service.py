@@ -85,9 +85,9 @@ def service_router(readiness: Readiness, metrics: Metrics) -> APIRouter:
         if not missing:
             return json_response({"status": "ready"})
         facts = {"waiting_for": list(missing), "reasons": missing, "failure": readiness.failure or missing.get("jobs")}
-        told = "; ".join(f"{name}: {reason}" for name, reason in missing.items())
+        sentences = "; ".join(f"{name}: {reason}" for name, reason in missing.items())
         response = problem(
-            request, HTTPStatus.SERVICE_UNAVAILABLE, "not-ready", f"the service is not ready: {told}", facts
+            request, HTTPStatus.SERVICE_UNAVAILABLE, "not-ready", f"the service is not ready: {sentences}", facts
         )
         if readiness.failure is None:
             response.headers["Retry-After"] = "1"

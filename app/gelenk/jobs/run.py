@@ -93,8 +93,8 @@ class Run:
                 while len(waiting) < _AHEAD * self.executor.count and k + len(waiting) < count:
                     number = k + len(waiting)
                     name = f"{stage}-{number}"
-                    kept = self.parts.read(name) is not None
-                    waiting.append(None if kept else self._submit(function, argument(number), name))
+                    is_there = self.parts.read(name) is not None
+                    waiting.append(None if is_there else self._submit(function, argument(number), name))
                 if (part := waiting[0]) is not None:
                     try:
                         found: bytes | int = self._wait(part)

@@ -66,8 +66,8 @@ def _put_together(job: tuple[WorkspaceWork, Parts, str | None]) -> Workspace | N
 def _files(request: WorkspaceWork, found: Workspace, dexterity: Array | None, robot_digest: str | None) -> Files:
     table = found.points if found.points is not None else found.voxel_rows(request.plan)
     array = table if dexterity is None else np.column_stack((table, dexterity))
-    told = _summary(request, found, dexterity) | {"robot_digest": robot_digest}
-    summary = orjson.dumps(told, option=orjson.OPT_SERIALIZE_NUMPY)
+    content = _summary(request, found, dexterity) | {"robot_digest": robot_digest}
+    summary = orjson.dumps(content, option=orjson.OPT_SERIALIZE_NUMPY)
     return {
         ARRAY: lambda target: np.lib.format.write_array(target, array, allow_pickle=False),
         SUMMARY: lambda target: target.write(summary),

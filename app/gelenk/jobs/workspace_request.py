@@ -107,15 +107,15 @@ def check_size(job: WorkspaceWork) -> None:
     voxels = _voxels_met(plan)
     if voxels <= most:
         return
-    told = f"the samples fall into some {voxels:,} voxels"
+    sentence = f"the samples fall into some {voxels:,} voxels"
     if job.orientations is not None:
-        told += f", at each of which {rotations} orientations are asked for"
+        sentence += f", at each of which {rotations} orientations are asked for"
     ways = [f"at most {most:,} `samples`"]
     if (size := plan.grid.least_size(plan.extent, most)) < plan.extent:
         ways.insert(0, f"voxels of {_rounded_up(size):g} m or more")
     if job.orientations is not None:
         ways.append("fewer `orientations`")
-    raise InvalidField("voxel_size", f"{told}; at most {most:,} are allowed: ask for {' or '.join(ways)}")
+    raise InvalidField("voxel_size", f"{sentence}; at most {most:,} are allowed: ask for {' or '.join(ways)}")
 
 
 def _voxels_met(plan: SamplingPlan) -> int:

@@ -7,6 +7,7 @@ from gelenk.contract.options import MAX_WORKED, WithSteps
 from gelenk.errors import InvalidField, TooLarge, counted
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import DIRECTIONS, Direction
+from gelenk.kinematics.velocity.task_space import TaskSpace, slides
 from gelenk.operations.outcome import Limits
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -56,6 +57,12 @@ def task_of(directions: Sequence[Direction] | None) -> Task:
     if len(set(task.directions)) < len(task):
         raise InvalidField("task", "each direction may appear only once")
     return task
+
+
+def units_are_mixed(chain: Chain, space: TaskSpace) -> bool:
+    """Check whether the rows of the Jacobian, or its columns, have different units."""
+    rows = 0 < space.turns < len(space) and space.characteristic_length is None
+    return rows or len(set(slides(chain).tolist())) > 1
 
 
 def head(chain: Chain) -> dict[str, Any]:

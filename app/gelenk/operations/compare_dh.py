@@ -12,7 +12,8 @@ from gelenk.dh.compare.compare import Comparison, compare
 from gelenk.dh.compare.numbers import Difference
 from gelenk.dh.compare.screws import PARAMETERS
 from gelenk.dh.compare.trials import Diagnosis
-from gelenk.operations.outcome import Limits, Outcome
+from gelenk.operations.chains import head
+from gelenk.operations.outcome import Limits, Outcome, always
 from gelenk.operations.pose_arrays import pose_list
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -26,9 +27,7 @@ def run(robot: LoadedRobot, call: CompareRequest, _: Limits) -> Outcome:
     return Outcome(lambda: _compared(robot.robot, call))
 
 
-def is_heavy(_: CompareRequest) -> bool:
-    """Return True: a comparison takes tens of milliseconds, and more if it looks for mistakes."""
-    return True
+is_heavy = always  # a comparison takes tens of milliseconds, and more if it looks for mistakes
 
 
 def _compared(robot: RobotModel, call: CompareRequest) -> dict[str, Any]:
@@ -69,9 +68,7 @@ def _content(chain: Chain, call: CompareRequest, freedom: Freedom, comparison: C
         "diagnoses": [_diagnosis(each) for each in comparison.diagnoses],
         "unverified": comparison.unverified,
         "notes": [*_replaced(call), *comparison.notes],
-        "joint_names": chain.joint_names,
-        "base_frame": chain.base_frame,
-        "tip_frame": chain.tip_frame,
+        **head(chain),
         "samples": comparison.samples,
         "random_seed": call.random_seed,
     }

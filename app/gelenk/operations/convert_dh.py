@@ -8,20 +8,14 @@ from gelenk.contract.dh import table_content
 from gelenk.dh.table_steps import conversion_steps
 from gelenk.dh.tables.convert import converted
 from gelenk.kinematics.judge.tables import certify_conversion
-from gelenk.operations.outcome import Outcome
+from gelenk.operations.outcome import always, json_only
+
+is_heavy = always  # building a robot takes milliseconds
 
 
-def run(call: ConvertRequest) -> Outcome:
+@json_only
+def run(call: ConvertRequest) -> dict[str, Any]:
     """Convert a DH table to the other convention, and certify the result."""
-    return Outcome(lambda: _convert(call))
-
-
-def is_heavy(_: ConvertRequest) -> bool:
-    """Return True: building a robot takes milliseconds."""
-    return True
-
-
-def _convert(call: ConvertRequest) -> dict[str, Any]:
     table = call.dh.table()
     other = converted(table, call.convention)
     return {

@@ -19,7 +19,7 @@ from gelenk.dh.lagrangian.numeric import NumericMotion
 from gelenk.dh.lagrangian.solution import MotionSolution
 from gelenk.dh.worked import WorkedSolution, worked_solution
 from gelenk.errors import InvalidField
-from gelenk.operations.outcome import Outcome
+from gelenk.operations.outcome import always, json_only
 
 SECONDS = 8.0
 """Time limit of the symbolic part, [s]; what is not done by then stays numeric."""
@@ -29,51 +29,12 @@ _Question = TypeVar("_Question")
 _Result = TypeVar("_Result")
 
 
-def run(call: DeriveRequest) -> Outcome:
+is_heavy = always  # a derivation takes tens of milliseconds, and up to its time limit
+
+
+@json_only
+def run(call: DeriveRequest) -> dict[str, Any]:
     """Derive the worked solution of a DH table in symbols, and evaluate it."""
-    return Outcome(lambda: _derived(call))
-
-
-def is_heavy(_: DeriveRequest) -> bool:
-    """Return True: a derivation takes tens of milliseconds, and up to its time limit."""
-    return True
-
-
-def in_time(function: Callable[[_Question], _Result], question: _Question, seconds: float) -> _Result:
-    """Run a function, but break it off with TimeoutError after `seconds`, though never while it imports a module.
-
-    Only a main thread can be broken off, as a worker's is; in another one, as at the command line, the function ends
-    by itself.
-    """
-
-    def stop(_: int, frame: FrameType | None) -> None:
-        while frame is not None:
-            if frame.f_code.co_filename == _IMPORT:
-                signal.setitimer(signal.ITIMER_REAL, _AFTER_IMPORT)
-                return
-            frame = frame.f_back
-        raise _Overdue
-
-    if seconds <= 0.0:
-        raise TimeoutError
-    if threading.current_thread() is not threading.main_thread():
-        return function(question)
-    signal.signal(signal.SIGALRM, stop)
-    try:
-        try:
-            signal.setitimer(signal.ITIMER_REAL, seconds)
-            return function(question)
-        finally:
-            signal.setitimer(signal.ITIMER_REAL, 0.0)
-    except _Overdue:
-        raise TimeoutError from None
-
-
-class _Overdue(BaseException):
-    """No handler of other exceptions must stop this one."""
-
-
-def _derived(call: DeriveRequest) -> dict[str, Any]:
     if call.first_index != 1 and call.dynamics is not None:
         raise InvalidField("first_index", "must be 1 with `dynamics`: the equations of motion are of a whole arm")
     before = call.first_index - 1
@@ -115,6 +76,40 @@ def _derived(call: DeriveRequest) -> dict[str, Any]:
         "certificate": solution.certificate,
         "numeric_certificate": solution.numeric_certificate,
     }
+
+
+def in_time(function: Callable[[_Question], _Result], question: _Question, seconds: float) -> _Result:
+    """Run a function, but break it off with TimeoutError after `seconds`, though never while it imports a module.
+
+    Only a main thread can be broken off, as a worker's is; in another one, as at the command line, the function ends
+    by itself.
+    """
+
+    def stop(_: int, frame: FrameType | None) -> None:
+        while frame is not None:
+            if frame.f_code.co_filename == _IMPORT:
+                signal.setitimer(signal.ITIMER_REAL, _AFTER_IMPORT)
+                return
+            frame = frame.f_back
+        raise _Overdue
+
+    if seconds <= 0.0:
+        raise TimeoutError
+    if threading.current_thread() is not threading.main_thread():
+        return function(question)
+    signal.signal(signal.SIGALRM, stop)
+    try:
+        try:
+            signal.setitimer(signal.ITIMER_REAL, seconds)
+            return function(question)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+    except _Overdue:
+        raise TimeoutError from None
+
+
+class _Overdue(BaseException):
+    """No handler of other exceptions must stop this one."""
 
 
 def _legend(solution: WorkedSolution) -> list[SymbolEntry]:

@@ -7,22 +7,16 @@ from gelenk.contract.dh import table_content
 from gelenk.contract.dh_from_urdf import FromUrdfOptions, FromUrdfRequest
 from gelenk.dh.compare.of_chain import dh_of_chain
 from gelenk.dh.placing import placing_steps
-from gelenk.operations.outcome import Outcome
+from gelenk.operations.outcome import always, json_only
 from gelenk.robot.robot import RobotModel
 from gelenk.robot.urdf import read_urdf
 
+is_heavy = always  # building a robot takes milliseconds
 
-def run(call: FromUrdfRequest) -> Outcome:
+
+@json_only
+def run(call: FromUrdfRequest) -> dict[str, Any]:
     """Compute the DH table of a chain in a URDF, with its certificate."""
-    return Outcome(lambda: _from_urdf(call))
-
-
-def is_heavy(_: FromUrdfRequest) -> bool:
-    """Return True: building a robot takes milliseconds."""
-    return True
-
-
-def _from_urdf(call: FromUrdfRequest) -> dict[str, Any]:
     description = read_urdf(call.urdf, call.strict)
     return table_answer(RobotModel(description), call, description.warnings)
 

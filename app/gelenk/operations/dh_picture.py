@@ -8,7 +8,7 @@ from gelenk.contract.dh_picture import DhPictureRequest
 from gelenk.dh.tables.convert import BASE_FRAME, TOOL_FRAME, describe_dh
 from gelenk.errors import InvalidDhTable, counted
 from gelenk.kinematics.judge.judge import certify_poses
-from gelenk.operations.outcome import Outcome, PictureFormat
+from gelenk.operations.outcome import Outcome, PictureFormat, always
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import configurations
@@ -28,9 +28,7 @@ def run(call: DhPictureRequest) -> Outcome:
     return Outcome(lambda: _frames(call), picture=lambda kind: _picture(call, kind))
 
 
-def is_heavy(_: DhPictureRequest) -> bool:
-    """Return True: building a robot takes milliseconds."""
-    return True
+is_heavy = always  # building a robot takes milliseconds
 
 
 def _table_and_positions(call: DhPictureRequest) -> tuple[DhTable, list[float]]:

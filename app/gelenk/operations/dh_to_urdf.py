@@ -7,24 +7,18 @@ from gelenk.contract.dh_to_urdf import ToUrdfRequest
 from gelenk.dh.tables.convert import BASE_FRAME, TOOL_FRAME, describe_dh
 from gelenk.errors import listed
 from gelenk.kinematics.judge.tables import certify_table
-from gelenk.operations.outcome import Outcome
+from gelenk.operations.outcome import always, json_only
 from gelenk.robot.appearance import INVENTED_MASSES
 from gelenk.robot.description import MOVABLE, Description
 from gelenk.robot.robot import RobotModel
 from gelenk.robot.urdf import UNLIMITED, read_urdf, write_urdf
 
+is_heavy = always  # building a robot takes milliseconds
 
-def run(call: ToUrdfRequest) -> Outcome:
+
+@json_only
+def run(call: ToUrdfRequest) -> dict[str, Any]:
     """Write a DH table as URDF, and certify the robot in it."""
-    return Outcome(lambda: _to_urdf(call))
-
-
-def is_heavy(_: ToUrdfRequest) -> bool:
-    """Return True: building a robot takes milliseconds."""
-    return True
-
-
-def _to_urdf(call: ToUrdfRequest) -> dict[str, Any]:
     table = call.dh.table()
     described = describe_dh(call.name, table)
     urdf = write_urdf(described)

@@ -4,9 +4,10 @@ from collections import Counter
 from typing import Any
 
 from gelenk.contract.ik import MAX_STEPWISE, MAX_TARGETS, InverseRequest
-from gelenk.ik.closed.closed_form import ClosedForm, closed_form, is_looked_at, look_at
+from gelenk.ik.closed.closed_form import closed_form, is_looked_at, look_at
 from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS
+from gelenk.ik.search.task import Task
 from gelenk.ik.solve import solve, solve_quickly
 from gelenk.ik.verdict.result import InverseKinematics
 from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolved_headers
@@ -46,22 +47,6 @@ def _bounds(limits: Limits) -> TargetLimits:
     return TargetLimits(MAX_TARGETS, MAX_STEPWISE, limits.answer_numbers)
 
 
-def _chain(loaded: LoadedRobot, call: InverseRequest) -> Chain:
-    return loaded.robot.chain(call.base_frame, call.tip_frame)
-
-
-def _is_looked_at(loaded: LoadedRobot, call: InverseRequest) -> bool:
-    return is_looked_at(_chain(loaded, call), task_of(call))
-
-
-def _closed_form(loaded: LoadedRobot, call: InverseRequest) -> ClosedForm | None:
-    return closed_form(_chain(loaded, call), task_of(call))
-
-
-def _look_at(loaded: LoadedRobot, call: InverseRequest, found: ClosedForm | None) -> None:
-    look_at(_chain(loaded, call), task_of(call), found)
-
-
 def is_heavy(call: InverseRequest) -> bool:
     """Check whether a request takes the event loop more than about a millisecond."""
     one_by_search = (
@@ -76,7 +61,15 @@ def is_heavy(call: InverseRequest) -> bool:
     return is_awaited() or not one_by_search or len(call.targets) > _QUICK_TARGETS
 
 
-WARM_UP = WarmUp(_is_looked_at, _closed_form, _look_at)
+def _subject(loaded: LoadedRobot, call: InverseRequest) -> tuple[Chain, Task]:
+    return loaded.robot.chain(call.base_frame, call.tip_frame), task_of(call)
+
+
+WARM_UP: WarmUp[InverseRequest] = WarmUp(
+    lambda loaded, call: is_looked_at(*_subject(loaded, call)),
+    lambda loaded, call: closed_form(*_subject(loaded, call)),
+    lambda loaded, call, found: look_at(*_subject(loaded, call), found),
+)
 """The closed form of a chain, which takes some milliseconds to recognise."""
 
 

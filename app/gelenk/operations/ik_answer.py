@@ -13,6 +13,7 @@ from gelenk.ik.search.words import IterationPath
 from gelenk.ik.verdict.fixed import narrowed
 from gelenk.ik.verdict.result import COLUMNS, COUNTED, InverseKinematics, UnsolvedTarget
 from gelenk.kinematics.simd.kernels import chain_poses
+from gelenk.operations.chains import head
 from gelenk.operations.ik_request import task_of
 from gelenk.operations.ik_steps import worked
 from gelenk.operations.pose_arrays import pose_list
@@ -44,9 +45,7 @@ def unsolved_headers(unsolved: Sequence[int]) -> dict[str, str]:
 def to_json(chain: Chain, call: InverseRequest, closed_form: str | None, results: list[Any]) -> dict[str, Any]:
     """Return the whole answer; the results come last, so that they can be written part by part."""
     return {
-        "joint_names": chain.joint_names,
-        "base_frame": chain.base_frame,
-        "tip_frame": chain.tip_frame,
+        **head(chain),
         "task": task_of(call).directions,
         "closed_form": closed_form,
         "results": results,

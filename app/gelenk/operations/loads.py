@@ -34,15 +34,13 @@ def chain_of(robot: RobotModel, call: WrenchOptions) -> Chain:
     return robot.chain(call.base_frame, call.tip_frame)
 
 
-def _is_known(loaded: LoadedRobot, call: WrenchOptions) -> bool:
-    return known_mechanism(loaded.robot, chain_of(loaded.robot, call)) is not None
-
-
 def _build(loaded: LoadedRobot, call: WrenchOptions, _: None = None) -> None:
     mechanism(loaded.robot, chain_of(loaded.robot, call))
 
 
-MECHANISM: WarmUp[Any] = WarmUp(_is_known, _build, _build)
+MECHANISM: WarmUp[Any] = WarmUp(
+    lambda loaded, call: known_mechanism(loaded.robot, chain_of(loaded.robot, call)) is not None, _build, _build
+)
 """The mechanism of a chain, which takes some milliseconds to build; a worker only sees whether it can be built."""
 
 

@@ -90,8 +90,8 @@ def _nearly(found: Notations) -> list[str]:
     """Return warnings about angle triples that are determined, but badly conditioned."""
     return [
         f"{name} is nearly degenerate, {sine} = {triple.conditioning:.3g}: an error of R grows by the inverse of that "
-        f"in {outer}, while their {kept} stays accurate."
-        for name, sine, triple, outer, kept in (
+        f"in {outer}, while their {steady} stays accurate."
+        for name, sine, triple, outer, steady in (
             ("ZYZ", "sin θ", found.zyz, "φ and ψ", "sum (θ near 0) or difference (θ near π)"),
             ("RPY", "cos pitch", found.rpy, "roll and yaw", "difference (pitch near π/2) or sum (near -π/2)"),
         )

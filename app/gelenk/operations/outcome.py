@@ -57,6 +57,11 @@ class Outcome:
         return replace(self, content=language(code)(self.content), picture=picture)
 
 
+def always(_: object) -> bool:
+    """Return True: the `is_heavy` of an operation that never takes less than a millisecond."""
+    return True
+
+
 def json_only(content: Callable[[R], Any]) -> Callable[[R], Outcome]:
     """Return an operation that answers with nothing but the JSON content that a function makes of the request."""
 

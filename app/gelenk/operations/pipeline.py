@@ -10,7 +10,7 @@ from gelenk.course.cartesian.pipeline_steps import pipeline_steps
 from gelenk.course.cartesian.planar_line import tips
 from gelenk.language import translated as _
 from gelenk.operations.course_motion import joint_limits, line_of, peaks_info, segments_info
-from gelenk.operations.outcome import Outcome, PictureFormat
+from gelenk.operations.outcome import Outcome, PictureFormat, always
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.laws import POLYNOMIALS
 from gelenk.trajectory.motion.extremes import peaks_by_order
@@ -22,9 +22,7 @@ def run(call: PipelineRequest) -> Outcome:
     return Outcome(lambda: _content(call), picture=lambda kind: _picture(call, kind))
 
 
-def is_heavy(_: PipelineRequest) -> bool:
-    """Return True: the certificate takes milliseconds."""
-    return True
+is_heavy = always  # the certificate takes milliseconds
 
 
 def _planned(call: PipelineRequest) -> Pipeline:

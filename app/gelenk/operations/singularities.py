@@ -14,8 +14,8 @@ from gelenk.kinematics.singularity.distance import NearestSingularity, can_lose,
 from gelenk.kinematics.singularity.path import PathMinimum, places_along
 from gelenk.kinematics.singularity.report import SingularityReport, certify_reports, singularity_report
 from gelenk.kinematics.velocity.jacobian import jacobians, singular_values
-from gelenk.kinematics.velocity.task_space import TaskSpace, slides, structure
-from gelenk.operations.chains import chain_and_positions, check_numbers, check_worked, head, task_of
+from gelenk.kinematics.velocity.task_space import TaskSpace, structure
+from gelenk.operations.chains import chain_and_positions, check_numbers, check_worked, head, task_of, units_are_mixed
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.singularity_steps import worked_singularities
 from gelenk.robot.arrays import Array
@@ -111,7 +111,7 @@ def _content(
         "task": space.task.directions,
         "rank_tolerance": call.rank_tolerance,
         "characteristic_length": call.characteristic_length,
-        "units_mixed": _units_are_mixed(chain, space),
+        "units_mixed": units_are_mixed(chain, space),
         "singularities": entries,
     }
     if call.steps:
@@ -144,11 +144,6 @@ def _content(
         max(product["max_lost_direction"] for product in products),
     )
     return answer
-
-
-def _units_are_mixed(chain: Chain, space: TaskSpace) -> bool:
-    rows = 0 < space.turns < len(space) and space.characteristic_length is None
-    return rows or len(set(slides(chain).tolist())) > 1
 
 
 def _recomputed(robot: RobotModel, chain: Chain, rows: list[Array]) -> Iterator[JacobianCertificate]:

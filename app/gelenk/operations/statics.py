@@ -7,7 +7,6 @@ import numpy as np
 
 from gelenk.contract.common import Vectors
 from gelenk.contract.statics import StaticsRequest
-from gelenk.course.steps import Step
 from gelenk.errors import InvalidField, TooLarge, counted
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import DIRECTIONS
@@ -61,8 +60,10 @@ def run(loaded: LoadedRobot, call: StaticsRequest, limits: Limits) -> Outcome:
     qs = positions(chain, call)
     _check_size(call, len(qs), len(task), len(chain), limits)
     check_worked(call, len(qs))
-    wrenches = None if call.wrenches is None else wrench_rows(call.wrenches, len(qs), task.directions, _hint(call))
-    torques = None
+    wrenches = torques = None
+    if call.wrenches is not None:
+        hint = ", in the order of `task`" if call.task else "; `task` can name fewer"
+        wrenches = wrench_rows(call.wrenches, len(qs), task.directions, hint)
     if call.torques is not None:
         torques = one_each(configurations(chain, call.torques, "torques"), len(qs), "torques")
     rows = np.array([DIRECTIONS.index(direction) for direction in task.directions])
@@ -135,10 +136,6 @@ def _check_options(call: StaticsRequest, task: Task, chain: Chain, *, weighs: bo
                 raise InvalidField(f"test_{name}", f"entry {i} has {counted(len(vector), 'number')}, not {size}")
 
 
-def _hint(call: StaticsRequest) -> str:
-    return ", in the order of `task`" if call.task else "; `task` can name fewer"
-
-
 def _check_size(call: StaticsRequest, count: int, m: int, n: int, limits: Limits) -> None:
     splits = _wants_subspaces(call) or call.torques is not None
     numbers = count * (12 + 10 * n + m)
@@ -165,7 +162,11 @@ def _solved(still: Statics, call: StaticsRequest, wrenches: Array | None, torque
 def _content(loaded: LoadedRobot, call: StaticsRequest, found: _Results) -> dict[str, Any]:
     still = found.still
     robot, chain, weighs = still.robot, still.chain, still.gravity is not None
-    splits = []
+    splits: list[Subspaces] = []
+    steps: dict[str, Any] = {}
+    if call.steps:
+        solved, tolerance = found.balance is not None, call.rank_tolerance
+        steps = {"steps": worked_statics(still, found.wrenches, found.torques, tolerance, solved=solved)}
     if _wants_subspaces(call):
         splits = still.subspaces(call.rank_tolerance) if found.balance is None else found.balance.splits
     return {
@@ -182,14 +183,9 @@ def _content(loaded: LoadedRobot, call: StaticsRequest, found: _Results) -> dict
         "overloaded_joints": overloaded_joints(robot, chain, found.torques),
         "subspaces": [_subspaces_content(call, split) for split in splits] if _wants_subspaces(call) else None,
         "notes": weight_notes(loaded, mechanism(robot, chain), still.load) if weighs else [],
-        **({"steps": _worked(call, found)} if call.steps else {}),
+        **steps,
         "certificate": found.certificate,
     }
-
-
-def _worked(call: StaticsRequest, found: _Results) -> list[list[Step]]:
-    solved = found.balance is not None
-    return worked_statics(found.still, found.wrenches, found.torques, call.rank_tolerance, solved=solved)
 
 
 def _balance_content(call: StaticsRequest, found: _Results, of_torques: NearestWrench) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from gelenk.kinematics.judge.judge import certify_poses
 from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.language import language
+from gelenk.operations.chains import head
 from gelenk.operations.outcome import PictureFormat
 from gelenk.operations.pose_arrays import pose_columns
 from gelenk.operations.rows import json_objects, json_rows
@@ -166,9 +167,7 @@ class PlannedTrajectory:
         if self.call.coefficients and found.motion.coefficients.size > self.bounds.numbers:
             raise TooLarge("numbers in the answer", found.motion.coefficients.size, self.bounds.numbers)
         answer: dict[str, Any] = {
-            "joint_names": self.chain.joint_names,
-            "base_frame": self.chain.base_frame,
-            "tip_frame": self.chain.tip_frame,
+            **head(self.chain),
             "duration": found.motion.duration,
             "completed_fraction": found.completed_fraction,
             "failure": found.failure,

@@ -18,8 +18,9 @@ from gelenk.course.velocity.writing import row
 from gelenk.kinematics.ellipsoids.manipulability import Ellipsoids, Manipulability, Part, is_within_task
 from gelenk.kinematics.force.statics import Statics
 from gelenk.kinematics.velocity.inverse_velocity import InverseMotion, kept_from_limits
-from gelenk.kinematics.velocity.task_space import TaskSpace, slides
+from gelenk.kinematics.velocity.task_space import TaskSpace
 from gelenk.kinematics.velocity.velocity import TipMotion, in_reference, product_rule
+from gelenk.operations.chains import units_are_mixed
 from gelenk.operations.velocity_call import DAMPING_THRESHOLD
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -88,7 +89,7 @@ def worked_inversions(
             len(rates) + 1,
             call.characteristic_length if space.turns else None,
             (call.damping_threshold or DAMPING_THRESHOLD) if adaptive else None,
-            _mixes_units(chain, space),
+            units_are_mixed(chain, space),
             None if null_motion is None else _wish(chain, call, qs[i], null_motion[i], float(inversion.shares[i])),
         )
         results.append((derivation(question), inverse_steps(question)))
@@ -109,12 +110,6 @@ def _known(call: VelocityRequest, space: TaskSpace, rates: Array, motion: TipMot
     value = last[0, space.rows] * space.scales
     name = (r"\dot J \dot q", r"2 \dot J \ddot q + \ddot J \dot q")[order - 2]
     return value, [f"{name} = {row(value)}"]
-
-
-def _mixes_units(chain: Chain, space: TaskSpace) -> bool:
-    sliding = slides(chain)
-    mixed_rows = space.characteristic_length is None and 0 < space.turns < len(space)
-    return mixed_rows or bool(sliding.any() and not sliding.all())
 
 
 def _wish(chain: Chain, call: VelocityRequest, q: Array, xi: Array, share: float) -> NullSpaceWish:

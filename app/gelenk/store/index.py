@@ -145,8 +145,8 @@ class Index:
 def summary(name: str, source: Source, file: RobotFile) -> dict[str, Any]:
     """Return a robot's entry in the list of robots; its chain is None if `robot.json` does not name one."""
     chain = None if file.default_chain is None else file.default_chain.model_dump()
-    told = {"name": name, "description": file.description, "source": source, "format": file.format}
-    return told | {"default_chain": chain}
+    content = {"name": name, "description": file.description, "source": source, "format": file.format}
+    return content | {"default_chain": chain}
 
 
 def _entry(name: str, stamp: Stamp, file: RobotFile) -> IndexEntry:
@@ -166,7 +166,7 @@ def _from_line(line: bytes) -> IndexEntry:
     fields, _, checksum = line.rpartition(b"\t")
     if int(checksum) != zlib.crc32(fields):
         raise ValueError("it is damaged")
-    name, stamp, owner, kept_bytes, told = fields.split(b"\t")
+    name, stamp, owner, kept_bytes, listed = fields.split(b"\t")
     changed, inode, size = map(int, stamp.split())
     known = None if owner == b"null" else orjson.loads(owner)
-    return IndexEntry(name.decode(), (changed, inode, size), known, int(kept_bytes), told)
+    return IndexEntry(name.decode(), (changed, inode, size), known, int(kept_bytes), listed)

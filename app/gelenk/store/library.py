@@ -135,19 +135,19 @@ class Library:
         entries, others = self._index.entries()
         ours = (self._summary(record.name, "catalogue", record.file) for record in self._catalogue.values())
         uploaded = {entry.name: entry.summary for entry in entries}
-        uploaded |= {name: told for name, file in others if (told := self._summary(name, "uploaded", file))}
+        uploaded |= {name: entry for name, file in others if (entry := self._summary(name, "uploaded", file))}
         return [*filter(None, ours), *(uploaded[name] for name in sorted(uploaded))]
 
     def _summary(self, name: str, source: Source, file: RobotFile) -> bytes | None:
         """Return a robot's JSON in the list; None if its folder is not a robot (a request by name gives the reason)."""
-        told = summary(name, source, file)
-        if told["default_chain"] is None:
+        entry = summary(name, source, file)
+        if entry["default_chain"] is None:
             try:
                 base_frame, tip_frame = self.get(name).robot.default_chain
             except (KinematicsError, OSError):
                 return None
-            told["default_chain"] = {"base_frame": base_frame, "tip_frame": tip_frame}
-        return orjson.dumps(told)
+            entry["default_chain"] = {"base_frame": base_frame, "tip_frame": tip_frame}
+        return orjson.dumps(entry)
 
     def _check_quota(self, new: RobotFile, old: RobotFile | None = None) -> None:
         """Check that the owner's quota has room for a robot; one of the same owner that it replaces does not count."""
@@ -306,7 +306,7 @@ class Library:
         with self._lock:
             self._loaded[loaded.record.name] = loaded
             self._loaded.move_to_end(loaded.record.name)
-            while len(self._loaded) > 1 and sum(_weight(kept) for kept in self._loaded.values()) > _MEMORY:
+            while len(self._loaded) > 1 and sum(_weight(one) for one in self._loaded.values()) > _MEMORY:
                 self._loaded.popitem(last=False)
 
 

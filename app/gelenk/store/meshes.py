@@ -91,8 +91,8 @@ def mesh_warnings(found: Mapping[str, Sequence[str]]) -> tuple[str, ...]:
     warnings = []
     if unread:
         formats = sorted(set(unread.values()))
-        told = f"{', '.join(formats[:12])} {'is' if len(formats) == 1 else 'are'} not read: STL, OBJ, DAE"
-        warnings.append(f"{meshes_are(tuple(unread))} not shown: {told}")
+        sentence = f"{', '.join(formats[:12])} {'is' if len(formats) == 1 else 'are'} not read: STL, OBJ, DAE"
+        warnings.append(f"{meshes_are(tuple(unread))} not shown: {sentence}")
     if missing:
         warnings.append(f"{meshes_are(tuple(missing))} missing")
     if unclear:

@@ -5,6 +5,7 @@ import os
 import threading
 import time
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -99,7 +100,7 @@ class AuditLog:
         try:
             with folders.exclusive(self._folder), folders.writing():
                 self._make_room(len(content))
-                with open(self._folder / "audit.jsonl", "ab", opener=_private) as stream:
+                with open(self._folder / "audit.jsonl", "ab", opener=partial(os.open, mode=0o600)) as stream:
                     stream.write(content)
                     stream.flush()
                     os.fsync(stream.fileno())
@@ -139,7 +140,3 @@ class _Refusals:
         entry = self.last | {"refused": self.count, "since": moment(self.since), "clients": sorted(self.clients)}
         self.count, self.clients = 0, set()
         return entry
-
-
-def _private(path: str, flags: int) -> int:
-    return os.open(path, flags, 0o600)

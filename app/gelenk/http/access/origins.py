@@ -37,7 +37,7 @@ class Origins:
             exchange.answer_headers.append((b"vary", b"Origin"))
         if origin is None and site is None:
             return None
-        if origin is not None and self._allows(origin):
+        if origin is not None and (b"*" in self._allowed or origin.lower() in self._allowed):
             return self._admitted(exchange, origin)
         if exchange.is_safe and not _is_preflight(exchange):
             return None
@@ -46,9 +46,6 @@ class Origins:
         shown = "of another origin" if origin is None else f"of the origin {quoted(origin.decode('latin-1'))}"
         detail = f"a page {shown} may not do this; GELENK_ALLOWED_ORIGINS adds origins"
         return problem(exchange.request, HTTPStatus.FORBIDDEN, "cross-origin-refused", detail)
-
-    def _allows(self, origin: bytes) -> bool:
-        return b"*" in self._allowed or origin.lower() in self._allowed
 
     def _admitted(self, exchange: RequestContext, origin: bytes) -> Response | None:
         """Let the page read the response; answer a preflight at once, since a browser sends no key with it."""

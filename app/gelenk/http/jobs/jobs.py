@@ -73,15 +73,15 @@ def jobs_router(runner: Runner) -> APIRouter:
 
     @router.api_route(**documentation("get_job_result"))
     def get_result(job: JobPath, request: Request) -> Response:
-        told = runner.store.get(job)
-        wanted = preferred_type(request.headers.get("accept", ""), (JSON, NPY, *EXTRA.get(told.kind, ())))
-        if told.kind == KIND and wanted in _PICTURES:
+        record = runner.store.get(job)
+        wanted = preferred_type(request.headers.get("accept", ""), (JSON, NPY, *EXTRA.get(record.kind, ())))
+        if record.kind == KIND and wanted in _PICTURES:
             paths = runner.result(job, ARRAY), runner.result(job, SUMMARY)
             response = Response(runner.rendered(picture, (*paths, _PICTURES[wanted])), media_type=wanted)
         else:
             response = _file_response(runner, job, wanted)
-        if told.robot_digest is not None:
-            response.headers["Gelenk-Robot-Digest"] = told.robot_digest
+        if record.robot_digest is not None:
+            response.headers["Gelenk-Robot-Digest"] = record.robot_digest
         return response
 
     @router.api_route(**documentation("cancel_job"))
@@ -100,10 +100,10 @@ async def _events(runner: Runner, job: JobRecord, state: Mapping[str, Any]) -> A
 
     The state of the connection says when the service stops: the stream ends, and a browser reconnects.
     """
-    told, quiet = "", 0.0
+    sent, quiet = "", 0.0
     while True:
-        if (event_id := f"{job.state} {job.progress}") != told:
-            told, quiet = event_id, 0.0
+        if (event_id := f"{job.state} {job.progress}") != sent:
+            sent, quiet = event_id, 0.0
             name = "finished" if job.is_final else "progress"
             yield f"event: {name}\nid: {_event_id(job)}\ndata: {orjson.dumps(job_content(job)).decode()}\n\n"
         elif quiet >= HEARTBEAT_SECONDS:

@@ -76,7 +76,7 @@ def headers_file(headers: dict[str, dict[str, str]]) -> bytes:
 def headers_of(path: Path, media_type: str) -> dict[str, str]:
     """Read the headers of a result; empty if it has none."""
     try:
-        told: dict[str, dict[str, str]] = orjson.loads(path.read_bytes())
+        headers: dict[str, dict[str, str]] = orjson.loads(path.read_bytes())
     except FileNotFoundError:
         return {}
-    return told.get(media_type, {})
+    return headers.get(media_type, {})

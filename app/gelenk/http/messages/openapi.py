@@ -176,11 +176,11 @@ def _npy_body(description: str, options: type[BaseModel]) -> dict[str, Any]:
     a type, and `x-query` refers to it.
     """
     names = ", ".join(f"`{name}`" for name in options.model_fields)
-    told = (
+    sentences = (
         f"{description} The query takes the fields of `{options.__name__}`, a list by repeating its name and an object "
         f"as JSON: {names}."
     )
-    return {NPY: {**_contents({NPY: told})[NPY], "x-query": {"$ref": _COMPONENT.format(model=options.__name__)}}}
+    return {NPY: {**_contents({NPY: sentences})[NPY], "x-query": {"$ref": _COMPONENT.format(model=options.__name__)}}}
 
 
 def _without_null(schema: dict[str, Any]) -> None:

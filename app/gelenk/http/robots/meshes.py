@@ -24,23 +24,23 @@ def mesh_response(file: Path, path: str, accepted: str) -> Response:
     The file's name ends in `.gz` if it is compressed; the path is the requested one, `accepted` the `Accept-Encoding`.
     """
     try:
-        kept = open_plain(file)  # once open, it stays readable to its end, even if the robot is replaced
+        content = open_plain(file)  # once open, it stays readable to its end, even if the robot is replaced
     except FileNotFoundError:
         raise UnknownMesh(path) from None
-    headers = {**SANDBOXED, "Content-Length": str(os.fstat(kept.fileno()).st_size)}
-    stream = kept
+    headers = {**SANDBOXED, "Content-Length": str(os.fstat(content.fileno()).st_size)}
+    stream = content
     if file.suffix == ".gz":
         headers["Vary"] = "Accept-Encoding"
         if accepts_gzip(accepted):
             headers["Content-Encoding"] = "gzip"
         else:
             del headers["Content-Length"]
-            stream = cast(IO[bytes], gzip.open(kept))  # noqa: SIM115 (holds nothing but `kept`)
+            stream = cast(IO[bytes], gzip.open(content))  # noqa: SIM115 (holds nothing but `content`)
     return StreamingResponse(
         iter(lambda: stream.read(_PIECE), b""),
         media_type=MESH_TYPES[Path(path).suffix.lower()],
         headers=headers,
-        background=BackgroundTask(kept.close),
+        background=BackgroundTask(content.close),
     )
 
 

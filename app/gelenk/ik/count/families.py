@@ -48,9 +48,9 @@ class _Motion:
 
     def has(self, chain: Chain, q: Array) -> bool:
         """Check whether a configuration has the same unmoved joints and constant sums as the walk."""
-        kept = np.concatenate((np.eye(len(q))[~self.moving], self.ties))
-        apart = kept @ (q - self.path[0])
-        whole_turns = np.abs(kept) @ ~free_variables(chain) == 0.0
+        constant = np.concatenate((np.eye(len(q))[~self.moving], self.ties))
+        apart = constant @ (q - self.path[0])
+        whole_turns = np.abs(constant) @ ~free_variables(chain) == 0.0
         apart -= np.where(whole_turns, _TURN * np.rint(apart / _TURN), 0.0)
         return bool((np.abs(apart) <= _MOVES).all())
 

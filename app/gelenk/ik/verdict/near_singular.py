@@ -85,9 +85,9 @@ def with_partners(problem: TargetProblem, i: int, qs: Array, least: float) -> Ar
 
 def distinct(problem: TargetProblem, i: int, qs: Array) -> Indices:
     """Select distinct solutions of a target: the first of each group that differs only by rounding; indices, (k,)."""
-    kept: list[int] = []
+    chosen: list[int] = []
     for k in thin_out(qs, free_variables(problem.chain), _SAME, len(qs)).tolist():
-        apart = whole_turns_removed(problem.chain, qs[kept] - qs[k])
+        apart = whole_turns_removed(problem.chain, qs[chosen] - qs[k])
         near = apart[np.abs(apart).max(axis=1, initial=0.0) <= _NEAR]
         if len(near):
             halfway = qs[k] + 0.5 * near
@@ -95,8 +95,8 @@ def distinct(problem: TargetProblem, i: int, qs: Array) -> Indices:
                 halfway = halfway + _steps(*problem.linearised(i, halfway), _WEAK)
             if np.linalg.norm(problem.linearised(i, halfway)[0], axis=1).min() <= _BETWEEN:
                 continue
-        kept.append(k)
-    return np.array(kept[:_MOST], dtype=np.int64)
+        chosen.append(k)
+    return np.array(chosen[:_MOST], dtype=np.int64)
 
 
 def _further(problem: TargetProblem, i: int, qs: Array) -> Array:

@@ -79,10 +79,10 @@ def mechanism(robot: RobotModel, chain: Chain) -> ChainMechanism:
     base, tip = (_carrier(made, frame) for frame in ends)
     found = ChainMechanism(made, made.chain(*ends), parts, _without_mass(robot, parts), base, tip)
     with _lock:
-        kept = _known.setdefault(robot, {})
-        if len(kept) >= _KEPT:
-            del kept[next(iter(kept))]
-        kept[ends] = found
+        by_ends = _known.setdefault(robot, {})
+        if len(by_ends) >= _KEPT:
+            del by_ends[next(iter(by_ends))]
+        by_ends[ends] = found
     return found
 
 

@@ -119,8 +119,8 @@ def _normals(J: Array) -> Array:
     first, second = np.triu_indices(len(units), 1)
     normals = np.cross(units[first], units[second])
     sines = np.linalg.norm(normals, axis=1)
-    kept = sines > _PARALLEL
-    return cast(Array, normals[kept] / sines[kept, None])
+    apart = sines > _PARALLEL
+    return cast(Array, normals[apart] / sines[apart, None])
 
 
 def _felt(J: Array) -> Flags:

@@ -148,5 +148,5 @@ def _valleys(values: Array, flat: float) -> tuple[Array, Array]:
     first, last = np.concatenate(([0], breaks + 1)), np.concatenate((breaks, [len(values) - 1]))
     falls_into = np.concatenate(([True], steps[breaks] < 0.0))
     rises_from = np.concatenate((steps[breaks] > 0.0, [True]))
-    kept = falls_into & rises_from
-    return first[kept], last[kept]
+    is_valley = falls_into & rises_from
+    return first[is_valley], last[is_valley]

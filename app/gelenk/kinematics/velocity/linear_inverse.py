@@ -202,10 +202,10 @@ def _damped_to_limits(parts: Decomposition, row: int, b: Array, least: float, li
     grid = least + _DAMPINGS * max(float(np.square(sigmas[:1]).sum()), 1e-300)
     low = least
     for _ in range(_ROUNDS):
-        kept = (np.abs(at(grid)) <= limits).all(axis=1)
-        if not kept.any():
+        fits = (np.abs(at(grid)) <= limits).all(axis=1)
+        if not fits.any():
             break
-        first = int(np.argmax(kept))
+        first = int(np.argmax(fits))
         low, high = float(grid[first - 1]) if first else low, float(grid[first])
         grid = np.linspace(low, high, _POINTS)[1:]
     return float(grid[-1]), at(grid[-1:])[0]
