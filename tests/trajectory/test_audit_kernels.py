@@ -4,7 +4,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from gelenk.robot.arrays import Array
+from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.kernels import smallest_singular_values, tip_rates
@@ -17,7 +17,7 @@ ARMS = ["panda", "ur5", "stanford", "scara", "pr2"]
 """Turning and sliding joints, also in a longer chain."""
 
 
-def samples(pieces: Pieces, count: int) -> tuple[Array, Array]:
+def samples(pieces: Pieces, count: int) -> tuple[Indices, Array]:
     rng = np.random.default_rng(1)
     return rng.integers(0, len(pieces.widths), count), rng.uniform(0.0, 1.0, count)
 

@@ -28,6 +28,7 @@ from gelenk.robot.notations import (
     vectors_from_rotations,
 )
 from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.follow.nearest import nearest
 from gelenk.trajectory.plan import plan
 from gelenk.trajectory.problem.problem import Segment, SegmentLimits, TrajectoryProblem
 
@@ -96,13 +97,14 @@ def _closed_forms() -> None:
 
 
 def _motions() -> None:
-    """Plan and audit a movement of the joints and the fastest motion along a spline."""
+    """Plan and audit a movement of the joints and the fastest motion along a spline; find a point of a path."""
     robot, chain, qs = _small_arm()
     limits, start = SegmentLimits(*np.ones((3, 3))), qs[0]
     move = Segment("joint", "jerk_limited", limits, configuration=start + 0.5)
     points = start + np.array([[0.2], [0.3]])
     way = Segment("spline", "time_optimal", limits, configurations=points, stated_jerk=limits.jerk)
     plan(robot, chain, TrajectoryProblem(start, (move, way))).motion.rates_at(np.zeros(1))
+    nearest(_six_joints()[1].flat, np.zeros(3), np.eye(3), *np.zeros((3, 6)))
 
 
 def _answers() -> None:

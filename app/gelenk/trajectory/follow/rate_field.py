@@ -11,12 +11,13 @@ from typing import TypeAlias
 
 import numpy as np
 
-from gelenk.ik.search.task import Task
+from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.notations import rotations_from_vectors
 from gelenk.robot.poses import Poses
+from gelenk.trajectory.follow.nearest import EXACT, FAR, FARTHEST, MOST_STEPS, NEARLY, RANK, nearest
 from gelenk.trajectory.follow.rows import PLACES, STENCIL, CountedRows, row_derivatives, task_rows
 from gelenk.trajectory.paths.paths import Path, PathSamples
 
@@ -27,17 +28,7 @@ SHARE = 1.0 / 3.0
 """Share of the tolerances that interpolation may use."""
 _DIFFERENCE = 1e-3
 """Step of differences in q, [rad or m]; smaller near a singularity, where the field changes fast."""
-_RANK = 1e-13
-"""Share of the largest singular value below which one counts as zero."""
-_EXACT = 1e-14
-"""Error that no further step reduces, in fractions of 1 plus the largest position and joint value, [m and rad]."""
-_NEARLY = 1e-10
-_MOST_STEPS = 12
 _ELIMINATED = 1e-6
-_FAR = 1e6
-"""Magnitude of a joint beyond which a configuration counts as diverged, [rad or m]."""
-_FARTHEST = 1.0
-"""Longest step of Newton's method, [rad or m]."""
 _EDGE = 0.2
 """Share of a joint's range at each limit within which the joint is pushed away."""
 
@@ -134,21 +125,25 @@ class RateField:
 
     def next_to(self, s: float, at: PathSamples, q: Array) -> Knot | None:
         """Find the knot nearest to a configuration by Newton's method; None if it does not converge."""
-        floor = _EXACT * (1.0 + float(np.abs(at.poses.positions).max()) + float(np.abs(q).max()))
+        if len(self.task) == len(FULL_POSE) <= len(self.chain) and self.push == 0.0:
+            one = (at.poses.positions[0], at.poses.rotations[0], at.first[0], at.second[0], q)
+            found = nearest(self.chain.flat, *map(np.ascontiguousarray, one))
+            return Knot(s, *found[1:]) if found[0] else None
+        floor = EXACT * (1.0 + float(np.abs(at.poses.positions).max()) + float(np.abs(q).max()))
         before = np.inf
-        for _ in range(_MOST_STEPS):
-            if not float(np.abs(q).max(initial=0.0)) <= _FAR:
+        for _ in range(MOST_STEPS):
+            if not float(np.abs(q).max(initial=0.0)) <= FAR:
                 return None
             rows = task_rows(self.chain, self.task, at, q[None])
             error = float(np.abs(rows.errors).max())
-            if error <= floor or (error <= _NEARLY and error > 0.5 * before):
+            if error <= floor or (error <= NEARLY and error > 0.5 * before):
                 return self.knot(s, at, q, rows)
             step = _step(rows)
             length = float(np.abs(step).max())
-            if not length <= _FARTHEST:
+            if not length <= FARTHEST:
                 return None
             q, before = q + step, error
-            if len(self.chain) < len(self.task) and length <= _EXACT * (1.0 + float(np.abs(q).max())) * 10.0:
+            if len(self.chain) < len(self.task) and length <= EXACT * (1.0 + float(np.abs(q).max())) * 10.0:
                 return self.knot(s, at, q) if self.within(at, q) else None
         return None
 
@@ -194,7 +189,7 @@ def _applied(left: Array, sigmas: Array, right: Array, bs: Array) -> Array:
 
 
 def _gains(sigmas: Array) -> Array:
-    counts = sigmas > _RANK * sigmas[:, :1]
+    counts = sigmas > RANK * sigmas[:, :1]
     return np.where(counts, 1.0 / np.where(counts, sigmas, 1.0), 0.0)
 
 
