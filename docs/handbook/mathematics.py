@@ -30,9 +30,9 @@ _FUNCTION = re.compile(
 )
 """A function stands apart from a factor before it, and from an argument without parentheses."""
 
-_MATRIX = re.compile(r"\\begin\{([bp]matrix)\}.*?\\end\{\1\}", re.DOTALL)
+_MATRIX = re.compile(r"\\begin\{([bp]matrix|array)\}.*?\\end\{\1\}", re.DOTALL)
 _COLUMN = re.compile(r"&\s*(-?)")
-"""Columns of a matrix would stand too near to each other."""
+"""Columns of a matrix or table would stand too near to each other."""
 
 _logger = logging.getLogger(__name__)
 

@@ -6,6 +6,8 @@ from xml.etree import ElementTree
 
 import pytest
 
+from gelenk.course.steps import table
+
 with warnings.catch_warnings():
     # ziafont opens its fonts by a function that Python 3.11 and 3.12 call deprecated, and 3.13 no longer.
     warnings.simplefilter("ignore", DeprecationWarning)
@@ -55,3 +57,9 @@ def test_a_function_stands_apart() -> None:
 def test_what_cannot_be_read_is_refused() -> None:
     with pytest.raises(ValueError, match="cannot be set"):
         drawn(r"\begin{pmatrix} 1", True, set())
+
+
+def test_a_row_that_ends_with_an_empty_cell_is_drawn() -> None:
+    known: set[str] = set()
+    drawn(table(["k", "e"], [["1", "2"], ["3", ""]], "rr"), True, known)
+    assert len(known) == len("ke123")

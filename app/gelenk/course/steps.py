@@ -66,4 +66,5 @@ def table(head: Iterable[str], rows: Iterable[Iterable[str]], columns: str) -> s
 
 
 def _lines(rows: Iterable[Iterable[str]]) -> str:
-    return r" \\ ".join(map(" & ".join, rows))
+    """Return rows of cells; an empty one is `{}`, because some renderers drop a row that ends with nothing."""
+    return r" \\ ".join(" & ".join(cell or "{}" for cell in row) for row in rows)
