@@ -1,6 +1,7 @@
 """Parts of the printed pages: escaped texts, formulas as MathML, pictures, boxes for answers."""
 
 import base64
+import re
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from html import escape
@@ -17,6 +18,9 @@ from gelenk.language import translated as _
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 _MOST_ROWS = 8
+_SIGN = re.compile(r"\\[A-Za-z]+|\\.|.", re.DOTALL)
+_OPENING, _CLOSING = {"{", r"\begin", r"\left"}, {"}", r"\end", r"\right"}
+_INDEXED = re.compile(r"(?<![\w&#])([^\W\d_])(?=[\^_])(?:\^([^\W_]+))?(?:_([^\W_]+|\([^)]+\)))?(?!\w)")
 _STYLE = """
 @page { size: A4; margin: 18mm 18mm 20mm; }
 * { box-sizing: border-box; }
@@ -31,6 +35,7 @@ h2 { font-size: 12pt; margin: 7mm 0 2mm; break-after: avoid; display: flex; just
 h2 .points { font-weight: normal; font-size: 10pt; color: #6b7580; white-space: nowrap; }
 h3 { font-size: 10.5pt; margin: 4mm 0 1mm; break-after: avoid; }
 p { margin: 0 0 2.5mm; white-space: pre-line; overflow-wrap: anywhere; }
+sub, sup { font-size: 75%; line-height: 0; }
 img { display: block; max-width: 110mm; max-height: 75mm; margin: 3mm auto; break-inside: avoid; }
 table.answers { border-collapse: collapse; margin: 2mm 0 0; break-inside: avoid; }
 table.answers > tbody > tr { break-inside: avoid; }
@@ -47,7 +52,8 @@ table.answers td { vertical-align: middle; padding: 1.2mm 0; }
 .task { break-inside: avoid; }
 .right { font-weight: bold; white-space: pre-line; }
 .formula { margin: 1.2mm 0 1.2mm 6mm; text-align: left; break-inside: avoid; max-width: 100%; }
-math { font-family: "STIX Two Math", "Latin Modern Math", math, "DejaVu Serif", serif; font-size: 10.5pt; }
+math { font-family: "STIX Two Math", "Latin Modern Math", "DejaVu Math TeX Gyre", math, "DejaVu Serif", serif;
+  font-size: 10.5pt; }
 math[display="block"] { display: inline math; math-style: normal; }
 @media screen { body { padding: 8mm 4mm; } .sheet { margin-bottom: 25mm; } }
 """
@@ -66,14 +72,41 @@ def page(title: str, sections: Iterable[str]) -> str:
 
 def paragraphs(text: str) -> str:
     """Return a text, whose paragraphs are separated by empty lines, as HTML."""
-    return "".join(f"<p>{escape(part.strip())}</p>" for part in text.split("\n\n") if part.strip())
+    return "".join(f"<p>{marked_up(part.strip())}</p>" for part in text.split("\n\n") if part.strip())
+
+
+def marked_up(text: str) -> str:
+    """Return a text as HTML, with the indices of single letters as such: of R^3_6, k_t, p_wx."""
+    return _INDEXED.sub(_with_indices, escape(text))
+
+
+def _with_indices(found: re.Match[str]) -> str:
+    letter, above, below = found.groups(default="")
+    return letter + (above and f"<sup>{above}</sup>") + (below and f"<sub>{below.strip('()')}</sub>")
 
 
 @lru_cache(maxsize=4096)  # formulas without numbers come again in every sheet
 def formula(latex: str) -> str:
-    """Return a formula as MathML."""
+    """Return a formula as MathML, in parts between which a line may break."""
     upright = latex.replace(r"^{\circ}", "°").replace(r"^\circ", "°")  # browsers draw it as small as a raised star
-    return f'<div class="formula">{convert(upright, display="block")}</div>'
+    parts = "<wbr>".join(convert(part, display="block") for part in _parts(upright))
+    return f'<div class="formula">{parts}</div>'
+
+
+def _parts(latex: str) -> list[str]:
+    """Cut a formula behind wide spaces and items of a vector, and before all but the first of its equality signs."""
+    parts, depth, equals = [""], 0, 0
+    for sign in _SIGN.findall(latex):
+        depth += (sign in _OPENING) - (sign in _CLOSING)
+        is_equality = depth == 0 and sign == "="
+        equals += is_equality
+        if is_equality and equals > 1:
+            parts.append("{}")  # else the sign would stand close to what follows it
+        parts[-1] += sign
+        if depth == 0 and sign in {r"\quad", r"\;"}:
+            parts.append("")
+        equals *= sign != r"\quad"
+    return [part for part in parts if part.strip()]
 
 
 def picture(variant: Variant[Any]) -> str:
@@ -94,7 +127,7 @@ def worked(steps: Sequence[Step]) -> str:
 def boxes(one: AnswerField) -> str:
     """Return the place for an answer."""
     if choices := one.choices():
-        return "".join(f'<span class="choice">{escape(text)}</span>' for text in choices.values())
+        return "".join(f'<span class="choice">{marked_up(text)}</span>' for text in choices.values())
     shape = one.shape()
     if one.kind == "set":
         rows, columns = _MOST_ROWS, shape[0] if shape else 1

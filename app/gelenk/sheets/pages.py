@@ -6,7 +6,7 @@ from typing import Any
 
 from gelenk.exercises.exercise import Variant
 from gelenk.language import translated as _
-from gelenk.sheets.document import boxes, page, paragraphs, picture, shown, worked
+from gelenk.sheets.document import boxes, marked_up, page, paragraphs, picture, shown, worked
 from gelenk.sheets.homework import Homework, Sheet
 
 
@@ -40,7 +40,7 @@ def _heading(number: int, variant: Variant[Any]) -> str:
 
 def _task(variant: Variant[Any]) -> str:
     rows = (
-        f"<tr><th>{escape(one.label)}</th><td>{boxes(one)}</td><td>{_unit(one.unit)}</td></tr>"
+        f"<tr><th>{marked_up(one.label)}</th><td>{boxes(one)}</td><td>{_unit(one.unit)}</td></tr>"
         for one in variant.fields
     )
     return f'{picture(variant)}<table class="answers"><tbody>{"".join(rows)}</tbody></table>'
@@ -48,7 +48,7 @@ def _task(variant: Variant[Any]) -> str:
 
 def _solution(variant: Variant[Any]) -> str:
     rows = (
-        f'<tr><th>{escape(one.label)}</th><td class="right">{escape(shown(one, variant.answers[one.name]))}</td>'
+        f'<tr><th>{marked_up(one.label)}</th><td class="right">{escape(shown(one, variant.answers[one.name]))}</td>'
         f"<td>{_unit(one.unit)}</td></tr>"
         for one in variant.fields
     )
