@@ -3,7 +3,7 @@
 - `catalogue`: all of them. `lectures`: the exercises of each lecture. `exercise`: what one is, and its variants.
 - `draw`: random numbers that stay the same. `fields`: when two answers are the same; `answer_field`: their base;
   `table_field`: a DH table.
-- `arms`: the arms that exercises are about.
+- `arms`: the arms that exercises are about; `sketches`: their pictures.
 - `grading`: points, and the names of mistakes. `mistakes`: what these mean.
 
 To add an exercise, declare an `Exercise` in `lectures/<lecture>.py`, or in a folder of that name. Its functions take

@@ -2,12 +2,13 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 from gelenk.course.steps import Step
 from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.draw import Draw
+from gelenk.language import Language, current_language
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -40,6 +41,7 @@ class Exercise(Generic[N]):
         wrong: Wrong models by the code of the mistake: each returns its answer to those fields that it affects, or the
             numbers that are solved in place of the right ones.
         picture: Draws the task, if it has a picture.
+        sketch: Draws what is the same for all variants in a language; it is drawn once.
     """
 
     id: str
@@ -54,6 +56,12 @@ class Exercise(Generic[N]):
     steps: Callable[[N], Sequence[Step]]
     wrong: Mapping[str, Callable[[N], Answers | N]] = field(default_factory=dict)
     picture: "Callable[[N], Figure] | None" = None
+    sketch: "Callable[[], Figure] | None" = None
+
+    @property
+    def is_drawn(self) -> bool:
+        """Whether it has a picture."""
+        return self.picture is not None or self.sketch is not None
 
     @property
     def lecture(self) -> str:
@@ -92,11 +100,9 @@ class Variant(Generic[N]):
     @cached_property
     def svg(self) -> bytes | None:
         """The picture of the task, if it has one."""
-        if self.exercise.picture is None:
-            return None
-        from gelenk.plots.figure import as_bytes  # noqa: PLC0415
-
-        return as_bytes(self.exercise.picture(self.numbers), "svg")
+        if self.exercise.sketch is not None:
+            return _sketched(self.exercise.sketch, current_language())
+        return None if self.exercise.picture is None else _as_svg(self.exercise.picture(self.numbers))
 
     @cached_property
     def wrong(self) -> dict[str, Answers]:
@@ -138,6 +144,17 @@ class Variant(Generic[N]):
         """Return the wrong answers to a field that can be told from the right one and from all others, by code."""
         wrong = self.wrong_answers(one)
         return {code: answer for code, answer in wrong.items() if self._is_clear(one, code, wrong)}
+
+
+@lru_cache(maxsize=64)
+def _sketched(sketch: "Callable[[], Figure]", _language: Language) -> bytes:
+    return _as_svg(sketch())
+
+
+def _as_svg(figure: "Figure") -> bytes:
+    from gelenk.plots.figure import as_bytes  # noqa: PLC0415
+
+    return as_bytes(figure, "svg")
 
 
 def _distance(one: AnswerField, answer: Any, other: Any) -> float:

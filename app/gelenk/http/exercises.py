@@ -81,7 +81,7 @@ class ExerciseTask:
     @property
     def is_heavy(self) -> bool:
         """Whether this draws a picture."""
-        return self.what == "draw_exercise" and exercise(self.exercise).picture is not None
+        return self.what == "draw_exercise" and exercise(self.exercise).is_drawn
 
     def response(self, body: bytes) -> Response:
         """Return the response to a body; raises as `read_json`, UnknownExercise, and InvalidField."""

@@ -51,17 +51,28 @@ _RADIUS, _LENGTH = 0.13, 0.36
 
 
 def dh_picture(table: DhTable, q: Sequence[float], kind: style.PictureFormat) -> bytes:
-    """Draw the frames of a table at a configuration, [rad or m]."""
-    scene = dh_scene(table, q)
-    height = _HEAD + _HEIGHT + _table_height(table)
-    figure = style.new_figure(_WIDTH, height)
-    axes = figure.add_axes((0.02, _table_height(table) / height, 0.96, _HEIGHT / height))
-    axes.set_axis_off()
-    views = [_View(scene, *angles) for angles in (_VIEWS if len(table.joints) <= 8 else _VIEWS[:2])]
-    _draw(axes, scene, min(views, key=lambda view: view.cost))
+    """Draw the frames of a table at a configuration, [rad or m], and the table below them."""
+    figure = style.new_figure(_WIDTH, _HEAD + _HEIGHT + _table_height(table))
+    _draw_frames(figure, _table_height(table), table, q)
     _write_head(figure, table, q)
     _write_table(figure, table)
     return style.as_bytes(figure, kind)
+
+
+def frames_figure(table: DhTable, q: Sequence[float]) -> Figure:
+    """Draw the frames of a table at a configuration, [rad or m], alone."""
+    figure = style.new_figure(_WIDTH, _HEIGHT)
+    _draw_frames(figure, 0.0, table, q)
+    return figure
+
+
+def _draw_frames(figure: Figure, below: float, table: DhTable, q: Sequence[float]) -> None:
+    """Draw the frames, with room below them, [inch]."""
+    scene, height = dh_scene(table, q), figure.get_figheight()
+    axes = figure.add_axes((0.02, below / height, 0.96, _HEIGHT / height))
+    axes.set_axis_off()
+    views = [_View(scene, *angles) for angles in (_VIEWS if len(table.joints) <= 8 else _VIEWS[:2])]
+    _draw(axes, scene, min(views, key=lambda view: view.cost))
 
 
 class _View:

@@ -1,7 +1,9 @@
 """Bounds of a homework, which its requests state."""
 
-MAX_VARIANTS = 1000
-"""Most participants times exercises: what a worker writes within a minute, pictures included."""
+MAX_VARIANTS = 300
+"""Most participants times exercises: what a worker writes within a minute, if each has a picture of its own."""
+MAX_GRADED = 1000
+"""Most participants times exercises of a table of answers."""
 MAX_LABEL = 80
 """Longest name of a participant."""
 MAX_ROWS = 20_000

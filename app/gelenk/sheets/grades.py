@@ -9,7 +9,7 @@ from gelenk.errors import InvalidField, TooLarge, UnknownExercise, listed, quote
 from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.catalogue import exercise
 from gelenk.exercises.grading import graded
-from gelenk.sheets.bounds import MAX_LABEL, MAX_ROWS, MAX_VARIANTS
+from gelenk.sheets.bounds import MAX_GRADED, MAX_LABEL, MAX_ROWS
 from gelenk.sheets.homework import unprotected, variant_of
 from gelenk.sheets.table import written
 
@@ -35,8 +35,8 @@ def grades_table(answers: str, secret: str) -> str:
         if field in fields:
             raise InvalidField(f"row {number}", f"{quoted(field)} has an answer in row {fields[field][0]} already")
         fields[field] = (number, answer)
-        if len(given) > MAX_VARIANTS:
-            raise TooLarge("exercises to grade", len(given), MAX_VARIANTS)
+        if len(given) > MAX_GRADED:
+            raise TooLarge("exercises to grade", len(given), MAX_GRADED)
     return written(GRADED, (row for who, fields in given.items() for row in _graded(*who, fields, secret)), delimiter)
 
 

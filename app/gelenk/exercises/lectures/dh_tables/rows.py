@@ -8,6 +8,7 @@ import numpy as np
 from gelenk.course.steps import Step, step, tex
 from gelenk.course.writing import matrix as written
 from gelenk.course.writing import rounded
+from gelenk.exercises import sketches
 from gelenk.exercises.arms import misread
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Exercise
@@ -79,6 +80,7 @@ MATRIX = Exercise(
         "inverse_transform": lambda row: {"matrix": np.linalg.inv(row.matrix())},
         "distance_forgotten": lambda row: row._replace(a=0.0, d=0.0),
     },
+    sketch=sketches.one_row,
 )
 
 
@@ -160,6 +162,7 @@ ENTRIES = Exercise(
         "a_and_d_exchanged": lambda one: {"a": one.d, "d": math.hypot(one.x, one.y)},
         "angles_exchanged": lambda one: {"alpha": one.theta, "theta": one.alpha},
     },
+    sketch=sketches.one_row,
 )
 
 
@@ -240,4 +243,5 @@ FORWARD = Exercise(
         "first_joint_still": lambda arm: {"position": arm._replace(q1=0.0).position()},
         "distance_forgotten": lambda arm: {"position": arm._replace(height=0.0).position()},
     },
+    sketch=sketches.anthropomorphic,
 )

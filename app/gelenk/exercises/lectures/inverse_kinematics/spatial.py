@@ -5,6 +5,7 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
+from gelenk.exercises import sketches
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import angles, quantity, solution_set
@@ -89,6 +90,7 @@ SCARA = Exercise(
         "other_elbow": lambda one: {"angles": swapped_elbows(one.angles())},
         "inner_for_outer": lambda one: {"angles": inner_elbows(one.angles())},
     },
+    sketch=sketches.scara,
 )
 
 
@@ -173,4 +175,5 @@ ANTHROPOMORPHIC = Exercise(
         "other_elbow": lambda arm: {"solutions": [q * [1.0, 1.0, -1.0] for q in arm.answers()]},
         "inner_for_outer": lambda arm: {"solutions": inner_elbows(arm.answers(), 2)},
     },
+    sketch=sketches.anthropomorphic,
 )

@@ -9,6 +9,7 @@ import numpy as np
 from gelenk.course.inverse.wrist import wrist_formulas, wrist_numbers, wrist_text, zyz_angles
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import matrix
+from gelenk.exercises import sketches
 from gelenk.exercises.draw import Draw
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import angles, solution_set
@@ -106,6 +107,7 @@ WRIST_ANGLES = Exercise(
         "quadrant": lambda one: {"wrist": without_quadrant(one.relative)},
         "flip_incomplete": lambda one: {"wrist": flipped_without_last(one.relative)},
     },
+    sketch=sketches.six_joints,
 )
 
 
@@ -219,4 +221,5 @@ DECOUPLING = Exercise(
         "quadrant": lambda one: {"wrist": without_quadrant(one.relative(_best(one)))},
         "flip_incomplete": lambda one: {"wrist": flipped_without_last(one.relative(_best(one)))},
     },
+    sketch=sketches.six_joints,
 )

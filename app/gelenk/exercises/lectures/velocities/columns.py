@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -11,6 +12,7 @@ from gelenk.course.velocity.geometry import ChainGeometry
 from gelenk.course.velocity.jacobian_steps import JacobianQuestion, jacobian_steps
 from gelenk.course.velocity.tip_motion_steps import tip_motion_steps
 from gelenk.course.velocity.writing import number, row
+from gelenk.exercises import sketches
 from gelenk.exercises.arms import anthropomorphic, at, lever_from_base, misread, radians, scara
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
@@ -109,6 +111,7 @@ SCARA = Exercise(
         "axis_not_turned": lambda one: _scara_answers(one, _scara_up(one)),
         "calculator_mode": lambda one: misread(one, "q1", "q2", "q4"),
     },
+    sketch=sketches.scara,
 )
 
 
@@ -171,6 +174,7 @@ ANTHROPOMORPHIC = Exercise(
         },
         "elbow_factor_only": lambda one: {"determinant": -one.a2 * one.a3 * one.factors[0]},
     },
+    sketch=partial(sketches.anthropomorphic, 0.0),
 )
 
 
@@ -266,4 +270,5 @@ SINGULARITIES = Exercise(
         },
         "axis_for_direction": lambda _one: {"lost": [[0.0], [0.0], [1.0]]},
     },
+    sketch=partial(sketches.anthropomorphic, 0.0),
 )
