@@ -218,23 +218,18 @@ _RATES = (
 class Motion(ChainOptions, MotionOptions, WithSteps):
     """A motion through segments, one after the other."""
 
-    start: Configuration | None = Field(
-        default=None,
-        description="Configuration in which the motion begins, one number per joint of the chain or by joint name, "
-        "[rad or m]; required without `at`.",
+    start: Configuration | None = optional(
+        "Configuration in which the motion begins, one number per joint of the chain or by joint name, [rad or m]; "
+        "required without `at`."
     )
     start_velocities: Configuration | None = Field(
         default=None, description=f"At the start of the first segment, [rad/s or m/s], {_RATES}"
     )
-    start_accelerations: Configuration | None = Field(
-        default=None, description="Likewise, [rad/s² or m/s²]; not with `cubic`, unless the boundary is `assigned`."
+    start_accelerations: Configuration | None = optional(
+        "Likewise, [rad/s² or m/s²]; not with `cubic`, unless the boundary is `assigned`."
     )
-    end_velocities: Configuration | None = Field(
-        default=None, description="At the end of the last segment, [rad/s or m/s], likewise."
-    )
-    end_accelerations: Configuration | None = Field(
-        default=None, description="At the end of the last segment, [rad/s² or m/s²], likewise."
-    )
+    end_velocities: Configuration | None = optional("At the end of the last segment, [rad/s or m/s], likewise.")
+    end_accelerations: Configuration | None = optional("At the end of the last segment, [rad/s² or m/s²], likewise.")
     segments: Annotated[
         Sequence[Segment], OnTheWire(Annotated[list[Segment], Field(min_length=1, max_length=MAX_SEGMENTS)])
     ] = Field(
@@ -308,8 +303,7 @@ class RunningMotion(Payload):
 class TrajectoryRequest(Motion):
     """A motion through segments, one after the other, from rest, from given rates, or out of another motion."""
 
-    at: RunningMotion | None = Field(
-        default=None,
-        description="Instead of `start`, a running motion and a time: the new one begins in its state there, with its "
-        "velocities and, if the first segment's law takes them, accelerations.",
+    at: RunningMotion | None = optional(
+        "Instead of `start`, a running motion and a time: the new one begins in its state there, with its velocities "
+        "and, if the first segment's law takes them, accelerations."
     )
