@@ -93,9 +93,9 @@ class Payload(Shown):
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
 
 
-def optional(description: str) -> Any:
-    """Return a field that is None unless given."""
-    return Field(default=None, description=description)
+def optional(description: str, **constraints: Any) -> Any:
+    """Return a field that is None unless given; the constraints are those of pydantic's `Field`."""
+    return Field(default=None, description=description, **constraints)
 
 
 class Answer(Shown):

@@ -4,7 +4,7 @@ from typing import Any, Literal, TypeAlias
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, ChainOptions, RobotName
+from gelenk.contract.common import Answer, ChainOptions, RobotName, optional
 from gelenk.contract.dh import DhTablePayload
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.pose import Pose, PoseFormat
@@ -21,13 +21,12 @@ class CompareRequest(ChainOptions):
         "held; one that it leaves out is found, unless `find` says otherwise."
     )
     robot: RobotName
-    find: list[Findable] | None = Field(
-        default=None,
+    find: list[Findable] | None = optional(
+        "Unknowns to find so that the two agree; everything else is held, `base` and `tool` as in `dh` (the identity "
+        "where left out), `offsets` at 0, `signs` at 1. If left out, `base` and `tool` are found where `dh` leaves "
+        "them out. A `base` or `tool` named here is found even where `dh` gives one. With `[]` nothing is found. "
+        "Offsets and signs can be found for tables with at most 16 rows.",
         max_length=4,
-        description="Unknowns to find so that the two agree; everything else is held, `base` and `tool` as in `dh` "
-        "(the identity where left out), `offsets` at 0, `signs` at 1. If left out, `base` and `tool` are found where "
-        "`dh` leaves them out. A `base` or `tool` named here is found even where `dh` gives one. With `[]` nothing is "
-        "found. Offsets and signs can be found for tables with at most 16 rows.",
     )
     position_tolerance: float = Field(
         default=POSITION_TOLERANCE, gt=0.0, le=1.0, description="Distance within which positions count as equal, [m]."

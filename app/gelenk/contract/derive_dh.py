@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer
+from gelenk.contract.common import Answer, optional
 from gelenk.contract.dh import DhTablePayload, InOrder
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.kinematics import Configuration
@@ -49,10 +49,9 @@ class DeriveRequest(InLanguage, InOrder):
         description="Index of the first row, for part of an arm: with 4 the rows of a spherical wrist have A^3_4, "
         "A^4_5, A^5_6, and the variables are q_4, q_5, q_6. It must be 1 with `dynamics`.",
     )
-    dynamics: DynamicsPayload | None = Field(
-        default=None,
-        description="For a planar arm of up to three joints: its equations of motion by the Lagrangian too. `{}` "
-        "gives them in symbols throughout.",
+    dynamics: DynamicsPayload | None = optional(
+        "For a planar arm of up to three joints: its equations of motion by the Lagrangian too. `{}` gives them in "
+        "symbols throughout.",
         examples=[EXAMPLE_MOTION["dynamics"]],
     )
 

@@ -43,8 +43,8 @@ class DhJointRow(Payload):
     theta: float = Field(description="Angle about the joint axis, [rad].")
     lower: float | None = optional("Lower limit of the position, [rad or m]; -π or -1 m if left out.")
     upper: float | None = optional("Upper limit of the position, [rad or m]; π or 1 m if left out.")
-    velocity: float | None = Field(default=None, ge=0, description="Velocity limit, [rad/s or m/s].")
-    effort: float | None = Field(default=None, ge=0, description="Effort limit, [N m or N].")
+    velocity: float | None = optional("Velocity limit, [rad/s or m/s].", ge=0)
+    effort: float | None = optional("Effort limit, [N m or N].", ge=0)
     mimic: MimicPayload | None = optional(
         "The joint that this one follows; if left out, its position is a variable of the table."
     )

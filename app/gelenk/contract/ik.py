@@ -60,29 +60,26 @@ class InverseOptions(ChainOptions, WithSteps):
         le=1.0,
         description="Allowed angle between a solution and the target's orientation, [rad].",
     )
-    task: Directions | None = Field(
-        default=None,
-        description="The directions that count; all six if left out. `x y z` along the base's axes, `rx ry rz` about "
-        "the target's: with two rotations the tip's axis of the third points as the target's does, so that "
-        "`x y z rx ry` is a position and an approach axis.",
+    task: Directions | None = optional(
+        "The directions that count; all six if left out. `x y z` along the base's axes, `rx ry rz` about the "
+        "target's: with two rotations the tip's axis of the third points as the target's does, so that `x y z rx ry` "
+        "is a position and an approach axis.",
         examples=[["x", "y", "z", "rx", "ry"]],
     )
     respect_limits: bool = Field(default=True, description="Whether solutions must be within the joint limits.")
-    max_iterations: int | None = Field(
-        default=None,
+    max_iterations: int | None = optional(
+        "Budget for each target: with `auto` a start for every 20 (20000 if left out), not used with `solutions: "
+        "all`; else the steps of the one start (if left out 100 with `newton`, 500 with `damped_least_squares`, 5000 "
+        "with the two others).",
         ge=1,
         le=1_000_000,
-        description="Budget for each target: with `auto` a start for every 20 (20000 if left out), not used with "
-        "`solutions: all`; else the steps of the one start (if left out 100 with `newton`, 500 with "
-        "`damped_least_squares`, 5000 with the two others).",
     )
-    time_limit: float | None = Field(
-        default=None,
+    time_limit: float | None = optional(
+        "Time limit of the whole call, [s]; each result that it cuts short has the `stop_reason` `time_limit`. If "
+        "left out, each target is searched to the end, so that the answer does not depend on the machine's load; a "
+        "call that exceeds the service's time limit returns 504 and can be sent as a job.",
         gt=0,
         le=60,
-        description="Time limit of the whole call, [s]; each result that it cuts short has the `stop_reason` "
-        "`time_limit`. If left out, each target is searched to the end, so that the answer does not depend on the "
-        "machine's load; a call that exceeds the service's time limit returns 504 and can be sent as a job.",
     )
     random_seed: int = Field(default=0, ge=0, lt=2**53, description="Random seed of the starts.")
     max_solutions: int = Field(
@@ -97,14 +94,9 @@ class InverseOptions(ChainOptions, WithSteps):
         "ranges, to keep away from the limits, or to be manipulable (√det JJᵀ). The nearest minimum along the "
         "self-motion from the solution that was found; without freedom it stays as it is."
     )
-    step_size: float | None = Field(
-        default=None, gt=0, le=1e6, description="α of the gradient; if left out, a line search finds it."
-    )
-    damping: float | None = Field(
-        default=None,
-        ge=0,
-        le=1e6,
-        description="λ of `damped_least_squares` in Jᵀ(JJᵀ + λI)⁻¹e; if left out it follows the error.",
+    step_size: float | None = optional("α of the gradient; if left out, a line search finds it.", gt=0, le=1e6)
+    damping: float | None = optional(
+        "λ of `damped_least_squares` in Jᵀ(JJᵀ + λI)⁻¹e; if left out it follows the error.", ge=0, le=1e6
     )
     switch_error: float = Field(
         default=1e-2, gt=0, le=1e6, description="‖e‖ at which `gradient_then_newton` changes over, [m and rad]."
@@ -114,12 +106,11 @@ class InverseOptions(ChainOptions, WithSteps):
         "from shoulder to wrist, from the plane of that line and the first axis, [rad]; if left out that of the seed, "
         "or another where it does not fit into the limits."
     )
-    fixed_joints: dict[str, float] | None = Field(
-        default=None,
+    fixed_joints: dict[str, float] | None = optional(
+        "Joints of the chain to hold, and their positions, [rad or m]: the answer is about the remaining joints, with "
+        "`solutions: all` every branch of these. Seeds and postures still list all joints of the chain; values given "
+        "for held joints are ignored. Not with `elbow_angle`.",
         min_length=1,
-        description="Joints of the chain to hold, and their positions, [rad or m]: the answer is about the remaining "
-        "joints, with `solutions: all` every branch of these. Seeds and postures still list all joints of the chain; "
-        "values given for held joints are ignored. Not with `elbow_angle`.",
         examples=[{"panda_joint7": 0.6}],
     )
     trace: bool = Field(

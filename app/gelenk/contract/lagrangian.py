@@ -37,17 +37,14 @@ CenterOfMass = Annotated[
 class LinkPayload(Payload):
     """The mass of a link; what is left out stays a symbol."""
 
-    mass: float | None = Field(default=None, ge=0, le=MAX_MASS, description="m_i, [kg].")
+    mass: float | None = optional("m_i, [kg].", ge=0, le=MAX_MASS)
     center_of_mass: CenterOfMass | None = optional(
         "[x, y, z] in frame i, [m]; or one number along the link, l_ci, [m]: behind a revolute joint from its axis "
         "along x_i (along the next joint's axis where the link has no length along x and that joint slides), behind a "
         "prismatic joint from the origin of frame i along its axis."
     )
-    inertia: float | None = Field(
-        default=None,
-        ge=0,
-        le=MAX_INERTIA,
-        description="I_i, about the centre of mass, the axis normal to the plane, [kg m²].",
+    inertia: float | None = optional(
+        "I_i, about the centre of mass, the axis normal to the plane, [kg m²].", ge=0, le=MAX_INERTIA
     )
 
     def body(self) -> LinkBody:

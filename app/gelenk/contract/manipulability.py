@@ -72,12 +72,11 @@ class RateAndEffortLimits(Payload):
 class ManipulabilityRequest(BatchRequest, ManipulabilityOptions):
     """Manipulability at a batch of configurations."""
 
-    directions: list[Vector] | None = Field(
-        default=None,
+    directions: list[Vector] | None = optional(
+        "Vectors in the axes of `reference` along which to compute transmission ratios; only the direction counts, "
+        "their length has no unit.",
         min_length=1,
         max_length=MAX_DIRECTIONS,
-        description="Vectors in the axes of `reference` along which to compute transmission ratios; only the direction "
-        "counts, their length has no unit.",
         examples=[[[1.0, 0.0, 0.0]]],
     )
     limits: RateAndEffortLimits | None = optional("For `polytopes`: limits other than the robot's own.")

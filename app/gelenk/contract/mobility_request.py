@@ -67,9 +67,7 @@ class PairPayload(Payload):
         "all others lie in x y."
     )
     second_axis: Vector3 | None = optional("The other axis of a universal joint, no unit.")
-    pitch: float | None = Field(
-        default=None, ge=-MAX_MAGNITUDE, le=MAX_MAGNITUDE, description="Of a screw: advance a radian, [m/rad]."
-    )
+    pitch: float | None = optional("Of a screw: advance a radian, [m/rad].", ge=-MAX_MAGNITUDE, le=MAX_MAGNITUDE)
 
     def given(self, number: int) -> GivenPair:
         """Return the core's pair, the `number`-th from 0; raises InvalidField if an axis has no direction."""

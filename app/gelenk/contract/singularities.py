@@ -25,10 +25,9 @@ MAX_NEAREST = 100
 class SingularityOptions(ChainOptions, WithSteps):
     """Options of a singularity report."""
 
-    task: Directions | None = Field(
-        default=None,
-        description="The directions that count, rows of the Jacobian in `reference`; all six if left out. A planar arm "
-        "loses nothing in all six: its singularities are those of `x y`.",
+    task: Directions | None = optional(
+        "The directions that count, rows of the Jacobian in `reference`; all six if left out. A planar arm loses "
+        "nothing in all six: its singularities are those of `x y`.",
         examples=[["x", "y", "z"]],
     )
     reference: Reference = Field(

@@ -89,10 +89,9 @@ class WrenchRequest(WrenchOptions):
 class StaticsOptions(WrenchOptions, WithSteps):
     """Axes, task, gravity and subspaces of a call of statics."""
 
-    task: Directions | None = Field(
-        default=None,
-        description="The components of twists and wrenches that count, along the axes that they are expressed in; all "
-        "six if left out. A wrench then has one number for each, and none in the others.",
+    task: Directions | None = optional(
+        "The components of twists and wrenches that count, along the axes that they are expressed in; all six if left "
+        "out. A wrench then has one number for each, and none in the others.",
         examples=[["x", "y"]],
     )
     gravity: Gravity = Field(
@@ -115,10 +114,9 @@ class StaticsOptions(WrenchOptions, WithSteps):
 class StaticsRequest(BatchRequest, StaticsOptions, WrenchRequest):
     """Statics of a batch of configurations."""
 
-    wrenches: Wrenches | None = Field(
-        default=None,
-        description="γ, exerted by the tip on its surroundings, force before moment, [N] and [N m]: a list of one for "
-        "all configurations or of one each.",
+    wrenches: Wrenches | None = optional(
+        "γ, exerted by the tip on its surroundings, force before moment, [N] and [N m]: a list of one for all "
+        "configurations or of one each.",
         examples=[[[10.0, 0.0, -5.0, 0.0, 0.0, 0.0]]],
     )
     torques: Configurations | None = optional(

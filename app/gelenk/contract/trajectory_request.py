@@ -129,12 +129,11 @@ class LineSegment(SegmentOptions):
 
     type: Literal["line"] = Field(description="Straight on.")
     target: Pose = Field(description="Pose of `tip_frame` in `base_frame` at its end.")
-    blend_radius: float | None = Field(
-        default=None,
+    blend_radius: float | None = optional(
+        "Distance from the target at which the motion leaves this line for the next one, along a parabola, without a "
+        "stop, [m]. The next segment must be a line.",
         ge=0,
         le=1e6,
-        description="Distance from the target at which the motion leaves this line for the next one, along a parabola, "
-        "without a stop, [m]. The next segment must be a line.",
     )
     blend_acceleration: _Bound | None = optional(
         "Instead of `blend_radius`, a_max of the course's fly-over, [m/s²]: the tip's acceleration in the blend is no "
@@ -176,10 +175,9 @@ class SplineSegment(SegmentOptions):
         description="Waypoints after the start, the last one the end: all of them configurations, one number per joint "
         "or by joint name, [rad or m], or all of them poses of `tip_frame` in `base_frame`.",
     )
-    times: list[Duration] | None = Field(
-        default=None,
+    times: list[Duration] | None = optional(
+        "Time of each, after the segment's start, increasing, [s]; if left out, found from the limits.",
         max_length=MAX_WAYPOINTS,
-        description="Time of each, after the segment's start, increasing, [s]; if left out, found from the limits.",
     )
     boundary: Boundary = Field(
         default="clamped",
@@ -262,10 +260,9 @@ class Motion(ChainOptions, MotionOptions, WithSteps):
         "`audit` gives the difference of the peaks from those of the exact path.",
     )
     orientation_tolerance: float = Field(default=1e-3, ge=1e-6, le=1.0, description="Allowed angle from it, [rad].")
-    task: Directions | None = Field(
-        default=None,
-        description="The directions in which the path counts, as in `ik`; all six if left out. `x y z` along the "
-        "base's axes, `rx ry rz` about the path's: `x y z rx ry` is a position and an approach axis.",
+    task: Directions | None = optional(
+        "The directions in which the path counts, as in `ik`; all six if left out. `x y z` along the base's axes, `rx "
+        "ry rz` about the path's: `x y z rx ry` is a position and an approach axis.",
         examples=[["x", "y", "z", "rx", "ry"]],
     )
     near_singularity: NearSingularity = Field(

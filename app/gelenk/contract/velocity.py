@@ -89,10 +89,9 @@ class VelocityOptions(ChainOptions, WithSteps):
         "`world`: along the base's axes, the linear part that of the point of the tip's body that passes the base's "
         "origin (the spatial twist).",
     )
-    task: Directions | None = Field(
-        default=None,
-        description="The directions that count, rows of the Jacobian in `reference`, in the order as given; all six if "
-        "left out. An arm with fewer joints than directions leaves a residual.",
+    task: Directions | None = optional(
+        "The directions that count, rows of the Jacobian in `reference`, in the order as given; all six if left out. "
+        "An arm with fewer joints than directions leaves a residual.",
         examples=[["x", "y"]],
     )
     inverse: InverseName = Field(
@@ -105,12 +104,11 @@ class VelocityOptions(ChainOptions, WithSteps):
         "`adaptive`, the default: max(0, σ₀² - σ_min²), σ₀ being `damping_threshold`, and of `twists` so much more "
         "that no joint exceeds its velocity limit."
     )
-    damping_threshold: float | None = Field(
-        default=None,
+    damping_threshold: float | None = optional(
+        "σ₀ of the adaptive damping, [m or rad] per [rad or m]: where the smallest singular value is less, damping "
+        "sets in, and no gain exceeds 1/σ₀; 0.05 if left out.",
         gt=0,
         le=1e3,
-        description="σ₀ of the adaptive damping, [m or rad] per [rad or m]: where the smallest singular value is less, "
-        "damping sets in, and no gain exceeds 1/σ₀; 0.05 if left out.",
     )
     rank_tolerance: RankTolerance = 1e-10
     characteristic_length: Positive | None = optional(

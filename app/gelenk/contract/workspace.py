@@ -41,18 +41,16 @@ class WorkspaceRequest(ChainOptions):
         ".random((samples, n))`. `low_discrepancy`: a scrambled Halton sequence, which leaves smaller gaps.",
     )
     random_seed: int = Field(default=0, ge=0, lt=2**53, description="Random seed of the samples; no unit.")
-    voxel_size: float | None = Field(
-        default=None,
+    voxel_size: float | None = optional(
+        "Edge of a voxel, [m], at most how far the arm reaches; if left out a 40th of the longest side of the "
+        "workspace, with `dexterity` a 14th. One voxel's centre is the origin of the base frame, or of the plane.",
         gt=0,
         le=1e6,
-        description="Edge of a voxel, [m], at most how far the arm reaches; if left out a 40th of the longest side of "
-        "the workspace, with `dexterity` a 14th. One voxel's centre is the origin of the base frame, or of the plane.",
     )
-    task: Directions | None = Field(
-        default=None,
-        description="Which rows of the Jacobian Yoshikawa's measure counts: `x y z` translation and `rx ry rz` "
-        "rotation, along the base's axes. If left out the translation, in the directions in which the tip moves at "
-        "all, so that a planar arm has a measure too.",
+    task: Directions | None = optional(
+        "Which rows of the Jacobian Yoshikawa's measure counts: `x y z` translation and `rx ry rz` rotation, along "
+        "the base's axes. If left out the translation, in the directions in which the tip moves at all, so that a "
+        "planar arm has a measure too.",
         examples=[["x", "y"]],
     )
     plane: SlicePlane | None = optional(
