@@ -98,7 +98,7 @@ def pose_list(poses: Poses, pose_format: PoseFormat) -> list[dict[str, object]]:
 
 def pose_columns(poses: Poses, pose_format: PoseFormat) -> dict[str, Array]:
     """Return the fields of poses as arrays; shape (N, …) each."""
-    values = {pose_format: orientations(poses, pose_format)}
+    values: dict[str, Array] = {pose_format: orientations(poses, pose_format)}
     return values if pose_format == "matrix" else {"position": poses.positions, **values}
 
 
