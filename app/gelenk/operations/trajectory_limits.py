@@ -67,7 +67,8 @@ def own_velocities(robot: RobotModel, chain: Chain) -> OwnVelocities:
 
 def has_own_limits(options: MotionOptions) -> bool:
     """Check whether options change any limit."""
-    return not (options.limits is options.velocity_scale is options.acceleration_scale is None)
+    given = (options.limits, options.velocity_scale, options.acceleration_scale)
+    return any(one is not None for one in given)
 
 
 def bounds_of(chain: Chain, own: OwnVelocities, layers: Mapping[str, MotionOptions]) -> SourcedLimits:
