@@ -3,8 +3,9 @@
 import re
 
 import numpy as np
+import numpy.typing as npt
 
-from gelenk.robot.arrays import Array
+Array = npt.NDArray[np.float64]
 
 _MATRIX = re.compile(r"\\begin\{bmatrix\}(.*?)\\end\{bmatrix\}")
 _VECTOR = re.compile(r"\(([^()]*,\\;[^()]*)\)")
