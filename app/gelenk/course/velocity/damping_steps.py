@@ -8,8 +8,6 @@ from gelenk.course.velocity.writing import matrix, number, row
 from gelenk.language import localised
 from gelenk.language import translated as _
 
-_X = (r"\dot q", r"\ddot q", "q^{(3)}")
-
 
 def damping_steps(question: InverseQuestion) -> list[Step]:
     """Return the steps of a damped solution."""
@@ -31,8 +29,7 @@ def _damping(question: InverseQuestion) -> Step:
 
 
 def _damped(question: InverseQuestion) -> Step:
-    inverse, b, k = question.inverse, question.b, question.order - 1
-    v, x = ("b", _X[k]) if k else ("v", r"\dot q")
+    inverse, b, (x, v) = question.inverse, question.b, question.symbols
     solution = inverse.damped_inverse @ b
     if inverse.is_weighted:
         norm = rf"{x}^{{\mathsf T}} W {x}"

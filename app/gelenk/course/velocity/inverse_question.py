@@ -37,6 +37,11 @@ class InverseQuestion:
     wish: NullSpaceWish | None = None
 
     @property
+    def symbols(self) -> tuple[str, str]:
+        """LaTeX of x and of the right-hand side."""
+        return (r"\dot q", r"\ddot q", "q^{(3)}")[self.order - 1], "b" if self.order > 1 else "v"
+
+    @property
     def b(self) -> Array:
         """The right-hand side."""
         return self.target - self.known[0]

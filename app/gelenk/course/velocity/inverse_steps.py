@@ -9,7 +9,6 @@ from gelenk.course.velocity.writing import largest, matrix, row
 from gelenk.language import localised
 from gelenk.language import translated as _
 
-_X = (r"\dot q", r"\ddot q", "q^{(3)}")
 _B = ("v", r"\ddot r - \dot J \dot q", r"r^{(3)} - 2 \dot J \ddot q - \ddot J \dot q")
 _V = ("v", r"\ddot r", "r^{(3)}")
 
@@ -31,11 +30,11 @@ def inverse_steps(question: InverseQuestion) -> list[Step]:
 
 
 def _equation(question: InverseQuestion) -> Step:
-    k = question.order - 1
+    k, (x, v) = question.order - 1, question.symbols
     lines = [f"J = {matrix(question.inverse.J)}", f"{_V[k]} = {row(question.target)}", *question.known[1]]
     if k:
         lines.append(f"b = {_B[k]} = {row(question.b)}")
-    lines.append(f"J {_X[k]} = {'b' if k else 'v'}")
+    lines.append(f"J {x} = {v}")
     text = (
         _("The tip's velocity is linear in the joint velocities.")
         if k == 0
@@ -78,20 +77,19 @@ def _case(question: InverseQuestion) -> Step:
 
 
 def _null_space(question: InverseQuestion) -> Step:
-    inverse, k = question.inverse, question.order - 1
+    inverse, (x, v) = question.inverse, question.symbols
     n = inverse.J.shape[1]
     lines = [
         rf"\dim \ker J = n - \rho = {n - inverse.rank}",
         rf"P = I - J^{{\#}} J = {matrix(inverse.projector)}",
-        rf"J P = 0,\quad {_X[k]} = J^{{\#}} {'b' if k else 'v'} + P\, \xi",
+        rf"J P = 0,\quad {x} = J^{{\#}} {v} + P\, \xi",
     ]
     text = _("The projector onto the kernel of J: it lets through the joint motions that leave the tip as it is.")
     return step(_("Null space"), text, *lines)
 
 
 def _result(question: InverseQuestion) -> Step:
-    k = question.order - 1
-    x, v = _X[k], "b" if k else "v"
+    x, v = question.symbols
     found = question.solution()
     size = max(largest(question.target), largest(question.inverse.J) * largest(found))
     if question.wish is not None:
