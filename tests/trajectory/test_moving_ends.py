@@ -8,6 +8,7 @@ from scipy.interpolate import BPoly, CubicSpline
 
 from gelenk.contract.trajectory_request import TrajectoryRequest
 from gelenk.errors import InvalidInput
+from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.operations.trajectory_request import parse
 from gelenk.operations.trajectory_steps import trajectory_steps
 from gelenk.robot.arrays import Array
@@ -140,6 +141,20 @@ def test_there_is_no_jump_out_of_a_running_motion(law: Law, count: int, former: 
         for order in range(1 + count):
             before = (whole.derivative(order) if order else whole).at(np.array([time]))[0]
             np.testing.assert_allclose(end_state(motion, order, last=False), before, atol=1e-9)
+
+
+def test_a_motion_begins_out_of_a_path_of_the_tip_too() -> None:
+    """The running motion has no law of its own, which allows `slow_down` to choose it."""
+    one = robot("ur5")
+    T = chain_poses(one.chain(*one.default_chain).flat, np.array([START]))
+    pose = {"position": (T[0][0] + [0.0, 0.05, 0.0]).tolist(), "rotation": T[1][0].tolist()}
+    running = {"start": START, "segments": [{"type": "line", "target": pose}], "near_singularity": "slow_down"}
+    whole = planned(**running, limits=None).motion
+    at = {"trajectory": running, "time": 0.4 * whole.duration}
+    motion = planned(at=at, segments=[MOVE], law="jerk_limited", limits={"joint_acceleration": 50.0}).motion
+    for order in range(3):
+        before = (whole.derivative(order) if order else whole).at(np.array([at["time"]]))[0]
+        np.testing.assert_allclose(end_state(motion, order, last=False), before, atol=1e-9)
 
 
 @pytest.mark.parametrize(

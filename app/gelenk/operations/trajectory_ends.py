@@ -28,12 +28,13 @@ _NAMES = ("velocities", "accelerations")
 def state_of(robot: RobotModel, chain: Chain, at: RunningMotion, parse: Callable[..., TrajectoryProblem]) -> Array:
     """Return position, velocity and acceleration of a running motion at its time; shape (3, n)."""
     former = at.trajectory
+    call = TrajectoryRequest.model_construct(former.model_fields_set, **dict(former))
     try:
         own = robot.chain(former.base_frame, former.tip_frame)
         if own.joint_names != chain.joint_names:
             names = f"{listed(own.joint_names)}, and the new motion {listed(chain.joint_names)}"
             raise InvalidField("tip_frame", f"the running motion moves {names}: both move the same joints")
-        motion = plan(robot, own, parse(robot, own, TrajectoryRequest.model_validate(former.model_dump()))).motion
+        motion = plan(robot, own, parse(robot, own, call)).motion
     except InvalidInput as error:
         raise _inside(error, "at.trajectory") from None
     if at.time > motion.duration * (1.0 + _AFTER):
