@@ -193,12 +193,6 @@ def _drive_answers(task: DriveTask) -> Answers:
     }
 
 
-def _drive_with(task: DriveTask, torque: float) -> Answers:
-    """Return what follows from a wrong torque of the motor."""
-    voltage = voltage_for_speed(task.motor, task.motor_speed, torque)
-    return {"torque": torque, "current": torque / task.constant, "voltage": voltage, "duty": voltage / task.supply}
-
-
 def _with_counts(counts: float) -> Answers:
     return {"counts": math.ceil(counts), "bits": math.ceil(math.log2(counts)), "lines": math.ceil(counts / 4.0)}
 
@@ -254,8 +248,8 @@ DRIVE = Exercise(
             "speed": task.joint_speed / task.ratio,
             "torque": task.joint_torque * task.ratio / task.efficiency,
         },
-        "efficiency_forgotten": lambda task: _drive_with(task, task.joint_torque / task.ratio),
-        "efficiency_inverted": lambda task: _drive_with(task, task.joint_torque * task.efficiency / task.ratio),
+        "efficiency_forgotten": lambda one: one._replace(efficiency=1.0),
+        "efficiency_inverted": lambda one: one._replace(efficiency=1.0 / one.efficiency),
         "back_emf_forgotten": lambda task: {
             "voltage": task.resistance * task.motor_torque / task.constant,
             "duty": task.resistance * task.motor_torque / task.constant / task.supply,

@@ -43,27 +43,18 @@ def _motor_answers(task: MotorTask) -> Answers:
     }
 
 
-def _motor_with(task: MotorTask, drive: float, drag: float, denominator: float) -> Answers:
-    """Return the speeds by a wrong formula, and the current that follows from the voltage equation."""
-    speed = (drive - drag) / denominator
-    current = (task.voltage - task.constant * speed) / task.resistance
-    return {"speed": speed, "current": current, "no_load": drive / denominator}
-
-
 def _motor_without_emf(task: MotorTask) -> Answers:
     stall = task.constant * task.voltage / task.resistance
     speed = (stall - task.load) / task.friction
     return {"speed": speed, "current": task.voltage / task.resistance, "no_load": stall / task.friction}
 
 
-def _motor_parts(task: MotorTask) -> tuple[float, float, float]:
-    return task.constant * task.voltage, task.resistance * task.load, task.motor.stiffness
-
-
-def _motor_wrong(task: MotorTask, *, load: float = 1.0, friction: float = 1.0, square: bool = True) -> Answers:
-    drive, drag, _stiffness = _motor_parts(task)
-    constant = task.constant**2 if square else task.constant
-    return _motor_with(task, drive, load * drag, friction * task.resistance * task.friction + constant)
+def _motor_with_constant_once(task: MotorTask) -> Answers:
+    """Return the speeds with k_t in place of k_t k_e, and the current that follows from the voltage equation."""
+    stiffness = task.resistance * task.friction + task.constant
+    no_load = task.constant * task.voltage / stiffness
+    speed = no_load - task.resistance * task.load / stiffness
+    return {"speed": speed, "current": (task.voltage - task.constant * speed) / task.resistance, "no_load": no_load}
 
 
 MOTOR = Exercise(
@@ -88,14 +79,10 @@ MOTOR = Exercise(
         task.motor, task.voltage, task.load, operating_point(task.motor, task.voltage, task.load)
     )[:3],
     wrong={
-        "load_forgotten": lambda task: {
-            name: value for name, value in _motor_wrong(task, load=0.0).items() if name != "no_load"
-        },
-        "load_helps": lambda task: {
-            name: value for name, value in _motor_wrong(task, load=-1.0).items() if name != "no_load"
-        },
-        "friction_forgotten": lambda task: _motor_wrong(task, friction=0.0),
-        "constant_once": lambda task: _motor_wrong(task, square=False),
+        "load_forgotten": lambda one: one._replace(load=0.0),
+        "load_helps": lambda one: one._replace(load=-one.load),
+        "friction_forgotten": lambda one: one._replace(friction=0.0),
+        "constant_once": _motor_with_constant_once,
         "back_emf_forgotten": _motor_without_emf,
         "voltage_for_torque": lambda task: {"stall": task.voltage / task.resistance},
     },
