@@ -95,14 +95,19 @@ def test_a_wrong_answer_gets_its_mistake_named(studio: Studio) -> None:
 @pytest.mark.slow
 def test_a_part_of_a_set_earns_a_part(studio: Studio) -> None:
     answers = ask(studio, ELBOWS, "/solution")["answers"]["solutions"]
-    open_exercise(studio, ELBOWS)
-    studio.button("Add a solution").click()
-    assert studio.run("document.activeElement.ariaLabel") == "All (ϑ1, ϑ2), solution 2, 1"
-    studio.button("Remove solution 2").click()
+    open_exercise(studio, ELBOWS, "de")
+    studio.button("Lösung hinzufügen").click()
+    assert studio.run("document.activeElement.ariaLabel").endswith(", Lösung 2, 1")
+    studio.button("Lösung 2 entfernen").click()
     for cell, number in zip(studio.page.locator(".answer input").all(), answers[1], strict=True):
         cell.fill(str(number))
     (told,) = graded(studio)
-    assert told.endswith(" (1 of 2 points)")
+    assert told.endswith(" (1 von 2 Punkten)")
+    studio.button("Lösung zeigen").click()
+    shown = "; ".join(f"({'; '.join(f'{number:.5g}' for number in pair)})" for pair in answers)
+    expect(studio.page.locator(".answer-right")).to_have_text(
+        f"Richtige Antwort:{shown} rad".replace("-", "−").replace(".", ",")
+    )
 
 
 @pytest.mark.slow
@@ -234,6 +239,9 @@ def test_the_pictures_of_the_course_and_of_the_robots_table(studio: Studio) -> N
     with studio.page.expect_download() as download:
         studio.button("Save the frames as SVG").click()
     assert download.value.suggested_filename == "anthropomorphic-dh.svg"
+    studio.page.get_by_role("tab", name="Jacobian").click()
+    studio.button("Ellipses drawn").click()
+    studio.until(f"{shown}.length === 1")
 
 
 @pytest.mark.slow

@@ -84,6 +84,24 @@ def test_nothing_is_cut_off_at_the_smallest_width(another: Callable[..., Studio]
 
 
 @pytest.mark.slow
+def test_a_narrow_page_has_the_picture_above_the_panel(another: Callable[..., Studio]) -> None:
+    """Exercises alone have none; nothing makes the page wider than its window."""
+    studio = another(width=390, height=844)
+    studio.open("robot", robot="planar_2r")
+    for panel in PANELS:
+        studio.run("(panel) => studio.store.set({panel})", panel)
+        if panel == "exercises":
+            studio.page.locator(".exercise").first.wait_for()
+        assert studio.run("document.querySelector('.view').clientWidth") == (0 if panel == "exercises" else 390)
+        place = studio.run("document.querySelector('#panel').getBoundingClientRect().toJSON()")
+        assert (place["left"], place["right"], place["bottom"]) == (0, 390, 844), panel
+        assert studio.run("document.documentElement.scrollWidth") == 390, panel
+        tab = studio.run("document.querySelector('[aria-selected=true]').getBoundingClientRect().toJSON()")
+        assert tab["left"] >= 0, "the chosen tab is in sight"
+        assert tab["right"] <= 391
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_colours_follow_the_system_and_the_switch(another: Callable[..., Studio], scheme: str) -> None:
     studio = another(scheme=scheme)

@@ -1,8 +1,9 @@
 /** Pictures that the service draws. As an image such a picture runs nothing and loads nothing, whatever is in it. */
 
-import type { Api, Call } from "../api.ts";
+import { type Api, asProblem, type Call } from "../api.ts";
 import { button, element } from "./dom.ts";
 import { save } from "./files.ts";
+import type { ProblemView } from "./problem.ts";
 
 export function svgOf(api: Api, call: Call, signal?: AbortSignal): Promise<string> {
   return api.textOf({ ...call, accept: "image/svg+xml" }, signal);
@@ -21,4 +22,18 @@ export function figureOf(svg: string, title: string, file: string, saveTitle: st
     "aria-label": saveTitle,
   });
   return element("figure", {}, imageOf(svg, title), element("figcaption", { class: "bar" }, caption, keep));
+}
+
+/** A button that has the service draw a figure, and the place where it then is. */
+export function drawing(text: string, title: string, problem: ProblemView, draw: () => Promise<HTMLElement>) {
+  const place = element("div");
+  const ask = async () => {
+    problem.show(null);
+    try {
+      place.replaceChildren(await draw());
+    } catch (error) {
+      problem.show(asProblem(error));
+    }
+  };
+  return { ask: button(text, () => void ask(), { title }), place };
 }

@@ -40,11 +40,11 @@ export function rowsOf(field: ExerciseField, answer: unknown): number[][] {
   return items.map((item) => (Array.isArray(item) ? item : [item]));
 }
 
-/** The numbers of a right answer to read; what is only rounding is 0. */
-export function written(rows: readonly number[][]): string[][] {
+/** The numbers of a right answer to read; what is only rounding is 0. `point`: the decimal one, or a comma. */
+export function written(rows: readonly number[][], point: string): string[][] {
   const largest = Math.max(...rows.flat().map(Math.abs));
   const digits = (value: number) => (Math.abs(value) < DUST * largest ? 0 : Number(value.toPrecision(DIGITS)));
-  return rows.map((row) => row.map((value) => String(digits(value)).replace("-", "−")));
+  return rows.map((row) => row.map((value) => String(digits(value)).replace("-", "−").replace(".", point)));
 }
 
 export function isSet({ kind }: ExerciseField): boolean {

@@ -1,6 +1,5 @@
 /** The exercises' parts: the list, an exercise, the pictures. */
 
-import type { Api } from "../../api.ts";
 import type { Language } from "../../types.ts";
 import { Choice, element } from "../../ui/dom.ts";
 import { RequestView } from "../../ui/request.ts";
@@ -16,53 +15,80 @@ const LANGUAGES: readonly { value: Language; text: string }[] = [
   { value: "de", text: "Deutsch" },
 ];
 
-export function open(host: HTMLElement, { api, store }: Studio): () => void {
-  const request = new RequestView(api);
-  const move = (change: Partial<Place>) => go(store, change);
-  const languages = new Choice("Language", LANGUAGES, (language) => move({ language }));
-  const head = element("div", { class: "section bar" }, element("span", { class: "spring" }), languages.host);
-  const body = element("div", { class: "exercises" }, head);
-  host.append(body, request.host);
-  let parts: Choice<Place["part"]>;
-  let part: Part | null = null;
-  let before: Place | null = null;
-  const speak = ({ language }: Place) => {
-    body.lang = language;
-    languages.show(language);
-    parts?.host.remove();
-    const names = TEXTS[language].parts;
-    const options = (["tasks", "pictures"] as const).map((value) => ({ value, text: names[value] }));
-    parts = new Choice(TEXTS[language].what, options, (chosen) => move({ part: chosen }));
-    head.prepend(parts.host);
-  };
-  const exchange = (place: Place) => {
-    const hadFocus = part?.host.contains(document.activeElement);
-    part?.close();
-    part?.host.remove();
-    part = made(place, before, request.api, move);
-    body.append(part.host);
-    if (hadFocus) host.focus();
-    host.scrollTop = 0;
-  };
-  const stop = store.watch(["options"], (state) => {
-    const place = placeOf(state);
-    const isElsewhere = before?.part !== place.part || before.task !== place.task;
-    const isInOtherWords = before?.language !== place.language;
-    if (isInOtherWords) speak(place);
-    if (isElsewhere || isInOtherWords) exchange(place);
-    parts.show(place.part);
-    part!.show(place);
-    before = place;
-  });
+export function open(host: HTMLElement, studio: Studio): () => void {
+  const request = new RequestView(studio.api);
+  const parts = new Parts(host, { ...studio, api: request.api });
+  host.append(parts.host, request.host);
+  const stop = studio.store.watch(["options"], (state) => parts.show(placeOf(state)));
   return () => {
     stop();
-    part?.close();
+    parts.close();
   };
 }
 
-function made(place: Place, before: Place | null, api: Api, move: (change: Partial<Place>) => void): Part {
-  const { part, language, task } = place;
-  if (part === "pictures") return new Gallery(api, language, TEXTS[language]);
-  if (task) return new Task(api, place, move);
-  return new List(api, language, move, before?.task ?? "");
+/** One part at a time, below what chooses part and language. */
+class Parts {
+  readonly host: HTMLElement;
+  #head: HTMLElement;
+  #languages: Choice<Language>;
+  #names: Choice<Place["part"]> | null = null;
+  #part: Part | null = null;
+  #place: Place | null = null;
+
+  /** @param panel scrolls, and takes the focus of a part that goes. */
+  constructor(
+    private readonly panel: HTMLElement,
+    private readonly studio: Studio,
+  ) {
+    this.#languages = new Choice("Language", LANGUAGES, (language) => this.#go({ language }));
+    const spring = element("span", { class: "spring" });
+    this.#head = element("div", { class: "section bar" }, spring, this.#languages.host);
+    this.host = element("div", { class: "exercises" }, this.#head);
+  }
+
+  show(place: Place): void {
+    const { language, part, task } = place;
+    const before = this.#place;
+    if (before?.language !== language) this.#speak(language);
+    if (before?.language !== language || before.part !== part || before.task !== task) this.#exchange(place);
+    this.#names!.show(part);
+    this.#part!.show(place);
+    this.#place = place;
+  }
+
+  close(): void {
+    this.#part?.close();
+  }
+
+  #go(change: Partial<Place>): void {
+    go(this.studio.store, change);
+  }
+
+  #speak(language: Language): void {
+    const { parts, what } = TEXTS[language];
+    const options = (["tasks", "pictures"] as const).map((value) => ({ value, text: parts[value] }));
+    this.#names?.host.remove();
+    this.#names = new Choice(what, options, (part) => this.#go({ part }));
+    this.#head.prepend(this.#names.host);
+    this.#languages.show(language);
+    this.host.lang = language;
+  }
+
+  #exchange(place: Place): void {
+    const hadFocus = this.#part?.host.contains(document.activeElement);
+    this.close();
+    this.#part?.host.remove();
+    this.#part = this.#made(place);
+    this.host.append(this.#part.host);
+    if (hadFocus) this.panel.focus();
+    this.panel.scrollTop = 0;
+  }
+
+  #made(place: Place): Part {
+    const { part, language, task } = place;
+    const { api } = this.studio;
+    const move = (change: Partial<Place>) => this.#go(change);
+    if (part === "pictures") return new Gallery(api, language, TEXTS[language]);
+    return task ? new Task(api, language, move) : new List(api, language, move, this.#place?.task ?? "");
+  }
 }

@@ -63,16 +63,16 @@ export class FieldView {
   }
 
   #readable(answer: unknown): HTMLElement | string {
-    const { field } = this;
+    const { field, texts } = this;
     if (field.kind === "choice") return field.choices.find(({ value }) => value === answer)?.text ?? String(answer);
-    const rows = rowsOf(field, answer);
+    const rows = written(rowsOf(field, answer), texts.point);
     if (hasRows(field.shape)) {
       const matrix = new NumberMatrix(field.label);
-      matrix.write(written(rows));
+      matrix.write(rows);
       return matrix.host;
     }
-    const items = written(rows).map((row) => (field.shape.length ? `(${row.join(", ")})` : row[0]!));
-    return `${items.join(", ")} ${field.unit ?? ""}`.trim();
+    const items = rows.map((row) => (field.shape.length ? `(${row.join(texts.between)})` : row[0]!));
+    return `${items.join(texts.between)} ${field.unit ?? ""}`.trim();
   }
 
   #inputs(): HTMLInputElement[] {

@@ -62,8 +62,9 @@ export class List implements Part {
 
   show({ lecture }: Place): void {
     void this.#loaded.then(() => {
-      this.#lecture.value = lecture;
-      const shown = this.#lectures().filter((one) => lecture === "" || one === lecture);
+      const all = this.#lectures();
+      const shown = all.includes(lecture) ? [lecture] : all;
+      this.#lecture.value = shown === all ? "" : lecture;
       this.#groups.replaceChildren(...shown.map((one) => this.#group(one)));
       document.getElementById(rowId(this.visited))?.focus();
     });

@@ -28,7 +28,7 @@ export class Steps {
     this.#next = button("", more);
     this.#denied = element("p", { class: "muted small", role: "status" });
     const head = element("div", { class: "bar" }, element("h2", { class: "spring" }, texts.hints), this.#next);
-    this.host = element("section", { class: "section" }, head, this.#list, this.#denied);
+    this.host = element("section", { class: "section", tabindex: "-1" }, head, this.#list, this.#denied);
     this.show(0);
   }
 

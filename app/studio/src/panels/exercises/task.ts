@@ -1,7 +1,7 @@
 /** An exercise: its title, which variant of it, and the variant. */
 
 import { type Api, asProblem, Latest } from "../../api.ts";
-import type { ExerciseVariant } from "../../types.ts";
+import type { ExerciseVariant, Language } from "../../types.ts";
 import { button, element } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
 import { difficulty, exercises } from "./list.ts";
@@ -22,7 +22,7 @@ export class Task implements Part {
 
   constructor(
     private readonly api: Api,
-    { language, seed }: Place,
+    language: Language,
     private readonly go: (change: Partial<Place>) => void,
   ) {
     const texts = (this.#texts = TEXTS[language]);
@@ -31,22 +31,14 @@ export class Task implements Part {
       type: "text",
       inputmode: "numeric",
       autocomplete: "off",
-      value: seed,
       onchange: () => this.#choose(),
     });
-    const next = button(texts.next, () => this.go({ seed: this.#wanted + 1 }));
     const variant = element("label", { class: "bar" }, element("span", { class: "field" }, texts.variant), this.#seed);
-    this.host.append(
-      element(
-        "div",
-        { class: "section" },
-        button(`← ${texts.back}`, () => go({ task: "", seed: 1 }), { class: "button small back" }),
-        this.#title,
-        element("div", { class: "bar" }, variant, next),
-        this.#problem.host,
-      ),
-      this.#place,
-    );
+    const next = button(texts.next, () => this.go({ seed: this.#wanted + 1 }));
+    const back = button(`← ${texts.back}`, () => go({ task: "" }), { class: "button small back" });
+    const bar = element("div", { class: "bar" }, variant, next);
+    const head = element("div", { class: "section" }, back, this.#title, bar, this.#problem.host);
+    this.host.append(head, this.#place);
   }
 
   show(place: Place): void {

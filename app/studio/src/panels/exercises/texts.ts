@@ -44,6 +44,8 @@ const en = {
     "The key that is used lacks the scope teach: it shows no worked solutions, and hints are only the titles of steps.",
   show: "Show the solution",
   answer: "Right answer:",
+  point: ".",
+  between: ", ",
   save: (title: string) => `Save as SVG: ${title}`,
   tables: { standard: "Standard DH parameters of two links", modified: "Modified DH parameters of two links" },
 };
@@ -90,6 +92,8 @@ const de: typeof en = {
     "Dem verwendeten Schlüssel fehlt das Recht „teach“: Er zeigt keine Lösungen, und Hinweise sind nur die Überschriften der Schritte.",
   show: "Lösung zeigen",
   answer: "Richtige Antwort:",
+  point: ",",
+  between: "; ",
   save: (title) => `Als SVG speichern: ${title}`,
   tables: {
     standard: "Standard-DH-Parameter von zwei Gliedern",

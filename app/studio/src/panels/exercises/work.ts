@@ -9,7 +9,7 @@ import { emptyGrid, type Grid } from "./answer.ts";
 import { FieldView } from "./field.ts";
 import type { Place } from "./place.ts";
 import { Steps } from "./steps.ts";
-import { TEXTS } from "./texts.ts";
+import { type Texts, TEXTS } from "./texts.ts";
 
 const FORBIDDEN = 403;
 
@@ -27,7 +27,8 @@ export function pathOf(task: string): string {
 }
 
 export class Work {
-  readonly host = element("div");
+  readonly host: HTMLElement;
+  #texts: Texts;
   #draft: Draft;
   #fields: FieldView[];
   #steps: Steps;
@@ -43,7 +44,7 @@ export class Work {
     private readonly variant: ExerciseVariant,
     title: string,
   ) {
-    const texts = TEXTS[place.language];
+    const texts = (this.#texts = TEXTS[place.language]);
     this.#draft = draftOf(place);
     this.#fields = variant.fields.map((field) => {
       const grid = (this.#draft.grids[field.name] ??= emptyGrid(field));
@@ -57,19 +58,8 @@ export class Work {
     );
     this.#reveal = button(texts.show, () => void this.#show(), { hidden: true });
     const image = variant.picture && imageOf(variant.picture, texts.picture(title));
-    const check = element("button", { type: "submit", class: "button primary" }, texts.check);
-    this.host.append(
-      element("div", { class: "section prose" }, ...paragraphs(variant.text), image || null),
-      element(
-        "form",
-        { class: "section", onsubmit: (event: Event) => this.#submit(event) },
-        element("p", { class: "muted small" }, texts.numbers),
-        ...this.#fields.map(({ host }) => host),
-        element("div", { class: "bar" }, check, this.#reveal, this.#status),
-        this.#problem.host,
-      ),
-      this.#steps.host,
-    );
+    const prose = element("div", { class: "section prose" }, ...paragraphs(variant.text), image || null);
+    this.host = element("div", {}, prose, this.#form(), this.#steps.host);
     this.#resume();
   }
 
@@ -81,6 +71,18 @@ export class Work {
   get #question() {
     const { seed, language } = this.place;
     return { seed, language };
+  }
+
+  #form(): HTMLElement {
+    const check = element("button", { type: "submit", class: "button primary" }, this.#texts.check);
+    return element(
+      "form",
+      { class: "section", onsubmit: (event: Event) => this.#submit(event) },
+      element("p", { class: "muted small" }, this.#texts.numbers),
+      ...this.#fields.map(({ host }) => host),
+      element("div", { class: "bar" }, check, this.#reveal, this.#status),
+      this.#problem.host,
+    );
   }
 
   #number(value: number): string {
@@ -116,7 +118,7 @@ export class Work {
   #graded({ fields, points, max_points }: ExerciseGrade): void {
     this.#draft.isChecked = true;
     for (const [i, field] of this.#fields.entries()) field.grade(fields[i]!);
-    this.#status.textContent = TEXTS[this.place.language].points(this.#number(points), this.#number(max_points));
+    this.#status.textContent = this.#texts.points(this.#number(points), this.#number(max_points));
     this.#reveal.hidden = this.#draft.isSolved;
   }
 
@@ -130,6 +132,7 @@ export class Work {
     if (!solution) return;
     this.#draft.isSolved = true;
     this.#draft.hints = this.variant.hints.length;
+    if (document.activeElement === this.#reveal) this.#steps.host.focus({ preventScroll: true });
     this.#reveal.hidden = true;
     for (const field of this.#fields) field.solve(solution.answers[field.field.name]);
     this.#steps.show(this.#draft.hints, true);
@@ -140,10 +143,13 @@ export class Work {
     this.#solution ??= this.api
       .post<ExerciseSolution>(`${pathOf(this.place.task)}/solution`, this.#question)
       .catch((error: unknown) => {
-        this.#solution = null;
         const found = asProblem(error);
-        if (found.status === FORBIDDEN) this.#steps.deny();
-        else this.#problem.show(found);
+        if (found.status === FORBIDDEN) {
+          this.#steps.deny();
+        } else {
+          this.#problem.show(found);
+          this.#solution = null; // another time it may be there
+        }
         return null;
       });
     return this.#solution;

@@ -4,9 +4,11 @@ import "../../styles/jacobian.css";
 
 import { type Api, asProblem, Problem } from "../../api.ts";
 import { type ShownChain, shownChain } from "../../robot/chain.ts";
-import { choosing } from "../../state.ts";
+import { choosing, type State } from "../../state.ts";
+import type { Store } from "../../store.ts";
 import type { Part, SingularityReport } from "../../types.ts";
-import { Choice, section, titled } from "../../ui/dom.ts";
+import { Choice, element, section, titled } from "../../ui/dom.ts";
+import { drawing, figureOf, svgOf } from "../../ui/drawing.ts";
 import { ProblemView } from "../../ui/problem.ts";
 import { RequestView } from "../../ui/request.ts";
 import { whileKept } from "../kept.ts";
@@ -77,10 +79,20 @@ class Views implements Listener {
     this.#singularity = new SingularityView((configuration) => move(studio, configuration));
     this.#forms = new Choice("Axes and rates of the matrix", FORMS, set("jacobian.form", FORMS[0]!.value));
     this.#parts = new Choice("What counts", PARTS, set("jacobian.part", PARTS[0]!.value));
+    const title = "The arm with both ellipses, as a picture to save";
+    const picture = drawing("Ellipses drawn", title, this.#problems.all, () => ellipses(axes, store));
     this.hosts = [
       titled("Joints", presets(studio), this.joints.host),
       titled("Jacobian", [this.#forms.host], this.#problems.matrix.host, this.matrix.host),
-      titled("Ellipsoids at the tip", [this.#parts.host], this.drawing.host, this.#axes.host, this.drawing.words),
+      titled(
+        "Ellipsoids at the tip",
+        [this.#parts.host],
+        this.drawing.host,
+        this.#axes.host,
+        this.drawing.words,
+        element("div", { class: "bar" }, picture.ask),
+        picture.place,
+      ),
       section("Singularity", this.#singularity.host, this.#problems.all.host),
       ...requests.map((request) => request.host),
     ];
@@ -110,6 +122,14 @@ class Views implements Listener {
   failed(error: unknown): void {
     this.#problems.all.show(asProblem(error));
   }
+}
+
+/** The picture of translation at the tip, where the joints stand. */
+async function ellipses(api: Api, { value }: Store<State>): Promise<HTMLElement> {
+  const { path, ends, configuration } = shownChain(value)!;
+  const body = { ...ends, joint_positions: [configuration] };
+  const svg = await svgOf(api, { method: "POST", path: `${path}/manipulability`, body });
+  return figureOf(svg, "Velocity and force ellipses", "ellipses", "Save the ellipses as SVG");
 }
 
 /** To the slider of a joint. */

@@ -6,7 +6,7 @@ import type { RobotModel } from "../../robot/model.ts";
 import { chainTable } from "../../robot/table.ts";
 import type { DhTable } from "../../types.ts";
 import { button, element } from "../../ui/dom.ts";
-import { figureOf, svgOf } from "../../ui/drawing.ts";
+import { drawing, figureOf, svgOf } from "../../ui/drawing.ts";
 import { save } from "../../ui/files.ts";
 import type { ProblemView } from "../../ui/problem.ts";
 import type { Studio } from "../panel.ts";
@@ -55,7 +55,6 @@ function warningList(warnings: readonly string[]): HTMLElement {
 
 function actions(model: RobotModel, studio: Studio, problem: ProblemView): HTMLElement[] {
   const { api, store } = studio;
-  const picture = element("div");
   const attempt = (work: () => Promise<void>) => () => {
     problem.show(null);
     work().catch((error: unknown) => problem.show(asProblem(error)));
@@ -65,7 +64,8 @@ function actions(model: RobotModel, studio: Studio, problem: ProblemView): HTMLE
     await api.call({ method: "DELETE", path: `v1/robots/${encodeURIComponent(model.name!)}` });
     store.set({ robot: "panda", base: null, tip: null });
   });
-  const draw = attempt(async () => picture.replaceChildren(await frames(file, studio)));
+  const title = "The frames of the chain's DH table, at this configuration";
+  const picture = drawing("Frames drawn", title, problem, () => frames(file, studio));
   const bar = element(
     "div",
     { class: "bar" },
@@ -76,11 +76,11 @@ function actions(model: RobotModel, studio: Studio, problem: ProblemView): HTMLE
         save(`${file}.dh.json`, "application/json", `${JSON.stringify(await table(studio), null, 2)}\n`),
       ),
     ),
-    button("Frames drawn", draw, { title: "The frames of the chain's DH table, at this configuration" }),
+    picture.ask,
     element("span", { class: "spring" }),
     model.info?.source === "uploaded" && button("Remove", removal, { class: "button danger" }),
   );
-  return [bar, picture];
+  return [bar, picture.place];
 }
 
 /** The picture of the chain's table where the joints stand. */
