@@ -449,6 +449,35 @@ export type MimicPayload = { joint: string; multiplier?: number; offset?: number
 
 export type MistakeInfo = { code: string; text: string };
 
+export type Motion = {
+  language?: "en" | "de";
+  steps?: boolean;
+  limits?: TrajectoryLimits | null;
+  velocity_scale?: number | null;
+  acceleration_scale?: number | null;
+  base_frame?: string | null;
+  tip_frame?: string | null;
+  start?: Configuration | null;
+  start_velocities?: Configuration | null;
+  start_accelerations?: Configuration | null;
+  end_velocities?: Configuration | null;
+  end_accelerations?: Configuration | null;
+  segments: (JointSegment | LineSegment | CircleSegment | SplineSegment)[];
+  law?: "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal";
+  law_fallback?: boolean;
+  duration?: number | null;
+  sample_period?: number;
+  path_tolerance?: number;
+  orientation_tolerance?: number;
+  task?: ("x" | "y" | "z" | "rx" | "ry" | "rz")[] | null;
+  near_singularity?: "stop" | "damp" | "slow_down";
+  min_singular_value?: number;
+  compare_timing?: boolean;
+  coefficients?: boolean;
+  tip_poses?: boolean;
+  pose_format?: "quaternion_xyzw" | "quaternion_wxyz" | "rpy" | "zyz" | "rotation_vector" | "rotation" | "matrix";
+};
+
 export type MotionLimitsInfo = {
   joint_velocity: number[];
   joint_acceleration: number[];
@@ -592,6 +621,8 @@ export type RobotSummary = {
   format: "urdf" | "dh";
   default_chain: ChainEnds;
 };
+
+export type RunningMotion = { trajectory: Motion; time: number };
 
 export type SegmentBlend = { radius: number; start_time: number; end_time: number; acceleration: number | null };
 
@@ -782,7 +813,11 @@ export type TrajectoryRequest = {
   acceleration_scale?: number | null;
   base_frame?: string | null;
   tip_frame?: string | null;
-  start: Configuration;
+  start?: Configuration | null;
+  start_velocities?: Configuration | null;
+  start_accelerations?: Configuration | null;
+  end_velocities?: Configuration | null;
+  end_accelerations?: Configuration | null;
   segments: (JointSegment | LineSegment | CircleSegment | SplineSegment)[];
   law?: "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal";
   law_fallback?: boolean;
@@ -797,6 +832,7 @@ export type TrajectoryRequest = {
   coefficients?: boolean;
   tip_poses?: boolean;
   pose_format?: "quaternion_xyzw" | "quaternion_wxyz" | "rpy" | "zyz" | "rotation_vector" | "rotation" | "matrix";
+  at?: RunningMotion | null;
 };
 
 export type TrajectorySegmentInfo = {
