@@ -34,7 +34,8 @@ def is_heavy(call: TrajectoryRequest) -> bool:
     first = call.segments[0]
     is_move = isinstance(first, JointSegment) and not isinstance(first.target, Pose)
     is_moving = any(getattr(call, name) is not None for name in _MOVING)
-    return len(call.segments) > 1 or not is_move or is_moving or call.steps or call.coefficients or is_awaited()
+    has_more = call.steps or call.coefficients or call.compare_timing
+    return len(call.segments) > 1 or not is_move or is_moving or has_more or is_awaited()
 
 
 def _planned(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> PlannedTrajectory:
