@@ -82,6 +82,11 @@ def _motion(chain: Chain, start: Array, target: Array | None, segment: Segment, 
         family = _Family.of_polynomial(start, target, LAWS[segment.law].conditions or 2, rates)
     for side, own in zip(("start", "end"), rates, strict=True):
         check_rates(side, own, limits.joints)
+    return _within_limits(family, segment, ends, given)
+
+
+def _within_limits(family: "_Family", segment: Segment, ends: EndRates, given: float | None) -> PiecewisePolynomial:
+    """Return the motion of the least duration, or of the given one, [s], if it keeps the limits."""
     kept = _kept(segment)
     if given is None:
         return family.at(_least(family, kept, ends))
