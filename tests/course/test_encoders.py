@@ -18,6 +18,7 @@ from gelenk.course.actuators.encoders import (
 from gelenk.course.actuators.quadrature import Samples, decoded, read_samples
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
+from tests.oracles import written
 
 # Resolution
 
@@ -239,4 +240,21 @@ def test_a_turn_ends_and_the_count_goes_on() -> None:
 
 
 def test_the_worked_code() -> None:
-    assert "110" in str(gray.code_step(gray.position(4, 3)))
+    steps = gray.code_step([gray.position(4, 3)])
+    assert steps.latex[1:] == (r"b = 100_2 = 4,\quad g = 110",)
+
+
+@pytest.mark.parametrize("code", ["gray", "binary"])
+def test_every_reading_is_decoded(code: gray.Code) -> None:
+    """Up to a hundred; the text says where there are more. Each binary digit is a parity of Gray digits."""
+    rows = [gray.position(value % 64, 6) for value in range(130)]
+    found = gray.reading_step(rows, code, 6)
+    lines = found.latex[code == "gray" :]
+    assert len(lines) == 100
+    assert found.text.endswith("Shown are the first 100 of 130.")
+    for row, line in zip(rows, lines, strict=False):
+        if code == "gray":
+            digits = [sum(map(int, row.gray[: i + 1])) % 2 for i in range(6)]
+            assert line.startswith(rf"g = {row.gray}:\quad b = {''.join(map(str, digits))}_2 = {row.value},")
+        shown = line.partition(rf"\frac{{{row.value}}}{{2^{{6}}}} \cdot 2\pi = ")[2].removesuffix(r"\,\mathrm{rad}")
+        assert written.value(shown) == pytest.approx(2 * np.pi * row.value / 64, abs=1e-8)

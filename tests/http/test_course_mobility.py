@@ -4,11 +4,15 @@ import json
 from itertools import pairwise
 from typing import Any, cast
 
+import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
 from gelenk.contract.mobility import MobilityAnswer
+from gelenk.kinematics.judge.judge import pinocchio_jacobian
 from tests.course import linkages
+from tests.robots import robot as machine
+from tests.robots import samples
 
 PATH = "/v1/course/mobility"
 RR: dict[str, Any] = {
@@ -124,18 +128,34 @@ def test_a_four_bar_counted_in_space_moves_by_where_its_axes_lie(client: TestCli
 @pytest.mark.parametrize(
     ("robot", "n", "solutions"),
     [
-        ("planar_3r", 3, {"xy": "infinite", "xy_phi": "finite", "xyz": "finite", "pose": "none"}),
+        ("planar_3r", 3, {"xy": "infinite", "xy_phi": "finite", "xyz": "none", "pose": "none"}),
+        ("double_pendulum", 2, {"xy": "none", "xy_phi": "none", "xyz": "none", "pose": "none"}),
+        ("anthropomorphic", 3, {"xy": "infinite", "xy_phi": "none", "xyz": "finite", "pose": "none"}),
         ("ur5", 6, {"xy": "infinite", "xy_phi": "infinite", "xyz": "infinite", "pose": "finite"}),
         ("panda", 7, {"xy": "infinite", "xy_phi": "infinite", "xyz": "infinite", "pose": "infinite"}),
         ("so101", 5, {"xy": "infinite", "xy_phi": "infinite", "xyz": "infinite", "pose": "none"}),
     ],
 )
 def test_joint_space_against_task_spaces(client: TestClient, robot: str, n: int, solutions: dict[str, str]) -> None:
-    """Redundancy is n > m; several solutions at n = m are branches."""
-    spaces = count(client, robot=robot)["spaces"]
+    """Redundancy is n > m where the tip has m directions, as a planar arm in space has not; n = m gives branches."""
+    content = count(client, robot=robot)
+    spaces = content["spaces"]
     assert spaces["configuration_dimension"] == n
     assert {task["task"]: task["solutions"] for task in spaces["tasks"]} == solutions
     assert all(task["redundancy"] == n - task["dimension"] for task in spaces["tasks"])
+    ranks = {task["task"]: task["rank"] for task in spaces["tasks"]}
+    assert ranks == by_pinocchio(robot)
+    assert spaces["workspace_dimension"] == ranks["xyz"]
+    assert content["steps"][-1]["latex"][-1].startswith(rf"m = 6,\quad \mathrm{{rank}}\, J = {ranks['pose']},")
+
+
+def by_pinocchio(name: str) -> dict[str, int]:
+    """The largest ranks at some configurations of the rows x y, x y rz, x y z and all six."""
+    found = machine(name)
+    chain = found.chain(None, None)
+    Js = [pinocchio_jacobian(found, chain, q, "local_world_aligned") for q in samples(chain, 3)]
+    rows = {"xy": [0, 1], "xy_phi": [0, 1, 5], "xyz": [0, 1, 2], "pose": range(6)}
+    return {task: max(int(np.linalg.matrix_rank(J[list(one)], 1e-9)) for J in Js) for task, one in rows.items()}
 
 
 PAIR = {"link_a": "frame", "link_b": "crank", "type": "revolute"}

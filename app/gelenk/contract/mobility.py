@@ -20,6 +20,9 @@ class SpacesInfo(Answer):
     base_frame: str = Field(description="Where the chain begins.")
     tip_frame: str = Field(description="Where the chain ends.")
     configuration_dimension: int = Field(description="n: joints of the chain with a position of their own.")
+    workspace_dimension: int = Field(
+        description="Of the positions that the tip reaches: 3 in space, 2 on a surface such as a plane, 1 on a curve."
+    )
     tasks: list[TaskKind]
 
 
@@ -85,8 +88,8 @@ ENDPOINT = Endpoint(
 
     Give `space`, `links` and `pairs`; `pairs` as a list gives their links and so the loops, as an object the number
     of each type. Or give the name of a `robot`, whose tree is counted with its mimic joints, as Pinocchio's
-    `model.nv`; `spaces` sets its default chain's n joints against the m numbers of a task (n > m is redundancy,
-    which is not the same as several inverse solutions).
+    `model.nv`; `spaces` sets its default chain's n joints against the m numbers of a task and the directions
+    that its tip has (n > m is redundancy, which is not the same as several inverse solutions).
 
     Σc is over pairs, not joints: k links that meet at one joint are k - 1 pairs. `coincident` names such joints,
     or the pairs themselves name their `joint`; missing pairs are added, with a warning. (The

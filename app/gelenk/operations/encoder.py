@@ -101,8 +101,10 @@ def _absolute(call: EncoderRequest, bits: int, steps: list[Step]) -> dict[str, A
     if call.table and bits > gray.MOST_TABLE_BITS:
         raise InvalidField("table", f"is written for at most {gray.MOST_TABLE_BITS} bits; `values` take any position")
     values = [gray.position(value, bits) for value in call.values or ()]
-    if readings or values:
-        steps.append(gray.code_step((*readings, *values)[0]))
+    if readings:
+        steps.append(gray.reading_step(readings, call.code, bits))
+    if values:
+        steps.append(gray.code_step(values))
     going_on = gray.unwrapped([reading.value for reading in readings], bits)
     travel = TURN * (going_on[-1] - going_on[0]) / (1 << bits) if going_on else None
     return {

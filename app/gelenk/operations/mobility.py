@@ -7,9 +7,12 @@ from gelenk.course.mobility.mechanism import Mechanism, mechanism, mechanism_of_
 from gelenk.course.mobility.mobility import Tally, certify_mobility, tally, tally_of_counts, verdict, warnings
 from gelenk.course.mobility.pairs import FREEDOMS
 from gelenk.course.mobility.screws import PostureMobility, posture
-from gelenk.course.mobility.spaces import tasks
+from gelenk.course.mobility.spaces import DIMENSIONS, TaskName, spaces_step, tasks
 from gelenk.course.mobility.steps import steps
 from gelenk.errors import InvalidField
+from gelenk.ik.search.task import Task
+from gelenk.ik.search.words import DIRECTIONS, Direction
+from gelenk.kinematics.velocity.task_space import structure
 from gelenk.operations.outcome import Limits, Outcome, PictureFormat
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
@@ -50,7 +53,25 @@ def is_heavy(call: MobilityRequest) -> bool:
 
 def _counted_robot(robot: RobotModel) -> dict[str, Any]:
     found = mechanism_of_tree(robot.description)
-    return _content(tally(found), found, chain=robot.chain(None, None))
+    chain = robot.chain(None, None)
+    kinds = tasks(len(chain), {name: _rank(chain, name) for name in DIMENSIONS})
+    content = _content(tally(found), found)
+    content["steps"].append(spaces_step(len(chain), kinds))
+    ends = {"base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
+    sizes = {"configuration_dimension": len(chain), "workspace_dimension": _rank(chain, "xyz")}
+    return {**content, "spaces": {**ends, **sizes, "tasks": kinds}}
+
+
+_DIRECTIONS: dict[TaskName, tuple[Direction, ...]] = {
+    "xy": ("x", "y"),
+    "xy_phi": ("x", "y", "rz"),
+    "xyz": ("x", "y", "z"),
+    "pose": DIRECTIONS,
+}
+
+
+def _rank(chain: Chain, task: TaskName) -> int:
+    return structure(chain, Task(_DIRECTIONS[task])).rank if len(chain) else 0
 
 
 def _counted(call: MobilityRequest) -> dict[str, Any]:
@@ -62,9 +83,7 @@ def _counted(call: MobilityRequest) -> dict[str, Any]:
     return _content(tally_of_counts(space, call.link_count(), call.counts(), call.node_counts()), None)
 
 
-def _content(
-    counted: Tally, found: Mechanism | None, stands: PostureMobility | None = None, chain: Chain | None = None
-) -> dict[str, Any]:
+def _content(counted: Tally, found: Mechanism | None, stands: PostureMobility | None = None) -> dict[str, Any]:
     idle = None if found is None else found.idle_spins()
     left = (counted.mobility if stands is None else stands.mobility) - len(idle or ())
     return {
@@ -84,18 +103,9 @@ def _content(
         **_graph(found),
         "posture": stands,
         "rank_tolerance": None,
-        "spaces": None if chain is None else _spaces(chain),
+        "spaces": None,
         "warnings": warnings(counted, found, stands),
         "steps": steps(counted, found, stands),
-    }
-
-
-def _spaces(chain: Chain) -> dict[str, Any]:
-    return {
-        "base_frame": chain.base_frame,
-        "tip_frame": chain.tip_frame,
-        "configuration_dimension": len(chain),
-        "tasks": tasks(len(chain)),
     }
 
 

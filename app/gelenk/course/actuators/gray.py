@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from gelenk.course.actuators.encoders import TURN
-from gelenk.course.steps import Step, step
+from gelenk.course.steps import Step, step, tex
 from gelenk.errors import InvalidField, counted
 from gelenk.language import translated as _
 from gelenk.robot.result import Result
@@ -17,6 +17,8 @@ from gelenk.robot.result import Result
 Code: TypeAlias = Literal["gray", "binary"]
 
 MOST_TABLE_BITS = 8
+_MOST_SHOWN = 100
+"""Number of readings, and of values, that are worked out."""
 
 
 def gray(value: int) -> int:
@@ -83,11 +85,32 @@ def unwrapped(values: Sequence[int], bits: int) -> list[int]:
     return result
 
 
-def code_step(example: DiscPosition) -> Step:
-    """Return the worked code of one position."""
-    return step(
-        _("Gray code"),
-        _("Each digit is compared with its left neighbour: equal gives 0, different gives 1."),
-        r"g = b \oplus (b \gg 1)",
-        rf"b = {example.binary}_2 = {example.value},\quad g = {example.gray}",
-    )
+def reading_step(readings: Sequence[DiscPosition], code: Code, bits: int) -> Step:
+    """Return how readings are decoded, one a line, the first ones of many."""
+    text, rule = _("The digits are the number of the position in binary."), []
+    if code == "gray":
+        text = _("Each binary digit is the exclusive or of all Gray digits from the left up to it.")
+        rule = [r"b_i = g_{n-1} \oplus \cdots \oplus g_i"]
+    lines = [
+        (rf"g = {one.gray}:\quad " if code == "gray" else "") + f"{_number(one)},"
+        rf"\quad \vartheta = \frac{{{one.value}}}{{2^{{{bits}}}}} \cdot 2\pi = {tex(one.angle, 'rad')}"
+        for one in readings[:_MOST_SHOWN]
+    ]
+    return step(_("Decoding of the readings"), text + _more(readings), *rule, *lines)
+
+
+def code_step(values: Sequence[DiscPosition]) -> Step:
+    """Return how numbers are encoded, one a line, the first ones of many."""
+    text = _("Each digit is compared with its left neighbour: equal gives 0, different gives 1.")
+    lines = [rf"{_number(one)},\quad g = {one.gray}" for one in values[:_MOST_SHOWN]]
+    return step(_("Gray code"), text + _more(values), r"g = b \oplus (b \gg 1)", *lines)
+
+
+def _number(one: DiscPosition) -> str:
+    return f"b = {one.binary}_2 = {one.value}"
+
+
+def _more(positions: Sequence[DiscPosition]) -> str:
+    if len(positions) <= _MOST_SHOWN:
+        return ""
+    return " " + _("Shown are the first {shown} of {count}.").format(shown=_MOST_SHOWN, count=len(positions))
