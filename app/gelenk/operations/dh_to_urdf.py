@@ -8,7 +8,7 @@ from gelenk.dh.tables.convert import BASE_FRAME, TOOL_FRAME, describe_dh
 from gelenk.errors import listed
 from gelenk.kinematics.judge.tables import certify_table
 from gelenk.operations.outcome import always, json_only
-from gelenk.robot.appearance import INVENTED_MASSES
+from gelenk.robot.appearance import invented_masses
 from gelenk.robot.description import MOVABLE, Description
 from gelenk.robot.robot import RobotModel
 from gelenk.robot.urdf import UNLIMITED, read_urdf, write_urdf
@@ -35,7 +35,7 @@ def run(call: ToUrdfRequest) -> dict[str, Any]:
 
 def _notes(described: Description) -> list[str]:
     """Return notes on what a description says that its table did not."""
-    notes = [INVENTED_MASSES]
+    notes = [invented_masses()]
     for key in ("velocity", "effort"):
         names = tuple(
             joint.name for joint in described.joints if joint.type in MOVABLE and not getattr(joint.limits, key)

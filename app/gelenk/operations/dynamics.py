@@ -11,6 +11,7 @@ from gelenk.kinematics.dynamics.dynamics import Dynamics, dynamics
 from gelenk.kinematics.dynamics.lagrangian import State
 from gelenk.kinematics.dynamics.mechanism import mechanism
 from gelenk.kinematics.force.statics import certify_statics, overloaded_joints, statics
+from gelenk.language import translated as _
 from gelenk.operations.chains import check_count, check_numbers, check_worked, head, positions
 from gelenk.operations.dynamics_steps import worked_dynamics
 from gelenk.operations.loads import (
@@ -63,7 +64,7 @@ def run(loaded: LoadedRobot, call: DynamicsRequest, limits: Limits) -> Outcome:
     def content() -> dict[str, Any]:
         notes = weight_notes(loaded, mechanism(robot, chain), load)
         if not found.is_definite:
-            notes.append("the mass matrix is singular: some motion of the joints meets no inertia")
+            notes.append(_("the mass matrix is singular: some motion of the joints meets no inertia"))
         worked: dict[str, Any] = {}
         if call.steps:
             holds = call.wrenches is not None

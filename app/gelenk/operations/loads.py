@@ -8,19 +8,18 @@ import numpy as np
 from gelenk.contract.common import Vectors
 from gelenk.contract.dynamics import DynamicsRequest
 from gelenk.contract.statics import PayloadInfo, StaticsRequest, WrenchOptions, WrenchRequest
-from gelenk.errors import InvalidField, UnknownFrame, counted, listed
+from gelenk.errors import InvalidField, UnknownFrame, counted, quoted
 from gelenk.kinematics.dynamics.bodies import Load, tensor
 from gelenk.kinematics.dynamics.mechanism import STANDARD_GRAVITY, ChainMechanism, known_mechanism, mechanism
 from gelenk.kinematics.force.wrenches import WrenchFrame
+from gelenk.language import translated as _
 from gelenk.operations.chains import check_count
 from gelenk.operations.warm_up import WarmUp
-from gelenk.robot.appearance import INVENTED_MASSES
+from gelenk.robot.appearance import invented_masses
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot
-
-DRAWN_MASSES = f"{INVENTED_MASSES}, as placeholders; for real numbers upload a URDF with `inertial` elements"
 
 _QUICK_BODIES = 8
 
@@ -115,11 +114,15 @@ def one_each(rows: Array, count: int, field: str) -> Array:
 
 def weight_notes(loaded: LoadedRobot, found: ChainMechanism, load: Load | None) -> list[str]:
     """Return a sentence on each thing that the numbers leave out or assume."""
-    notes = [DRAWN_MASSES] if loaded.table is not None and found.bodies else []
+    notes = []
+    if loaded.table is not None and found.bodies:
+        text = _("{reason}, as placeholders; for real numbers upload a URDF with `inertial` elements")
+        notes.append(text.format(reason=invented_masses()))
     if found.without_mass:
-        notes.append(f"the description gives no mass to {listed(found.without_mass)}, which move: they weigh nothing")
+        text = _("the description gives no mass to {links}, which move: they weigh nothing")
+        notes.append(text.format(links=", ".join(map(quoted, found.without_mass))))
     if found.bodies and not any(body.mass > 0.0 for body in found.bodies):
-        notes.append("nothing that the chain's joints move has a mass: all terms of inertia and weight are zero")
+        notes.append(_("nothing that the chain's joints move has a mass: all terms of inertia and weight are zero"))
     if load is not None and not found.moves_tip:
-        notes.append("the chain's joints do not move the tip against the root, so the payload loads none of them")
+        notes.append(_("the chain's joints do not move the tip against the root, so the payload loads none of them"))
     return notes

@@ -10,6 +10,7 @@ from gelenk.course.orientation.composition import FrameMotion, composed
 from gelenk.course.orientation.orientation import NEARLY_DEGENERATE, Notations, notations
 from gelenk.course.orientation.orientation_steps import GivenMotion, orientation_steps
 from gelenk.course.orientation.rotations import DEGENERATE, Validation
+from gelenk.language import translated as _
 from gelenk.operations.outcome import json_only
 from gelenk.robot.arrays import Array
 
@@ -79,8 +80,9 @@ def _frame(T: Array) -> dict[str, Any]:
 
 
 def _projections(validations: Sequence[Validation | None]) -> list[str]:
+    text = _("Motion {number}: no rotation is nearer to this matrix than all others; one of the nearest was taken.")
     return [
-        f"Motion {number}: no rotation is nearer to this matrix than all others; one of the nearest was taken."
+        text.format(number=number)
         for number, found in enumerate(validations, start=1)
         if found is not None and not found.is_unique
     ]
@@ -88,12 +90,16 @@ def _projections(validations: Sequence[Validation | None]) -> list[str]:
 
 def _nearly(found: Notations) -> list[str]:
     """Return warnings about angle triples that are determined, but badly conditioned."""
+    zyz = _(
+        "ZYZ is nearly degenerate, sin θ = {sine:.3g}: an error of R grows by the inverse of that in φ and ψ, while "
+        "their sum (θ near 0) or difference (θ near π) stays accurate."
+    )
+    rpy = _(
+        "RPY is nearly degenerate, cos pitch = {sine:.3g}: an error of R grows by the inverse of that in roll and yaw, "
+        "while their difference (pitch near π/2) or sum (near -π/2) stays accurate."
+    )
     return [
-        f"{name} is nearly degenerate, {sine} = {triple.conditioning:.3g}: an error of R grows by the inverse of that "
-        f"in {outer}, while their {steady} stays accurate."
-        for name, sine, triple, outer, steady in (
-            ("ZYZ", "sin θ", found.zyz, "φ and ψ", "sum (θ near 0) or difference (θ near π)"),
-            ("RPY", "cos pitch", found.rpy, "roll and yaw", "difference (pitch near π/2) or sum (near -π/2)"),
-        )
+        text.format(sine=triple.conditioning)
+        for text, triple in ((zyz, found.zyz), (rpy, found.rpy))
         if triple.degeneracy is None and triple.conditioning < NEARLY_DEGENERATE
     ]

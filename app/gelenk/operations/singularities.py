@@ -15,6 +15,7 @@ from gelenk.kinematics.singularity.path import PathMinimum, places_along
 from gelenk.kinematics.singularity.report import SingularityReport, certify_reports, singularity_report
 from gelenk.kinematics.velocity.jacobian import jacobians, singular_values
 from gelenk.kinematics.velocity.task_space import TaskSpace, structure
+from gelenk.language import translated as _
 from gelenk.operations.chains import chain_and_positions, check_numbers, check_worked, head, task_of, units_are_mixed
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.singularity_steps import worked_singularities
@@ -177,18 +178,21 @@ def _why_none(chain: Chain, space: TaskSpace, call: SingularityRequest) -> str:
     """Return why no singular configuration was found, and perhaps a smaller task that loses something."""
     rank = structure(chain, space.task, space.reference).rank
     if rank == 0:
-        return "nothing can be lost: the tip has none of these directions at any configuration"
+        return _("nothing can be lost: the tip has none of these directions at any configuration")
     if not can_lose(chain, space):
-        return "nothing can be lost: of these directions the tip has the same at every configuration"
-    where = " within the joint limits" if call.respect_limits else ""
-    reason = f"no singular configuration was found within a radius of {call.search_radius:.6g}{where}"
+        return _("nothing can be lost: of these directions the tip has the same at every configuration")
+    reason = _(
+        "no singular configuration was found within a radius of {radius:.6g} within the joint limits"
+        if call.respect_limits
+        else "no singular configuration was found within a radius of {radius:.6g}"
+    ).format(radius=call.search_radius)
     if rank == len(space):
         return reason
-    reason += (
-        f": of {counted(len(space), 'direction')} the tip has {rank} at most, and it keeps as many wherever was looked"
-    )
+    text = _("{reason}: of {count} directions the tip has {rank} at most, and it keeps as many wherever was looked")
+    reason = text.format(reason=reason, count=len(space), rank=rank)
     fewer = _positions_that_move(chain, space)
-    return reason if fewer is None else f"{reason}; what it loses of the position shows with `task` {fewer}"
+    text = _("{reason}; what it loses of the position shows with `task` {fewer}")
+    return reason if fewer is None else text.format(reason=reason, fewer=fewer)
 
 
 def _positions_that_move(chain: Chain, space: TaskSpace) -> str | None:

@@ -13,7 +13,9 @@ import numpy as np
 
 from gelenk.contract.trajectory_answer import LimitSource
 from gelenk.contract.trajectory_request import JointValues, MotionOptions, TrajectoryLimits
-from gelenk.errors import UnknownJoint, WrongJointCount, listed
+from gelenk.errors import UnknownJoint, WrongJointCount, quoted
+from gelenk.language import marked
+from gelenk.language import translated as _
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
@@ -32,11 +34,22 @@ JERK_RATE = 10.0
 """Assumed limit divided by that of the derivative before it, [1/s]."""
 
 _ASSUMED = {
-    "joint_velocity": "the robot's description has no velocity limit of {}: "
-    f"{TURNING:g} rad/s is assumed, of a sliding joint {SLIDING:g} m/s",
-    "joint_acceleration": "the acceleration limits of {} are assumed: "
-    f"they reach the velocity limit in {1.0 / ACCELERATION_RATE:g} s",
-    "joint_jerk": f"the jerk limits of {{}} are assumed: they reach the acceleration limit in {1.0 / JERK_RATE:g} s",
+    "joint_velocity": marked(
+        "the robot's description has no velocity limit of {joints}: {turning:g} rad/s is assumed, of a sliding joint "
+        "{sliding:g} m/s"
+    ),
+    "joint_acceleration": marked(
+        "the acceleration limits of {joints} are assumed: they reach the velocity limit in {to_velocity:g} s"
+    ),
+    "joint_jerk": marked(
+        "the jerk limits of {joints} are assumed: they reach the acceleration limit in {to_acceleration:g} s"
+    ),
+}
+_NUMBERS = {
+    "turning": TURNING,
+    "sliding": SLIDING,
+    "to_velocity": 1.0 / ACCELERATION_RATE,
+    "to_acceleration": 1.0 / JERK_RATE,
 }
 
 
@@ -126,17 +139,18 @@ def limit_notes(chain: Chain, own: OwnVelocities, used: Sequence[SourcedLimits])
     for quantity, words in _ASSUMED.items():
         assumed = [any(bounds.sources[quantity][j] == "assumed" for bounds in used) for j in range(len(chain))]
         if any(assumed):
-            notes.append(words.format(_names(chain, assumed)))
+            notes.append(_(words).format(joints=_names(chain, assumed), **_NUMBERS))
     beyond = [
         bool(own.known[j]) and any(bounds.limits.velocity[j] > own.values[j] for bounds in used)
         for j in range(len(chain))
     ]
     if any(beyond):
-        notes.append(f"the velocity limits of {_names(chain, beyond)} are higher than the robot's own, as requested")
+        text = _("the velocity limits of {joints} are higher than the robot's own, as requested")
+        notes.append(text.format(joints=_names(chain, beyond)))
     return notes
 
 
 def _names(chain: Chain, chosen: Sequence[bool]) -> str:
     if all(chosen):
-        return "all joints"
-    return listed(tuple(name for name, one in zip(chain.joint_names, chosen, strict=True) if one))
+        return _("all joints")
+    return ", ".join(quoted(name) for name, one in zip(chain.joint_names, chosen, strict=True) if one)

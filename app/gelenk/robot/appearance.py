@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import rotation_to_axis
 from gelenk.robot.description import MOVABLE, Description, Inertial, Joint, Link, Origin, Shape, Triple
@@ -19,10 +20,6 @@ from gelenk.robot.notations import origin_of
 
 MASS_PER_LENGTH = 3.0
 """Mass per length of a solid, [kg/m]: about that of an aluminium tube 80 mm wide with a 5 mm wall."""
-INVENTED_MASSES = (
-    f"a DH table says nothing of masses: those of the links are invented, {MASS_PER_LENGTH:g} kg for each metre of the "
-    "simple bodies drawn for it"
-)
 
 _SKELETON_THICKNESS = 0.06
 """Relative radius of a skeleton's rod, half a DH table's, so that it is not taken for the robot's own shape."""
@@ -39,6 +36,15 @@ _SHORT = 1e-9
 """A cylinder shorter than this fraction of its radius is omitted."""
 _MOST_INERTIA = 1e12
 """Largest moment of inertia [kg m²]: that of a link of 1000 km would exceed the limit of a description."""
+
+
+def invented_masses() -> str:
+    """Return a note on the masses of a robot that is a DH table."""
+    text = _(
+        "a DH table says nothing of masses: those of the links are invented, {density:g} kg for each metre of the "
+        "simple bodies drawn for it"
+    )
+    return text.format(density=MASS_PER_LENGTH)
 
 
 @dataclass(frozen=True, slots=True)
