@@ -74,7 +74,7 @@ class BranchTable(NamedTuple):
     doubtful: Indices = np.zeros(0, dtype=np.int64)
 
 
-class _Ranking(NamedTuple):
+class _Kept(NamedTuple):
     """Sorted solutions of one target, in MOST rows and a spare one behind them, and space for their refinement."""
 
     qs: Array
@@ -106,15 +106,46 @@ def branches(
         most: Largest number of solutions of one target: 1 for the nearest to the seed.
     """
     # Passing a tuple to a compiled function costs much more than passing its parts.
-    rest = limits, targets, seeds, elbow_angles, min(most, MOST)
-    qs, labels, firsts, doubtful = _branches(*flat, *plan, *goal, *rest)
+    arguments: tuple[Any, ...] = (*flat, *plan, *goal, limits, targets, seeds, elbow_angles, min(most, MOST))
+    qs, labels, firsts, doubtful = _branches(*arguments)
     return BranchTable(qs, labels[0], labels[1], firsts, doubtful)
 
 
 @compiled
-def _branches(*parts: Any) -> tuple[Array, Indices, Indices, Indices]:
-    flat, plan, goal = FlatChain(*parts[:3]), SubproblemPlan(*parts[3:15]), Goal(*parts[15:24])
-    limits, targets, seeds, elbow_angles, most = parts[24:]
+def _branches(
+    placements: Array,
+    joints: Indices,
+    drives: Array,
+    kind: int,
+    backwards: int,
+    form: int,
+    placed: int,
+    axes: Array,
+    points: Array,
+    slides: Indices,
+    order: Indices,
+    lines: Array,
+    zero: Array,
+    reach: float,
+    terms: Array,
+    bounds: Array,
+    weights: Array,
+    what: int,
+    axis: int,
+    position_tolerance: float,
+    chord_tolerance: float,
+    slack: float,
+    starts: int,
+    random_seed: int,
+    limits: Array,
+    targets: Array,
+    seeds: Array,
+    elbow_angles: Array,
+    most: int,
+) -> tuple[Array, Indices, Indices, Indices]:
+    flat = FlatChain(placements, joints, drives)
+    plan = SubproblemPlan(kind, backwards, form, placed, axes, points, slides, order, lines, zero, reach, terms)
+    goal = Goal(bounds, weights, what, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
     count, n = len(targets), seeds.shape[1]
     found = Candidates(
         np.empty((MOST, n)),
@@ -126,7 +157,7 @@ def _branches(*parts: Any) -> tuple[Array, Indices, Indices, Indices]:
         make_space(),
         np.zeros(1, np.int64),
     )
-    ranking = _Ranking(
+    kept = _Kept(
         np.empty((MOST + 1, n)),
         np.empty(MOST + 1),
         np.empty(MOST + 1),
@@ -139,18 +170,35 @@ def _branches(*parts: Any) -> tuple[Array, Indices, Indices, Indices]:
     qs, labels = np.empty((count * most, n)), np.empty((2, count * most), np.int64)
     firsts, doubtful = np.zeros(count + 1, np.int64), np.zeros(count, np.int64)
     table = qs, labels, firsts, doubtful
-    _solve_all(flat, plan, goal, limits, targets, seeds, elbow_angles, most, found, ranking, work, table)
+    _solve_all(flat, plan, goal, limits, targets, seeds, elbow_angles, most, found, kept, work, table)
     return qs[: firsts[count]], labels[:, : firsts[count]], firsts, doubtful
 
 
 def elbow_angles(flat: FlatChain, plan: SubproblemPlan, qs: Array) -> Array:
     """Compute the elbow angle of each configuration about the line from shoulder to wrist; shape (N,), [rad]."""
-    return _elbow_angles(flat.drives, qs, *plan)
+    arguments: tuple[Any, ...] = (flat.drives, *plan, qs)
+    angles: Array = _elbow_angles(*arguments)
+    return angles
 
 
 @compiled
-def _elbow_angles(drives: Array, qs: Array, *parts: Any) -> Array:
-    plan = SubproblemPlan(*parts)
+def _elbow_angles(
+    drives: Array,
+    kind: int,
+    backwards: int,
+    form: int,
+    placed: int,
+    axes: Array,
+    points: Array,
+    slides: Indices,
+    order: Indices,
+    lines: Array,
+    zero: Array,
+    reach: float,
+    terms: Array,
+    qs: Array,
+) -> Array:
+    plan = SubproblemPlan(kind, backwards, form, placed, axes, points, slides, order, lines, zero, reach, terms)
     angles = np.empty(len(qs))
     for i in range(len(qs)):
         angles[i] = elbow_angle(plan, drives[:, 0] * qs[i] + drives[:, 1])
@@ -168,7 +216,7 @@ def _solve_all(
     elbow_angles: Array,
     most: int,
     found: Candidates,
-    ranking: _Ranking,
+    kept: _Kept,
     work: Work,
     table: tuple[Array, Indices, Indices, Indices],
 ) -> None:
@@ -177,11 +225,11 @@ def _solve_all(
     for i in range(len(targets)):
         seed = seeds[i if len(seeds) > 1 else 0]
         elbow_angle = elbow_angles[i if len(elbow_angles) > 1 else 0]
-        count = _solve(flat, plan, goal, limits, targets[i], seed, elbow_angle, found, ranking, work)
+        count = _solve(flat, plan, goal, limits, targets[i], seed, elbow_angle, found, kept, work)
         for k in range(min(count, most)):
             for j in range(n):
-                qs[total, j] = ranking.qs[k, j]
-            labels[0, total], labels[1, total] = ranking.labels[0, k], ranking.labels[1, k]
+                qs[total, j] = kept.qs[k, j]
+            labels[0, total], labels[1, total] = kept.labels[0, k], kept.labels[1, k]
             total += 1
         firsts[i + 1], doubtful[i] = total, found.doubtful[0]
 
@@ -196,12 +244,12 @@ def _solve(
     seed: Array,
     elbow_angle: float,
     found: Candidates,
-    ranking: _Ranking,
+    kept: _Kept,
     work: Work,
 ) -> int:
-    """Put the sorted solutions of one target into `ranking` and return their number."""
+    """Put the sorted solutions of one target into `kept` and return their number."""
     n = len(seed)
-    own = ranking.qs[MOST]
+    own = kept.qs[MOST]
     for i in range(n):
         j = n - 1 - i if plan.backwards else i
         own[i] = flat.drives[j, 0] * seed[j] + flat.drives[j, 1]
@@ -216,16 +264,16 @@ def _solve(
                 work.q[j * LANES + lane] = (found.values[row, i] - flat.drives[j, 1]) * flat.drives[j, 0]
         good = _polish(flat, goal, work)
         if n == DIRECTIONS and goal.kind == FULL:
-            good = _refine(flat, goal, work, ranking)
+            good = _refine(flat, goal, work, kept)
         for lane in range(min(LANES, candidates - first)):
             if (good >> lane) & 1:
                 read_lane(work.previous, lane, own)
                 if _wound(flat, limits, seed, own):
                     error = work.state[_POSITION * LANES + lane] + work.state[_ORIENTATION * LANES + lane]
-                    ranking.errors[MOST], ranking.labels[0, MOST] = error, found.codes[first + lane]
-                    ranking.labels[1, MOST] = _unmoved(flat, plan, found, work, first + lane, lane)
-                    solutions = _insert(ranking, solutions, flat, seed)
-    return _without_near_misses(ranking, solutions)
+                    kept.errors[MOST], kept.labels[0, MOST] = error, found.codes[first + lane]
+                    kept.labels[1, MOST] = _unmoved(flat, plan, found, work, first + lane, lane)
+                    solutions = _insert(kept, solutions, flat, seed)
+    return _without_near_misses(kept, solutions)
 
 
 @unmanaged
@@ -253,14 +301,14 @@ def _polish(flat: FlatChain, goal: Goal, work: Work) -> int:
 
 
 @unmanaged
-def _refine(flat: FlatChain, goal: Goal, work: Work, ranking: _Ranking) -> int:
+def _refine(flat: FlatChain, goal: Goal, work: Work, kept: _Kept) -> int:
     """Apply Newton's method with J itself to the lanes that are not at rounding yet; return `_good`.
 
     Next to a singularity JJᵀ loses the square of a small singular value, and damped steps stop too early. The solution
     lies along a narrow curved valley in which all equations but one hold. Each step is corrected back into the valley
     before the errors are compared, or every step along it would seem to raise the error.
     """
-    state, share = work.state, ranking.residuals[DIRECTIONS * LANES :]
+    state, share = work.state, kept.residuals[DIRECTIONS * LANES :]
     share[:] = 1.0
     for _ in range(_REFINEMENTS):
         before = load(state, _POSITION) + load(state, _ORIENTATION)
@@ -268,9 +316,9 @@ def _refine(flat: FlatChain, goal: Goal, work: Work, ranking: _Ranking) -> int:
             break
         for j in range(DIRECTIONS):
             store(work.q, j, load(work.previous, j))
-        _newton_step(flat, goal, work, ranking, _SINGULAR)
+        _newton_step(flat, goal, work, kept, _SINGULAR)
         for _ in range(_CORRECTIONS):
-            _newton_step(flat, goal, work, ranking, _WEAK)
+            _newton_step(flat, goal, work, kept, _WEAK)
         e = linearise(flat, goal, work)
         position, orientation = squares(e)
         better = position + orientation < before
@@ -290,20 +338,20 @@ def _good(goal: Goal, work: Work) -> int:
 
 
 @unmanaged
-def _newton_step(flat: FlatChain, goal: Goal, work: Work, ranking: _Ranking, least: float) -> None:
+def _newton_step(flat: FlatChain, goal: Goal, work: Work, kept: _Kept, least: float) -> None:
     """Step the lanes that are not at rounding, ignoring pivots below a share of the largest."""
-    A, share = ranking.system, ranking.residuals[DIRECTIONS * LANES :]
+    A, share = kept.system, kept.residuals[DIRECTIONS * LANES :]
     e = linearise(flat, goal, work)
     for k in range(DIRECTIONS):
-        store(ranking.residuals, k, e[k])
+        store(kept.residuals, k, e[k])
     for lane in range(LANES):
         if work.state[_POSITION * LANES + lane] + work.state[_ORIENTATION * LANES + lane] <= _PERFECT:
             continue
         for k in range(DIRECTIONS):
             for j in range(DIRECTIONS):
                 A[k, j] = work.J[(6 * j + k) * LANES + lane]
-            A[k, DIRECTIONS] = ranking.residuals[k * LANES + lane]
-        _eliminate(A, ranking.order, least)
+            A[k, DIRECTIONS] = kept.residuals[k * LANES + lane]
+        _eliminate(A, kept.order, least)
         factor = share[lane] if least <= _SINGULAR else 1.0
         for j in range(DIRECTIONS):
             work.q[j * LANES + lane] += factor * A[j, DIRECTIONS]
@@ -369,50 +417,50 @@ def _unmoved(flat: FlatChain, plan: SubproblemPlan, found: Candidates, work: Wor
 
 
 @unmanaged
-def _insert(ranking: _Ranking, count: int, flat: FlatChain, seed: Array) -> int:
+def _insert(kept: _Kept, count: int, flat: FlatChain, seed: Array) -> int:
     """Insert the spare row in the sorted solutions unless it is a duplicate; return their number."""
-    own = ranking.qs[MOST]
+    own = kept.qs[MOST]
     distance = 0.0
     for j in range(len(seed)):
         distance += (own[j] - seed[j]) ** 2
     for k in range(count):
         apart = 0.0
         for j in range(len(seed)):
-            difference = abs(ranking.qs[k, j] - own[j])
+            difference = abs(kept.qs[k, j] - own[j])
             if flat.joints[j, 0] == 0:
                 difference = abs(difference - _TURN * np.rint(difference / _TURN))
             apart = max(apart, difference)
         if apart <= _SAME:
-            ranking.labels[1, k] |= ranking.labels[1, MOST]
+            kept.labels[1, k] |= kept.labels[1, MOST]
             return count
-    ranking.distances[MOST] = distance
+    kept.distances[MOST] = distance
     place = count
-    while place > 0 and ranking.distances[place - 1] > distance:
-        _copy(ranking, place - 1, place)
+    while place > 0 and kept.distances[place - 1] > distance:
+        _copy(kept, place - 1, place)
         place -= 1
-    _copy(ranking, MOST, place)
+    _copy(kept, MOST, place)
     return count + 1
 
 
 @inlined
-def _copy(ranking: _Ranking, source: int, place: int) -> None:
-    for j in range(ranking.qs.shape[1]):
-        ranking.qs[place, j] = ranking.qs[source, j]
-    ranking.distances[place], ranking.errors[place] = ranking.distances[source], ranking.errors[source]
-    ranking.labels[0, place], ranking.labels[1, place] = ranking.labels[0, source], ranking.labels[1, source]
+def _copy(kept: _Kept, source: int, place: int) -> None:
+    for j in range(kept.qs.shape[1]):
+        kept.qs[place, j] = kept.qs[source, j]
+    kept.distances[place], kept.errors[place] = kept.distances[source], kept.errors[source]
+    kept.labels[0, place], kept.labels[1, place] = kept.labels[0, source], kept.labels[1, source]
 
 
 @inlined
-def _without_near_misses(ranking: _Ranking, count: int) -> int:
+def _without_near_misses(kept: _Kept, count: int) -> int:
     """If a solution is exact, drop those that are only within the tolerances; return the number left."""
     least = np.inf
     for k in range(count):
-        least = min(least, ranking.errors[k])
+        least = min(least, kept.errors[k])
     if least > _EXACT:
         return count
     left = 0
     for k in range(count):
-        if ranking.errors[k] <= _EXACT:
-            _copy(ranking, k, left)
+        if kept.errors[k] <= _EXACT:
+            _copy(kept, k, left)
             left += 1
     return left

@@ -358,10 +358,10 @@ def _basis(slides: int, q: float) -> Coefficients:
 
 
 @inlined
-def _roots_of(slides: int, g: Coefficients, otherwise: float) -> tuple[float, float, bool, bool]:
-    """Solve a function of joint 3 for zeros, see `turns_at`; also flag a zero function, whose root is `otherwise`."""
+def _roots_of(slides: int, g: Coefficients, kept: float) -> tuple[float, float, bool, bool]:
+    """Solve a function of joint 3 for zeros, see `turns_at`; also flag a zero function, whose root is `kept`."""
     if abs(g[0]) + abs(g[1]) + abs(g[2]) < _NO_ARM * _NO_ARM:
-        return otherwise, 0.0, True, True
+        return kept, 0.0, True, True
     if slides:
         middle, half, good = slides_at(g[2], g[1], g[0])
     else:
@@ -605,9 +605,9 @@ def _in_plane(
     b, across, level = turned(h5, -q5, h), cross(h6, turned(h5, -q5, h)), cross(h6, g)
     if side != 0.0 and dot(across, across) < _NEARLY_FLAT * _NEARLY_FLAT:
         b = _by_lean(b, h5, h6, side, dot(level, level))
-    is_determined = dot(across, across) >= _FLAT * _FLAT or dot(level, level) >= _NO_ARM * _NO_ARM
+    told = dot(across, across) >= _FLAT * _FLAT or dot(level, level) >= _NO_ARM * _NO_ARM
     before = count
-    if is_determined:
+    if told:
         q6 = angle_onto(h6, g, b)
         count = _planar(plan, M, q1, angle_onto(h5, turned(h6, q6, g), h), q6, 0, code, seed, found, count)
         if side != 0.0 or dot(level, level) >= _OF_DOUBLE_ROOT * _OF_DOUBLE_ROOT:

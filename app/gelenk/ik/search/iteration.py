@@ -252,12 +252,12 @@ def descend(goal: Goal, work: Work, e: Error, damping: Lanes, keep: Lanes, most:
         longest = max_lanes(longest, abs_lanes(step))
         store(J, 6 * j, step)
     scale = most / longest
-    moves = keep > 0.5
+    kept = keep > 0.5
     for j in range(n):
         q, before = load(work.q, j), load(work.previous, j)
         after = min_lanes(max_lanes(q + scale * load(J, 6 * j), goal.bounds[0, j]), goal.bounds[1, j])
-        store(work.q, j, where(moves, after, before))
-        store(work.previous, j, where(moves, q, before))
+        store(work.q, j, where(kept, after, before))
+        store(work.previous, j, where(kept, q, before))
 
 
 @inlined

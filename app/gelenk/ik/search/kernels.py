@@ -26,8 +26,6 @@ from gelenk.ik.search.iteration import (
     linearise,
     read_lane,
     set_target,
-    squares,
-    within,
     workspace,
     wound,
 )
@@ -78,7 +76,8 @@ def search(
         iterations, shape (N,); and k if the seed was followed closely with initial damping 10⁻ᵏ, else -1, shape (N,).
     """
     # Passing a tuple to a compiled function costs much more than passing its parts.
-    qs, outcomes = _search(*flat, *goal, targets, seeds, all_or_none)
+    arguments: tuple[Any, ...] = (*flat, *goal, targets, seeds, all_or_none)
+    qs, outcomes = _search(*arguments)
     return qs, outcomes[0], outcomes[1], outcomes[2]
 
 
@@ -87,12 +86,31 @@ def gather(flat: FlatChain, goal: Goal, target: Array, seed: Array) -> Array:
 
     The seed is the first start; for the others see `search`.
     """
-    return _gather(*flat, *goal, target, seed)
+    arguments: tuple[Any, ...] = (*flat, *goal, target, seed)
+    found: Array = _gather(*arguments)
+    return found
 
 
 @compiled
-def _search(*parts: Any) -> tuple[Array, Indices]:
-    flat, goal, (targets, seeds, all_or_none) = FlatChain(*parts[:3]), Goal(*parts[3:12]), parts[12:]
+def _search(
+    placements: Array,
+    joints: Indices,
+    drives: Array,
+    bounds: Array,
+    weights: Array,
+    kind: int,
+    axis: int,
+    position_tolerance: float,
+    chord_tolerance: float,
+    slack: float,
+    starts: int,
+    random_seed: int,
+    targets: Array,
+    seeds: Array,
+    all_or_none: bool,
+) -> tuple[Array, Indices]:
+    flat = FlatChain(placements, joints, drives)
+    goal = Goal(bounds, weights, kind, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
     count, n = len(targets), seeds.shape[1]
     qs, outcomes = np.empty((count, n)), np.empty((3, count), np.int64)
     work = workspace(flat, n)
@@ -101,9 +119,25 @@ def _search(*parts: Any) -> tuple[Array, Indices]:
 
 
 @compiled
-def _gather(*parts: Any) -> Array:
-    flat, goal, (target, seed) = FlatChain(*parts[:3]), Goal(*parts[3:12]), parts[12:]
-    found = np.empty((goal.starts, len(seed)))
+def _gather(
+    placements: Array,
+    joints: Indices,
+    drives: Array,
+    bounds: Array,
+    weights: Array,
+    kind: int,
+    axis: int,
+    position_tolerance: float,
+    chord_tolerance: float,
+    slack: float,
+    starts: int,
+    random_seed: int,
+    target: Array,
+    seed: Array,
+) -> Array:
+    flat = FlatChain(placements, joints, drives)
+    goal = Goal(bounds, weights, kind, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
+    found = np.empty((starts, len(seed)))
     return found[: _gather_all(flat, goal, target, seed, workspace(flat, len(seed)), found)]
 
 
@@ -356,15 +390,17 @@ def _improve(
     least, idle = lanes(np.inf), 0
     for round_ in range(rounds):
         e = linearise(flat, goal, work, as_angles)
-        position, orientation = squares(e)
+        position = e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
+        orientation = e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
         error = position + orientation
         better = error <= least
         idle = 0 if bits(error < least - 1e-9 * min_lanes(least, 1.0)) else idle + 1
         if idle == _IDLE:
             break
         least = where(better, error, least)
-        is_reached, reached = within(goal, position, orientation), load(work.state, REACHED)
-        store(work.state, REACHED, where(is_reached & (reached < 0.5), float(round_ + 1), reached))
+        within = (position <= goal.position_tolerance**2) & (orientation <= goal.chord_tolerance**2)
+        reached = load(work.state, REACHED)
+        store(work.state, REACHED, where(within & (reached < 0.5), float(round_ + 1), reached))
         store(work.state, _POSITION, where(better, position, load(work.state, _POSITION)))
         store(work.state, _ORIENTATION, where(better, orientation, load(work.state, _ORIENTATION)))
         damping = where(better, max_lanes(0.25 * damping, FLOOR), min_lanes(10.0 * damping, 1e6))
@@ -453,9 +489,9 @@ def _judge(flat: FlatChain, goal: Goal, work: Work) -> tuple[int, Error, Lanes]:
     """Return bits of the lanes that have ended at `q`, see `_iterate`, and error and damping of the next step."""
     state = work.state
     e = linearise(flat, goal, work)
-    position, orientation = squares(e)
+    position, orientation = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
     error = position + orientation
-    is_reached = within(goal, position, orientation)
+    within = (position <= goal.position_tolerance**2) & (orientation <= goal.chord_tolerance**2)
     if goal.slack > 0.0:
         a = _shortening(position, goal.slack * goal.position_tolerance)
         b = _shortening(orientation, goal.slack * goal.chord_tolerance)
@@ -472,13 +508,13 @@ def _judge(flat: FlatChain, goal: Goal, work: Work) -> tuple[int, Error, Lanes]:
     given_up = (since >= float(_STAGNATION)) | (count >= float(LONGEST))
     # One more step than needed takes the error from the tolerance to rounding.
     near = (position <= (CLOSE * goal.position_tolerance) ** 2) & (orientation <= (CLOSE * goal.chord_tolerance) ** 2)
-    converged = is_reached & ((load(state, REACHED) > 0.5) | given_up | near)
+    converged = within & ((load(state, REACHED) > 0.5) | given_up | near)
     store(state, ERROR, error)
     store(state, FIRST, where(load(state, FIRST) < 0.0, error, load(state, FIRST)))
     store(state, BEST, where(halved, error, load(state, BEST)))
     store(state, SINCE, since)
     store(state, COUNT, count)
-    store(state, REACHED, where(is_reached, 1.0, 0.0))
+    store(state, REACHED, where(within, 1.0, 0.0))
     return bits(converged | given_up) | (bits(converged) << LANES), e, DAMPING * error + FLOOR
 
 

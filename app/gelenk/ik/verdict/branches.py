@@ -83,15 +83,15 @@ def all_branches(problem: TargetProblem, i: int, *, windings: bool = False) -> B
 
 def _without_doubles(problem: TargetProblem, i: int, qs: Array) -> Array:
     """Drop solutions whose midpoint to an earlier one is a solution too, as at a singularity; shape (k, n)."""
-    chosen: list[int] = []
+    kept: list[int] = []
     for k in range(len(qs)):
-        differences = whole_turns_removed(problem.chain, qs[chosen] - qs[k])
+        differences = whole_turns_removed(problem.chain, qs[kept] - qs[k])
         near = differences[np.abs(differences).max(axis=1, initial=0.0) <= _NEIGHBOURS]
         middles = Poses(*chain_poses(problem.chain.flat, qs[k] + 0.5 * near))
         errors = problem.task.errors(problem.taken(np.full(len(near), i)).targets, middles)
         if not (problem.tolerances >= errors.T).all(axis=1).any():
-            chosen.append(k)
-    return qs[chosen]
+            kept.append(k)
+    return qs[kept]
 
 
 def _converged(problem: TargetProblem, i: int) -> Array:
