@@ -75,7 +75,7 @@ def service_that_writes(
 
 
 def wait_until_ready(url: str, run: subprocess.Popen[str]) -> None:
-    deadline = time.monotonic() + 120
+    deadline = time.monotonic() + 300  # Kernels may have to be compiled.
     while time.monotonic() < deadline:
         assert run.poll() is None, "the service has ended"
         try:

@@ -2,6 +2,8 @@
 
 import math
 from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 
 import numpy as np
 
@@ -17,7 +19,7 @@ from gelenk.kinematics.simd.kernels import chain_measures
 from gelenk.kinematics.velocity.jacobian import jacobians
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
-from gelenk.robot.compilation import note_stored
+from gelenk.robot.compilation import is_stored, note_stored
 from gelenk.robot.configuration import configurations
 from gelenk.robot.dh import DhJoint, DhTable
 from gelenk.robot.notations import (
@@ -118,3 +120,10 @@ def _answers() -> None:
 
 PARTS = (_closed_forms, _searches, _motions)
 """Parts that separate processes can compile after `basics`; the rest takes seconds."""
+
+if __name__ == "__main__" and not is_stored():
+    basics()
+    with ProcessPoolExecutor(mp_context=get_context("fork")) as processes:
+        for compiled in [processes.submit(part) for part in PARTS]:
+            compiled.result()
+    warm_up()

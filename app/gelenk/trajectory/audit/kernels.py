@@ -181,7 +181,7 @@ def _make_orthogonal(vectors: Array, a: int, b: int, length: int) -> int:
     for k in range(length):
         x, y = load(vectors, a + k), load(vectors, b + k)
         aa, ab, bb = aa + x * x, ab + x * y, bb + y * y
-    askew = bits(ab * ab > (_ORTHOGONAL * _ORTHOGONAL) * (aa * bb))
+    askew: int = bits(ab * ab > (_ORTHOGONAL * _ORTHOGONAL) * (aa * bb))
     if askew:
         half = 0.5 * (bb - aa)
         size = abs_lanes(half) + sqrt_lanes(half * half + ab * ab) + _TINY
