@@ -97,7 +97,7 @@ def test_nothing_is_missing_and_nothing_stands_twice() -> None:
 
 def test_the_committed_reference_is_current(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without a service; `./dev handbook` compares the answers of calls too."""
-    idle = SimpleNamespace(run=lambda *_: "", robots=lambda: SimpleNamespace(robots=[]))
+    idle = SimpleNamespace(run=lambda *_: "", sent=[], robots=lambda: SimpleNamespace(robots=[]))
     for name, stand_in in (("schema", document), ("Session", lambda _: idle), ("service", lambda: idle)):
         monkeypatch.setattr(committed, name, stand_in)
     committed.reference.cache_clear()

@@ -282,7 +282,7 @@ def test_the_steps_show_the_system() -> None:
     found = cubic_spline(*LECTURE, "clamped")
     steps = spline_steps(found, "clamped")
     text = "\n".join(line for step in steps for line in step.latex)
-    assert r"A = \begin{bmatrix}6 & 2 \\ 2 & 6\end{bmatrix}" in text
+    assert r"A = \begin{bmatrix} 6 & 2 \\ 2 & 6 \end{bmatrix}" in text
     assert "-1.914408023" in text
     assert "12 coefficients; 6 positions and 4 continuities" in steps[0].text
     assert "q_f = (0.4352918283" in "\n".join(

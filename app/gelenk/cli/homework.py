@@ -8,9 +8,9 @@ import typer
 
 from gelenk.cli.files.outputs import AnswerRows
 from gelenk.cli.session import session
-from gelenk.contract.sheets import Content
 from gelenk.errors import InvalidField
 from gelenk.language import Language
+from gelenk.sheets.bounds import Content
 
 if TYPE_CHECKING:
     from gelenk.cli.session import Session

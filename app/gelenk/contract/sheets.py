@@ -1,13 +1,12 @@
 """Homework: the sheets of a class, and the grades of its answers."""
 
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated
 
 from pydantic import Field
 
 from gelenk.contract.options import InLanguage
-from gelenk.sheets.bounds import MAX_LABEL, MAX_VARIANTS
+from gelenk.sheets.bounds import MAX_LABEL, MAX_VARIANTS, Content
 
-Content: TypeAlias = Literal["sheets", "solutions"]
 MAX_EXERCISES = 50
 MAX_CSV = 4 * 1024 * 1024
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from starlette.responses import Response
 
-from gelenk.contract.sheets import MAX_CSV, Content, SheetsGradeRequest, SheetsRequest
+from gelenk.contract.sheets import MAX_CSV, SheetsGradeRequest, SheetsRequest
 from gelenk.errors import InvalidField, TooLarge
 from gelenk.http.messages.openapi import documentation
 from gelenk.http.messages.payloads import CSV, JSON, BoundedRequest, read_json
@@ -16,6 +16,7 @@ from gelenk.http.messages.routes import DocumentedRoute
 from gelenk.http.workers.pool_client import PoolClient
 from gelenk.http.workers.task import Context, TaskRequest, buffers
 from gelenk.language import language
+from gelenk.sheets.bounds import Content
 from gelenk.sheets.bundle import bundle
 from gelenk.sheets.grades import grades_table
 from gelenk.sheets.homework import Homework

@@ -92,7 +92,7 @@ def checked(robot: RobotModel, call: TrajectoryRequest, bounds: TrajectorySizeLi
 
 
 @dataclass(frozen=True, slots=True)
-class Samples:
+class MotionSamples:
     """A motion at times (N,), [s]: positions, velocities and accelerations, shape (N, n) each, and the tip's poses."""
 
     times: Array
@@ -149,13 +149,13 @@ class PlannedTrajectory:
         """Return time, positions, velocities and accelerations side by side; shape (N, 1 + 3n)."""
         return np.column_stack((times, *self.found.motion.rates_at(times)))
 
-    def samples(self, times: Array) -> "Samples":
+    def samples(self, times: Array) -> "MotionSamples":
         """Return the motion at some times, with the poses if they are requested."""
         rates = self.found.motion.rates_at(times)
         poses = Poses(*chain_poses(self.chain.flat, rates[0])) if self.call.tip_poses else None
-        return Samples(times, rates, poses)
+        return MotionSamples(times, rates, poses)
 
-    def certificate(self, samples: "Samples") -> PoseCertificate | None:
+    def certificate(self, samples: "MotionSamples") -> PoseCertificate | None:
         """Compare the poses with Pinocchio's; raises CertificationFailed. None if they are not sent."""
         if samples.poses is None:
             return None

@@ -77,7 +77,7 @@ def _start(chain: Chain, call: TrajectoryRequest, state: Array | None) -> Array:
     """Return where the motion begins, by the request or in the state of a running motion; shape (n,), [rad or m]."""
     if state is None:
         if call.start is None:
-            raise InvalidField("start", "is missing: give it, or a running motion with `at`")
+            raise InvalidField("start", "is missing: give a list of one number per joint, or a running motion as `at`")
         return _within(chain, call.start, "start")
     for name in ("start", "start_velocities", "start_accelerations"):
         if getattr(call, name) is not None:

@@ -1,4 +1,8 @@
-"""Bounds of a homework, which its requests state."""
+"""Kinds and bounds of a homework, which its requests state."""
+
+from typing import Literal, TypeAlias
+
+Content: TypeAlias = Literal["sheets", "solutions"]
 
 MAX_VARIANTS = 300
 """Most participants times exercises: what a worker writes within a minute, if each has a picture of its own."""

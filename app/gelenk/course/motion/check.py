@@ -7,14 +7,17 @@ searches motions elsewhere.
 
 from dataclasses import dataclass
 from math import comb, factorial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gelenk.errors import certify
 from gelenk.robot.arrays import Array
 from gelenk.robot.result import Result
-from gelenk.trajectory.motion.extremes import Peaks
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+
+if TYPE_CHECKING:  # The contract holds the certificate, and a client needs no compiler.
+    from gelenk.trajectory.motion.extremes import Peaks
+    from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 TOLERANCE = 1e-9
 _LOST = 1e-4
@@ -38,7 +41,7 @@ class MotionClaims:
     start_rates: Array
     end_rates: Array
     continuity: int
-    peaks: dict[int, Peaks]
+    peaks: dict[int, "Peaks"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +68,7 @@ class MotionCertificate(Result):
     samples: int
 
 
-def certified(motion: PiecewisePolynomial, promise: MotionClaims) -> MotionCertificate:
+def certified(motion: "PiecewisePolynomial", promise: MotionClaims) -> MotionCertificate:
     """Compare a motion with the claims about it; raises CertificationFailed if an error exceeds rounding."""
     if motion.duration == 0.0:
         error = float(np.abs(motion.coefficients[0, 0] - promise.points).max(initial=0.0))
@@ -83,7 +86,7 @@ def certified(motion: PiecewisePolynomial, promise: MotionClaims) -> MotionCerti
     return found
 
 
-def _compared(motion: PiecewisePolynomial, promise: MotionClaims) -> MotionCertificate:
+def _compared(motion: "PiecewisePolynomial", promise: MotionClaims) -> MotionCertificate:
     starts, control, lengths = motion.coefficients[:, 0], _control_points(motion), np.diff(motion.breaks)
     orders = max(promise.continuity, len(promise.start_rates), len(promise.end_rates), *promise.peaks, 1)
     derived = [_derivative(control, lengths, order) for order in range(orders + 1)]
@@ -114,7 +117,7 @@ def _relative(errors: Array, scale: Array) -> float:
     return float(ratios.max(initial=0.0))
 
 
-def _control_points(motion: PiecewisePolynomial) -> Array:
+def _control_points(motion: "PiecewisePolynomial") -> Array:
     """Return the Bézier control points of each piece, relative to its start; shape (M, d + 1, n)."""
     size = motion.coefficients.shape[1]
     change = np.zeros((size, size))
@@ -157,7 +160,7 @@ def _at(starts: Array, control: Array, breaks: Array, times: Array) -> Array:
     return starts[i] + _casteljau(control[i], u[:, None, None])
 
 
-def _peak_error(control: Array, breaks: Array, peak: Peaks, scale: Array) -> float:
+def _peak_error(control: Array, breaks: Array, peak: "Peaks", scale: Array) -> float:
     """Return how far a value on a grid exceeds a peak, or the value at the peak's time differs from it."""
     u = np.linspace(0.0, 1.0, _PARTS + 1)[:, None, None, None]
     largest = np.abs(_casteljau(control, u)).reshape(-1, control.shape[2]).max(axis=0)

@@ -14,9 +14,8 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from gelenk.robot.arrays import Array, Flags, Indices
+from gelenk.robot.arrays import Array, Flags, Indices, cross_matrices
 from gelenk.robot.chain import FlatChain
-from gelenk.robot.cross_products import cross_matrices
 from gelenk.robot.dh import Convention, DhTable
 from gelenk.robot.notations import rotations_from_vectors, vectors_from_rotations
 

@@ -16,9 +16,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
-from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.arrays import Array, Indices, cross_matrices
 from gelenk.robot.chain import Chain, FlatChain, build_chain
-from gelenk.robot.cross_products import cross_matrices
 from gelenk.robot.description import MOVABLE, Description, Inertial, Joint, Link
 from gelenk.robot.notations import origin_of, placement, rotations_from_vectors
 from gelenk.robot.poses import transform

@@ -16,9 +16,8 @@ import numpy as np
 from gelenk.kinematics.judge.motion import certify_motion
 from gelenk.kinematics.judge.words import Reference, TipMotionCertificate
 from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
-from gelenk.robot.arrays import Array, Flags
+from gelenk.robot.arrays import Array, Flags, cross_matrices
 from gelenk.robot.chain import Chain, FlatChain
-from gelenk.robot.cross_products import cross_matrices
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 

@@ -12,9 +12,8 @@ import numpy as np
 from gelenk.ik.search.linearise import linearise
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
-from gelenk.robot.arrays import Array
+from gelenk.robot.arrays import Array, cross_matrices
 from gelenk.robot.chain import Chain
-from gelenk.robot.cross_products import cross_matrices
 from gelenk.trajectory.paths.paths import PathSamples
 
 _SMALL = 0.1

@@ -12,7 +12,6 @@ from math import comb, factorial
 import numpy as np
 
 from gelenk.robot.arrays import Array
-from gelenk.robot.compilation import compiled
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,8 +49,10 @@ class PiecewisePolynomial:
         return list(self._evaluated(times, 2))
 
     def _evaluated(self, times: Array, order: int) -> Array:
+        from gelenk.trajectory.motion.evaluation import evaluated  # noqa: PLC0415 - a client has no compiler
+
         c, t = np.ascontiguousarray(self.coefficients), np.ascontiguousarray(times, dtype=float)
-        return _evaluated(np.ascontiguousarray(self.breaks), c, t, order)
+        return evaluated(np.ascontiguousarray(self.breaks), c, t, order)
 
     def scaled(self, factor: float) -> "PiecewisePolynomial":
         """Return the same path in `factor` times the time: velocities scale by 1/factor, accelerations by 1/factor²."""
@@ -63,24 +64,6 @@ class PiecewisePolynomial:
         """Return a motion from time 0 on, scaled to end at exactly `duration`, [s]."""
         scaled = self.scaled(duration / self.duration)
         return PiecewisePolynomial(np.append(scaled.breaks[:-1], duration), scaled.coefficients)
-
-
-@compiled
-def _evaluated(breaks: Array, coefficients: Array, times: Array, order: int) -> Array:
-    """Evaluate values and derivatives up to `order`, 2 at most, by Horner's scheme; shape (order + 1, N, n)."""
-    _, size, n = coefficients.shape
-    found, inner = np.zeros((order + 1, len(times), n)), breaks[1:-1]
-    for i in range(len(times)):
-        piece = np.searchsorted(inner, times[i], side="right")
-        local = times[i] - breaks[piece]
-        for k in range(size - 1, -1, -1):
-            for j in range(n):
-                if order > 1:
-                    found[2, i, j] = found[2, i, j] * local + 2.0 * found[1, i, j]
-                if order > 0:
-                    found[1, i, j] = found[1, i, j] * local + found[0, i, j]
-                found[0, i, j] = found[0, i, j] * local + coefficients[piece, k, j]
-    return found
 
 
 def joined(parts: Sequence[PiecewisePolynomial]) -> PiecewisePolynomial:

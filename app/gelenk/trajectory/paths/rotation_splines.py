@@ -14,8 +14,7 @@ from typing import TypeAlias, cast
 
 import numpy as np
 
-from gelenk.robot.arrays import Array
-from gelenk.robot.cross_products import cross_matrices
+from gelenk.robot.arrays import Array, cross_matrices
 from gelenk.robot.notations import rotations_from_vectors, vectors_from_rotations
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.paths.orientation_paths import travelled
