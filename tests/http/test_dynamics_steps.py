@@ -16,8 +16,8 @@ LOAD = {"payload": {"mass": 0.5, "center_of_mass": [0.0, 0.01, 0.05]}}
 PUSH = {"wrenches": [[1.0, 2.0, 3.0, 0.1, 0.2, 0.3]]}
 
 
-def asked(name: str, **options: Any) -> dict[str, Any]:
-    """A state of a robot, drawn at random."""
+def state(name: str, **options: Any) -> dict[str, Any]:
+    """Fields of a state of a robot, drawn at random."""
     q, v = np.random.default_rng(3).uniform(-1.0, 1.0, (2, len(robot(name).chain(None, None)))).tolist()
     return {"joint_positions": [q], "joint_velocities": [v], **options}
 
@@ -32,7 +32,7 @@ def titled(answer: dict[str, Any]) -> dict[str, list[str]]:
 def test_each_term_is_that_of_pinocchio(client: TestClient, name: str, options: dict[str, Any]) -> None:
     n = len(robot(name).chain(None, None))
     a = np.linspace(-1.0, 1.0, n).tolist()
-    call = asked(name, **options)
+    call = state(name, **options)
     answer = post(client, "dynamics", name, **call, joint_accelerations=[a], steps=True)
     steps = titled(answer)
     scale = 1e-9 * max(1.0, np.abs(answer["torques"][0]).max())
@@ -54,7 +54,7 @@ def plain(symbol: str) -> str:
 @pytest.mark.parametrize("name", ["double_pendulum_simple", "asr_twodof", "planar_2r"])
 def test_a_short_planar_arm_moves_by_the_equations_in_symbols(client: TestClient, name: str) -> None:
     """Their symbols with the values beside them make the mass matrix and the gravity torques of the robot."""
-    call = asked(name, gravity=[1.0, -9.0, -3.0])
+    call = state(name, gravity=[1.0, -9.0, -3.0])
     answer = post(client, "dynamics", name, **call, steps=True)
     steps = titled(answer)
     shown = dict(line.split(" = ") for line in steps["The symbols"][0].split(r",\quad "))
@@ -75,4 +75,4 @@ def test_a_short_planar_arm_moves_by_the_equations_in_symbols(client: TestClient
 
 def test_longer_arms_and_loaded_ones_have_numbers_only(client: TestClient) -> None:
     for name, options in (("scara", {}), ("planar_2r", LOAD)):
-        assert "The symbols" not in titled(post(client, "dynamics", name, **asked(name, **options), steps=True))
+        assert "The symbols" not in titled(post(client, "dynamics", name, **state(name, **options), steps=True))

@@ -2,7 +2,7 @@
 
 A polynomial and a cubic spline depend linearly on what is given at their ends: with λ = t/T their coefficients are
 C₀ + T C₁ + T² C₂, one part each for the positions, velocities and accelerations. More time does not always mean less of
-each quantity, so the least time within the limits is the first of a grid that keeps them, refined.
+each quantity, so the duration is the first of a grid that keeps the limits, refined; a shorter one may be missed.
 """
 
 from dataclasses import dataclass
@@ -86,23 +86,23 @@ def _motion(chain: Chain, start: Array, target: Array | None, segment: Segment, 
 
 
 def _within_limits(family: "_Family", segment: Segment, ends: EndRates, given: float | None) -> PiecewisePolynomial:
-    """Return the motion of the least duration, or of the given one, [s], if it keeps the limits."""
-    kept = _kept(segment)
+    """Return the motion of the least duration found, or of the given one, [s], if it keeps the limits."""
+    bounds = _scaling_limits(segment)
     if given is None:
-        return family.at(_least(family, kept, ends))
+        return family.at(_least(family, bounds, ends))
     motion = family.at(given)
-    bound = uniform_scaling(motion, kept).binding
+    bound = uniform_scaling(motion, bounds).binding
     if bound.ratio > 1.0 + _EXCESS:
         reason = f"joint {bound.joint} would reach {bound.ratio:.6g} times its limit of {bound.quantity}"
-        least = _least(family, kept, ends)
+        least = _least(family, bounds, ends)
         raise InvalidField(
             "duration" if segment.times is None else "times",
-            f"{reason}; the least time within limits is {least:.10g} s",
+            f"{reason}; {least:.10g} s keeps the limits",
         )
     return motion
 
 
-def _kept(segment: Segment) -> ScalingLimits:
+def _scaling_limits(segment: Segment) -> ScalingLimits:
     limits = segment.limits
     jerk = limits.jerk if LAWS[segment.law].keeps_jerk else segment.stated_jerk
     return ScalingLimits(limits.velocity, limits.acceleration, jerk)
@@ -146,32 +146,32 @@ class _Family:
         c = np.tensordot(duration ** np.arange(3), self.parts, 1)
         return PiecewisePolynomial(duration * self.breaks, c / duration ** np.arange(c.shape[1])[:, None])
 
-    def ratios(self, durations: Array, kept: ScalingLimits) -> Array:
+    def ratios(self, durations: Array, bounds: ScalingLimits) -> Array:
         """Return the largest ratio to a limit in each duration; shape (K,)."""
         motion = joined([self.at(duration) for duration in durations])
         found = np.zeros(len(durations))
-        for order, limits in enumerate((kept.velocity, kept.acceleration, kept.jerk), start=1):
+        for order, limits in enumerate((bounds.velocity, bounds.acceleration, bounds.jerk), start=1):
             if limits is not None:
                 ratios = np.abs(candidates(motion.derivative(order))[1]) / limits
                 found = np.maximum(found, ratios.reshape(len(durations), -1).max(axis=1))
         return found
 
 
-def _least(family: _Family, kept: ScalingLimits, ends: EndRates) -> float:
-    """Return the least duration that keeps the limits, [s]; `InvalidField` without one."""
+def _least(family: _Family, bounds: ScalingLimits, ends: EndRates) -> float:
+    """Return the least duration on the grid that keeps the limits, [s]; raises InvalidField if none does."""
     rest = PiecewisePolynomial(family.breaks, family.parts[0])
-    scale = uniform_scaling(rest, kept).binding.factor
+    scale = uniform_scaling(rest, bounds).binding.factor
     for order, rates in enumerate(
         ((ends.start_velocity, ends.end_velocity), (ends.start_acceleration, ends.end_acceleration))
     ):
-        limits = (kept.acceleration, kept.jerk)[order]
+        limits = (bounds.acceleration, bounds.jerk)[order]
         if limits is not None:
             scale = max(scale, float((np.abs(rates).sum(axis=0) / limits).max()))
     durations = np.geomspace(_SHORTEST * scale, _LONGEST * scale, _DURATIONS)
     for _ in range(_ZOOMS):
-        good = np.flatnonzero(family.ratios(durations, kept) <= 1.0 + _EXCESS)
+        good = np.flatnonzero(family.ratios(durations, bounds) <= 1.0 + _EXCESS)
         if len(good) == 0:
-            reason = "with it this law keeps the limits in no time: take smaller values, or the law `jerk_limited`"
+            reason = "no duration was found that keeps the limits: take smaller values, or the law `jerk_limited`"
             raise InvalidField(given_rates(ends), reason)
         i = int(good[0])
         least = float(durations[i])
