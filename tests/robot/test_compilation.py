@@ -58,12 +58,28 @@ def test_a_limit_of_time_does_not_count_compiling(
 
 
 def test_the_cache_knows_every_source_that_kernels_are_made_of() -> None:
-    """A change of any of them is a new folder: numba itself looks at the file of a function alone."""
+    """Numba itself looks at the file of a function alone."""
     package = Path(compilation.__file__).parents[1]
     decorated = re.compile(r"^@(compiled|unmanaged|inlined)$", re.MULTILINE)
     defining = {str(p.relative_to(package)) for p in package.rglob("*.py") if decorated.search(p.read_text("utf-8"))}
     assert len(defining) >= 10
-    assert defining <= compilation.kernel_sources().keys()
+    assert defining <= compilation.kernel_digests().keys()
+
+
+def test_a_change_recompiles_what_it_is_compiled_into_and_nothing_else(monkeypatch: pytest.MonkeyPatch) -> None:
+    sources = {
+        "robot/low.py": b"x = 1",
+        "ik/middle.py": b"from gelenk.robot.low import x",
+        "ik/top.py": b"from gelenk.ik.middle import x\n@compiled\ndef top(): pass",
+        "ik/alone.py": b"@compiled\ndef alone(): pass",
+    }
+    monkeypatch.setattr(compilation, "_sources", lambda: sources)
+    before = compilation.kernel_digests()
+    sources["robot/low.py"] = b"x = 2"
+    after = compilation.kernel_digests()
+    assert before.keys() == {"ik/top.py", "ik/alone.py"}
+    assert before["ik/alone.py"] == after["ik/alone.py"]
+    assert before["ik/top.py"] != after["ik/top.py"]
 
 
 @pytest.mark.slow

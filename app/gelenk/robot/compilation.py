@@ -14,6 +14,7 @@ from typing import Any, TypeVar, cast
 import llvmlite.binding
 import numba
 from numba.core import event
+from numba.core.caching import UserProvidedCacheLocator
 from platformdirs import user_cache_path
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
@@ -23,28 +24,36 @@ _ROOMS = ("robot", "kinematics", "ik", "trajectory")
 _IMPORT = re.compile(rb"^\s*from gelenk\.([\w.]+) import", re.MULTILINE)
 
 
-def kernel_sources() -> dict[str, bytes]:
-    """Return the sources that define kernels and all modules that these import, by their paths in the package.
+def _sources() -> dict[str, bytes]:
+    """Return the sources of the rooms of kernels, by their paths in the package.
 
     `errors` is excluded: kernels raise none of them, and a new error is no reason to recompile.
     """
     package = Path(__file__).parents[1]
-    texts = {path: path.read_bytes() for room in _ROOMS for path in package.glob(f"{room}/**/*.py")}
-    waiting = [path for path, text in texts.items() if _KERNEL.search(text)]
-    sources: set[Path] = set()
+    paths = sorted(path for room in _ROOMS for path in package.glob(f"{room}/**/*.py"))
+    return {path.relative_to(package).as_posix(): path.read_bytes() for path in paths if path.stem != "errors"}
+
+
+def kernel_digests() -> dict[str, str]:
+    """Return a digest for each source that defines kernels: of itself and of all that it imports, directly or not."""
+    sources = _sources()
+    imports = {
+        path: [f"{name.decode().replace('.', '/')}.py" for name in _IMPORT.findall(text)]
+        for path, text in sources.items()
+    }
+    return {path: _digest(path, imports, sources) for path, text in sources.items() if _KERNEL.search(text)}
+
+
+def _digest(path: str, imports: dict[str, list[str]], sources: dict[str, bytes]) -> str:
+    found, waiting = set[str](), [path]
     while waiting:
-        path = waiting.pop()
-        if path in texts and path not in sources and path.stem != "errors":
-            sources.add(path)
-            imported = (name.decode().replace(".", "/") for name in _IMPORT.findall(texts[path]))
-            waiting += [package / f"{name}.py" for name in imported]
-    return {str(path.relative_to(package)): texts[path] for path in sorted(sources)}
-
-
-def _kernel_digest() -> str:
-    digest = hashlib.sha256()
-    for path, text in kernel_sources().items():
-        digest.update(path.encode() + text)
+        one = waiting.pop()
+        if one in sources and one not in found:
+            found.add(one)
+            waiting += imports[one]
+    digest = hashlib.sha256(path.encode())
+    for one in sorted(found):
+        digest.update(one.encode() + sources[one])
     return digest.hexdigest()[:16]
 
 
@@ -58,13 +67,12 @@ def _processor_digest() -> str:
 def _store() -> Path | None:
     """Return the first writable folder: the configured one, else one in the source tree or the user's cache; or None.
 
-    Numba refreshes its cache of a function when the function's own file changes, but not when the file of an inlined
-    function changes. So each version of the sources has its own folder.
+    Each type of processor has a folder of its own in it.
     """
-    given, state = _SETTINGS.CACHE_DIR, f"{_kernel_digest()}-{_processor_digest()}"
+    given = _SETTINGS.CACHE_DIR
     own = (Path(__file__).parents[1] / "__pycache__" / "kernels", user_cache_path("gelenk") / "kernels")
     folders = (Path(given),) if given else own
-    for store in (folder / state for folder in folders):
+    for store in (folder / _processor_digest() for folder in folders):
         with contextlib.suppress(OSError):
             store.mkdir(parents=True, exist_ok=True)
             TemporaryFile(dir=store).close()
@@ -77,10 +85,37 @@ def _store() -> Path | None:
     return None
 
 
+class KernelLocator(UserProvidedCacheLocator):
+    """The place of a kernel's code: a folder for each version of its source and of all that this imports.
+
+    Numba's own looks at the file of a function alone, and not at the files of the functions that it inlines.
+    """
+
+    def __init__(self, function: Any, file: str) -> None:
+        super().__init__(function, file)  # type: ignore[no-untyped-call]
+        self._digest = _DIGESTS[Path(file).relative_to(_PACKAGE).as_posix()]
+        self._cache_path = str(Path(_SETTINGS.CACHE_DIR, self._digest))
+
+    def get_source_stamp(self) -> str:
+        """Return what changes when the code in this place would no longer be the function's."""
+        return self._digest
+
+    @classmethod
+    def from_function(cls, function: Any, file: str) -> Any:
+        """Return the place of a function; None for one that is not the package's."""
+        is_ours = Path(file).is_relative_to(_PACKAGE) and STORE is not None
+        return super().from_function(function, file) if is_ours else None  # type: ignore[no-untyped-call]
+
+
 _SETTINGS: Any = numba.config
+_PACKAGE = Path(__file__).parents[1]
+_DIGESTS = kernel_digests()
 STORE = _store()
 """Folder of the compiled kernels; None if no folder is writable."""
 _SETTINGS.CACHE_DIR = str(STORE or "")
+_SETTINGS.CACHE_LOCATOR_CLASSES = f"{__name__}.KernelLocator,UserProvidedCacheLocator"
+_ALL = f"all-{hashlib.sha256(repr(_DIGESTS).encode()).hexdigest()[:16]}"
+"""Name of the file that says that each kernel of these versions is there."""
 _OPTIONS: dict[str, Any] = {
     "cache": STORE is not None,
     "nogil": True,
@@ -92,14 +127,14 @@ _UNMANAGED: dict[str, Any] = {**_OPTIONS, "_nrt": False}
 
 def is_stored() -> bool:
     """Return whether all kernels have already been compiled for this processor type and only need to be loaded."""
-    return STORE is not None and (STORE / "all").exists()
+    return STORE is not None and (STORE / _ALL).exists()
 
 
 def note_stored() -> None:
     """Record that all kernels have been compiled and stored."""
     if STORE is not None:
         with contextlib.suppress(OSError):
-            (STORE / "all").touch()
+            (STORE / _ALL).touch()
 
 
 _expects_others = False
