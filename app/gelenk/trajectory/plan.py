@@ -19,7 +19,7 @@ from gelenk.trajectory.audit.demands import Demands
 from gelenk.trajectory.audit.result import Audit, TipPeaks
 from gelenk.trajectory.joint_part import joint_part
 from gelenk.trajectory.motion.extremes import peaks
-from gelenk.trajectory.motion.polynomial import joined
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
 from gelenk.trajectory.paths.segment_paths import is_blended
 from gelenk.trajectory.problem.parts import PlannedPart, standing
 from gelenk.trajectory.problem.problem import Segment, Trajectory, TrajectoryProblem
@@ -30,7 +30,7 @@ _SAME_DURATION = 1e-9
 
 _LIMITS = {"velocity", "acceleration", "jerk", "tip"}
 _ROUNDING, _MARGIN = 1e-5, 1e-12
-"""Relative excess over a limit that counts as rounding, and the extra margin when a motion is slowed down to it."""
+"""Relative excess over a limit that counts as rounding, and the least extra margin of a motion slowed down to it."""
 _MOST_REASONS = 4
 """Largest number of reasons that a refusal lists."""
 _MOMENT = 1e-9
@@ -148,7 +148,13 @@ def _with_stated_jerk(part: PlannedPart, problem: TrajectoryProblem) -> PlannedP
                 raise InvalidField(f"segments.{report.index}.{name}", reason)
     law = part.reports[0].law
     note = f"`{law}` keeps no limit of jerk by itself: it takes {factor:.4g} times its time for those that are given"
-    return part.slowed(factor * (1.0 + _MARGIN)).noted((note,))
+    return part.slowed(factor * (1.0 + _margin(part.motion))).noted((note,))
+
+
+def _margin(motion: PiecewisePolynomial) -> float:
+    """Return by how much more to slow a motion down: what the times of its shortest piece lose by rounding."""
+    shortest = float(np.diff(motion.breaks).min())
+    return float(np.clip(4.0 * np.finfo(float).eps * motion.duration / shortest, _MARGIN, _ROUNDING))
 
 
 def _judged(robot: RobotModel, chain: Chain, parts: list[PlannedPart]) -> tuple[list[PlannedPart], list[Audit]]:
@@ -160,7 +166,7 @@ def _judged(robot: RobotModel, chain: Chain, parts: list[PlannedPart]) -> tuple[
             found = audit(robot, chain, part.motion, part.demands)
             excess = _excess(found)
             if 1.0 < excess <= 1.0 + _ROUNDING:
-                part = planned.slowed(excess * (1.0 + _MARGIN))
+                part = planned.slowed(excess * (1.0 + _margin(part.motion)))
                 found = audit(robot, chain, part.motion, part.demands)
             audits.append(found)
             part = part.noted(_of_jerk(part, found))
