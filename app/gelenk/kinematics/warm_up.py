@@ -14,6 +14,7 @@ from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.search.search import search, start_of
 from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.ik.verdict.branches import all_branches
+from gelenk.kinematics.judge.placements import relative_poses, walk_to
 from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.kinematics.simd.kernels import chain_measures
 from gelenk.kinematics.velocity.jacobian import jacobians
@@ -55,6 +56,7 @@ def basics() -> None:
     rotations_from_vectors(vectors_from_rotations(Rs))
     rotations_from_zyz(np.zeros((1, 3)))
     chain_measures(chain.flat, qs, np.arange(3))
+    relative_poses(walk_to(robot, chain.base_frame), walk_to(robot, chain.tip_frame), qs)
 
 
 def _arm(rows: Sequence[tuple[float, float, float, float]]) -> tuple[RobotModel, Chain]:
