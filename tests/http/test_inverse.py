@@ -415,3 +415,19 @@ def test_callers_never_wait_for_a_compilation(client: TestClient) -> None:
         ik(client, "ur5", targets=poses(client, "ur5", within("ur5", 3)), solutions=solutions, seeds=[[0.1] * 6] * 3)
     client.post("/v1/robots/ur5/ik", content=array, headers={"content-type": NPY})
     assert [len(kernel.signatures) for kernel in compiled] == before
+
+
+@pytest.mark.parametrize("name", ["panda", "ur5"])
+def test_many_results_are_encoded_as_few_are(client: TestClient, name: str) -> None:
+    """Many at once are encoded by columns, few one by one: by search and by a closed form, some out of reach."""
+    chain = robot(name).chain(None, None)
+    qs = np.random.default_rng(3).uniform(np.maximum(chain.lower, -3.0), np.minimum(chain.upper, 3.0), (80, len(chain)))
+    poses = client.post(f"/v1/robots/{name}/fk", json={"joint_positions": qs.tolist()}).json()["poses"]
+    for i in (0, 40, 41, 79):
+        poses[i]["position"][0] += 9.0
+
+    def results(targets: list[Any]) -> list[Any]:
+        found: list[Any] = client.post(f"/v1/robots/{name}/ik", json={"targets": targets}).json()["results"]
+        return found
+
+    assert results(poses) == [one for i in range(0, 80, 40) for one in results(poses[i : i + 40])]

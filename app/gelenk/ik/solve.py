@@ -173,7 +173,7 @@ def _one(problem: TargetProblem) -> InverseKinematics:
     if options.objective is not None and found.solved.any():
         found = replace(found, qs=_settled(problem, options.objective, found))
     is_unsettled = options.objective is not None and problem.is_over
-    judgement = judged(problem, found.qs, found.solved, found.in_time)
+    judgement = judged(problem, found.qs, found.solved)
     paths = [_retraced(problem, found, i) for i in range(count)] if options.trace else None
     if is_unsettled:
         traces = [path.trace for path in paths] if paths else [None] * count

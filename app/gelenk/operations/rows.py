@@ -26,24 +26,31 @@ def json_list(pieces: Iterable[bytes]) -> orjson.Fragment:
 
 
 def json_objects(columns: Mapping[str, Array]) -> orjson.Fragment:
-    """Encode the rows of arrays of equal length as a list of objects, each with a field for every array.
+    """Encode the rows of arrays of equal length as a list of objects, each with a field for every array."""
+    return orjson.Fragment(objects(columns))
+
+
+def objects(columns: Mapping[str, Array | list[bytes]], around: bytes = b"%b") -> bytes:
+    """Encode as `json_objects`; a column may be JSON already, and each object takes the place of `%b` in `around`.
 
     The numbers are encoded as lists that are then cut apart, without a Python object for each number.
     """
-    count = len(next(iter(columns.values())))
-    if not count:
-        return orjson.Fragment(b"[]")
-    parts: list[bytes] = [b""] * (2 * len(columns) * count)
-    before, end = b"},{", b"}"
-    for i, (name, array) in enumerate(columns.items()):
-        opening, closing = b"[" * (array.ndim - 1), b"]" * (array.ndim - 1)
-        rows = (b",".join(_inner(_encoded(array))))[len(opening) : -len(closing)].split(closing + b"," + opening)
-        parts[2 * i :: 2 * len(columns)] = [b'%b"%b":%b' % (before, name.encode(), opening)] * count
-        parts[2 * i + 1 :: 2 * len(columns)] = rows
-        before, end = closing + b",", closing + b"}"
-    # The closing brackets of a row stand before the next one.
-    parts[:: 2 * len(columns)] = [parts[0].replace(b"}", end, 1)] * count
-    return orjson.Fragment(b"[" + b"".join(parts)[len(end) + 1 :] + end + b"]")
+    fields, pieces = [], []
+    for name, column in columns.items():
+        depth = 0 if isinstance(column, list) else column.ndim - 1
+        fields.append(b'"%b":%b%%b%b' % (name.encode(), b"[" * depth, b"]" * depth))
+        pieces.append(column if isinstance(column, list) else _pieces(column))
+    row = around.replace(b"%b", b"{%b}" % b",".join(fields))
+    return b"[%b]" % b",".join(map(row.__mod__, zip(*pieces, strict=True)))
+
+
+def _pieces(array: Array) -> list[bytes]:
+    """Encode each row of an array, without the brackets around it."""
+    if not len(array):
+        return []
+    depth = array.ndim - 1
+    whole = b",".join(_inner(_encoded(array)))
+    return whole[depth : len(whole) - depth].split(b"]" * depth + b"," + b"[" * depth)
 
 
 def _inner(lists: Iterable[bytes]) -> Iterable[bytes]:

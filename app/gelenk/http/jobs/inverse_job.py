@@ -1,6 +1,6 @@
 """Inverse kinematics as a job: several targets per part, each solved as if it were the only one."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import lru_cache
 from io import BytesIO
 from pathlib import Path
@@ -23,6 +23,7 @@ from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolve
 from gelenk.operations.ik_request import NUMBERS_OF_STEPS, TargetLimits, has_table, is_stepwise, options_of, parse
 from gelenk.operations.outcome import Limits
 from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.store.folders import read_plain
 from gelenk.store.records import LoadedRobot
@@ -104,23 +105,12 @@ def _work(_: Limits, folder: Path) -> Work:
 
     def work(run: Run) -> Files:
         run.map(_STAGE, solved_part, part, count, (0.0, _SOLVED), size)
-        forms, unsolved = set(), []
-        for k, found in enumerate(run.parts.of(_STAGE, count)):
-            values = unpacked(found)
-            forms.add(values["form"].tobytes())
-            unsolved += (k * size + values["unsolved"]).tolist()
-        (form,) = forms
         chain = robot_of(text).chain(call.base_frame, call.tip_frame)
-        frame = orjson.dumps(to_json(chain, call, orjson.loads(form), []), option=orjson.OPT_SERIALIZE_NUMPY)
-        files: Files = {RESULTS[JSON]: lambda target: _write_json(target, frame, run.parts.of(_STAGE, count))}
+        found = _Found(call, chain, lambda: run.parts.of(_STAGE, count))
+        files: Files = {RESULTS[JSON]: found.write_json}
         if not has_table(call):
             return files
-        shape, headers = (len(targets), len(chain)), headers_file({NPY: unsolved_headers(unsolved)})
-        return {
-            **files,
-            RESULTS[NPY]: lambda target: _write_npy(target, shape, run.parts.of(_STAGE, count)),
-            HEADERS: lambda target: target.write(headers),
-        }
+        return {**files, RESULTS[NPY]: found.write_npy, HEADERS: found.write_headers}
 
     return work
 
@@ -138,6 +128,7 @@ def _solved(problem: TargetProblem, call: InverseRequest) -> bytes:
     chain, result = problem.chain, solve(problem)
     results = orjson.dumps(results_to_json(problem, call, result), option=orjson.OPT_SERIALIZE_NUMPY)
     return packed(
+        count=len(problem),
         form=as_bytes(orjson.dumps(result.closed_form)),
         results=as_bytes(results),
         unsolved=np.array(list(result.failures), dtype=np.int64),
@@ -150,22 +141,42 @@ def _call(content: bytes) -> InverseRequest:
     return read_json(InverseRequest, content)
 
 
-def _write_json(target: IO[bytes], frame: bytes, parts: Iterator[bytes]) -> None:
-    """Write the answer; the results, part by part, replace the empty list at its end."""
-    target.write(frame[:-2])
-    separator = b""
-    for part in parts:
-        results = unpacked(part)["results"].tobytes()[1:-1]
-        if results:
-            target.write(separator + results)
-            separator = b","
-    target.write(frame[-2:])
+class _Found:
+    """The results of all parts: reading the parts takes longer than all else, so the first file gathers the others."""
 
+    def __init__(self, call: InverseRequest, chain: Chain, parts: Callable[[], Iterator[bytes]]) -> None:
+        self._call, self._chain, self._parts = call, chain, parts
+        self._rows: list[Array] = []
+        self._unsolved: list[int] = []
 
-def _write_npy(target: IO[bytes], shape: tuple[int, int], parts: Iterator[bytes]) -> None:
-    np.lib.format.write_array_header_1_0(target, {"descr": "<f8", "fortran_order": False, "shape": shape})
-    for part in parts:
-        target.write(np.ascontiguousarray(unpacked(part)["rows"]).tobytes())
+    def write_json(self, target: IO[bytes]) -> None:
+        """Write the answer; the results, part by part, replace the empty list at its end."""
+        end, separator, count = b"", b"", 0
+        for part in self._parts():
+            values = unpacked(part)
+            if not end:
+                answer = to_json(self._chain, self._call, orjson.loads(values["form"].tobytes()), [])
+                frame = orjson.dumps(answer, option=orjson.OPT_SERIALIZE_NUMPY)
+                target.write(frame[:-2])
+                end = frame[-2:]
+            if results := values["results"].data[1:-1]:
+                target.write(separator)
+                target.write(results)
+                separator = b","
+            self._unsolved += (count + values["unsolved"]).tolist()
+            count += int(values["count"])
+            if "rows" in values:
+                self._rows.append(values["rows"])
+        target.write(end)
+
+    def write_npy(self, target: IO[bytes]) -> None:
+        shape = sum(map(len, self._rows)), len(self._chain)
+        np.lib.format.write_array_header_1_0(target, {"descr": "<f8", "fortran_order": False, "shape": shape})
+        for rows in self._rows:
+            target.write(np.ascontiguousarray(rows).data)
+
+    def write_headers(self, target: IO[bytes]) -> None:
+        target.write(headers_file({NPY: unsolved_headers(self._unsolved)}))
 
 
 WORK = LongWork(_request, _work)

@@ -8,36 +8,24 @@ import numpy as np
 from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.verdict.fixed import widened
 from gelenk.ik.verdict.result import InverseKinematics, firsts_of
-from gelenk.kinematics.judge.judge import pinocchio_poses
-from gelenk.kinematics.simd.kernels import chain_poses
+from gelenk.kinematics.judge.judge import recomputed_poses
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.compilation import compiled
-from gelenk.robot.poses import Poses
 
 _WITHIN = 1e-9
 """Allowance for rounding at a joint limit, [rad or m]."""
 
 
-def judged(
-    problem: TargetProblem, qs: Array, claimed: Flags | None = None, worth: Flags | None = None
-) -> tuple[Flags, Array, Array]:
+def judged(problem: TargetProblem, qs: Array, claimed: Flags | None = None) -> tuple[Flags, Array, Array]:
     """Check by Pinocchio which configurations solve their targets within the limits; also return the errors [m], [rad].
 
     Args:
         qs: Configurations, one per target; shape (N, n), [rad or m].
         claimed: Which of them the solver claims as solutions, default all; shape (N,).
-        worth: Which of them Pinocchio recomputes, default all; our own kernels compute the others; shape (N,).
     """
     chain = problem.chain
     whole, full = widened(chain, qs)
-    if worth is None or worth.all():
-        poses = pinocchio_poses(problem.robot, whole, chain.tip_frame, full, range(len(qs)))
-    else:
-        poses = Poses(*chain_poses(chain.flat, qs))
-        rows = np.flatnonzero(worth)
-        recomputed = pinocchio_poses(problem.robot, whole, chain.tip_frame, full, rows.tolist())
-        poses.positions[rows], poses.rotations[rows] = recomputed.positions, recomputed.rotations
-    errors = problem.task.errors(problem.targets, poses)
+    errors = problem.task.errors(problem.targets, recomputed_poses(problem.robot, whole, full))
     claims = np.ones(len(qs), dtype=np.bool_) if claimed is None else claimed
     return accepted(qs, claims, errors, *problem.tolerances, problem.limits), errors[0], errors[1]
 

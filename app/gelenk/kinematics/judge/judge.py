@@ -20,8 +20,6 @@ from gelenk.robot.robot import RobotModel
 
 MAX_SAMPLES = 16
 """Number of configurations that are recomputed in a batch; a smaller batch is recomputed in full."""
-_MANY = 512
-"""Number of configurations from which on reading the model's placements is quicker than a loop over Pinocchio."""
 TOLERANCE = 1e-9
 """Allowed difference: relative to the largest number compared, absolute where that is below 1."""
 
@@ -125,28 +123,28 @@ def certify_jacobians(
     )
 
 
-def pinocchio_poses(robot: RobotModel, chain: Chain, frame: str, qs: Array, rows: Sequence[int]) -> Poses:
-    """Compute T_base_frame through Pinocchio at the configurations with the given row numbers.
+def recomputed_poses(robot: RobotModel, chain: Chain, qs: Array) -> Poses:
+    """Compute T_base_tip over the placements of Pinocchio's model; shape (N, n) → N poses.
 
-    Of many configurations Pinocchio computes a sample, which must agree with all that `relative_poses` computes.
+    Pinocchio's own poses must agree: all of a few, a sample of many. Raises CertificationFailed.
     """
     expansion = robot.expansion(chain)
-    full_qs = expansion.offset + (qs if len(rows) == len(qs) else qs[rows]) @ expansion.matrix.T
-    if len(rows) < _MANY:
-        return _poses_one_by_one(robot, chain, frame, full_qs)
-    found = Poses(*relative_poses(walk_to(robot, chain.base_frame), walk_to(robot, frame), full_qs))
-    sample = sampled_rows(len(rows))
-    exact = _poses_one_by_one(robot, chain, frame, full_qs[sample])
-    agreed("a position", exact.positions - found.positions[sample], largest(exact.positions))
-    agreed("an orientation", exact.rotations - found.rotations[sample], 1.0)
+    full_qs = expansion.offset + qs @ expansion.matrix.T
+    walks = walk_to(robot, chain.base_frame), walk_to(robot, chain.tip_frame)
+    found, rows = Poses(*relative_poses(*walks, full_qs)), sampled_rows(len(qs))
+    exact = pinocchio_poses(robot, chain, chain.tip_frame, qs, rows)
+    agreed("a position", exact.positions - found.positions[rows], largest(exact.positions))
+    agreed("an orientation", exact.rotations - found.rotations[rows], 1.0)
     return found
 
 
-def _poses_one_by_one(robot: RobotModel, chain: Chain, frame: str, full_qs: Array) -> Poses:
-    """Compute T_base_frame through Pinocchio at its own configurations, shape (N, nq)."""
+def pinocchio_poses(robot: RobotModel, chain: Chain, frame: str, qs: Array, rows: Sequence[int]) -> Poses:
+    """Compute T_base_frame through Pinocchio at the configurations with the given row numbers."""
     model, data, lock = robot.model, robot.data, robot.lock
+    expansion = robot.expansion(chain)
     base, tip = robot.frame_id(chain.base_frame), robot.frame_id(frame)
-    positions, rotations = np.empty((len(full_qs), 3)), np.empty((len(full_qs), 3, 3))
+    full_qs = expansion.offset + (qs if len(rows) == len(qs) else qs[rows]) @ expansion.matrix.T
+    positions, rotations = np.empty((len(rows), 3)), np.empty((len(rows), 3, 3))
     for k, q in enumerate(full_qs):
         with lock:
             pin.forwardKinematics(model, data, q)
