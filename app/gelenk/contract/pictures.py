@@ -13,6 +13,6 @@ class CoursePicture(Answer):
 
 
 class CoursePictures(Answer):
-    """All pictures of the course that need no request."""
+    """All pictures of the course."""
 
     pictures: list[CoursePicture] = Field(description="By name.")

@@ -178,8 +178,8 @@ RESOURCES = (
         answer=CoursePictures,
         problems=(422,),
         summary="The course's pictures",
-        description="Lists the pictures that need no request, with their titles. Others are answers of the "
-        "calculators, which draw them with `Accept: image/svg+xml`.",
+        description="Lists the pictures, with their titles: those that depend on nothing, and one of each calculator "
+        "that draws, of its own example. A calculator draws any other request with `Accept: image/svg+xml`.",
     ),
     _query(
         name="get_picture",
@@ -188,8 +188,8 @@ RESOURCES = (
         responses=_file("The picture", "image/svg+xml", "image/png"),
         problems=_OF_ROBOT,
         summary="A picture of the course",
-        description="Kinematic pairs, coincident joints, spaces, the spherical wrist and more, as SVG, or as PNG "
-        "with `Accept: image/png`. Texts are drawn as paths, in the language asked for.",
+        description="Kinematic pairs, the spherical wrist, a triangle, lever arms, a fly-over and more, as SVG, or as "
+        "PNG with `Accept: image/png`. Texts are drawn as paths, in the language asked for.",
     ),
     _query(
         name="get_job",

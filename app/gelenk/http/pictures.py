@@ -2,17 +2,21 @@
 
 from typing import Annotated
 
+import orjson
 from fastapi import APIRouter, Path, Query, Request
 from starlette.datastructures import QueryParams
 from starlette.responses import Response
 
+from gelenk.contract.endpoint import RobotEndpoint
+from gelenk.contract.endpoints import BY_NAME
 from gelenk.errors import UnknownPicture
-from gelenk.http.messages.openapi import documentation
+from gelenk.http.dispatch import answer
+from gelenk.http.messages.openapi import PLANAR_2R, documentation
 from gelenk.http.messages.payloads import PNG, SVG, json_response, preferred_type
 from gelenk.http.workers.pool_client import PoolClient
-from gelenk.http.workers.task import Context, TaskRequest
+from gelenk.http.workers.task import Context, TaskRequest, buffers
 from gelenk.language import Language, language, translated
-from gelenk.plots.course.titles import TITLES
+from gelenk.plots.course.titles import CALCULATED, TITLES
 
 PicturePath = Annotated[
     str, Path(description="Name of a picture.", openapi_examples={"joint-pairs": {"value": "joint-pairs"}})
@@ -32,9 +36,11 @@ def pictures_router(pool_client: PoolClient) -> APIRouter:
 
     @router.api_route(**documentation("get_picture"))
     async def get_picture(request: Request, picture: PicturePath, language: LanguageQuery = "en") -> Response:
-        if picture not in TITLES:
-            raise UnknownPicture(picture, tuple(TITLES))
         wanted = preferred_type(",".join(request.headers.getlist("Accept")), (SVG, PNG))
+        if picture in CALCULATED:
+            return await pool_client.answer(request, answer, _example(CALCULATED[picture][0], language, wanted))
+        if picture not in TITLES:
+            raise UnknownPicture(picture, (*TITLES, *CALCULATED))
         task_request = TaskRequest(query=f"picture={picture}&language={language}", wanted=wanted)
         return await pool_client.answer(request, _drawn, task_request)
 
@@ -43,7 +49,18 @@ def pictures_router(pool_client: PoolClient) -> APIRouter:
 
 def _listed(code: Language) -> list[dict[str, str]]:
     with language(code):
-        return [{"name": name, "title": translated(title)} for name, title in TITLES.items()]
+        titles = TITLES | {name: title for name, (_, title) in CALCULATED.items()}
+        return [{"name": name, "title": translated(title)} for name, title in sorted(titles.items())]
+
+
+def _example(name: str, code: Language, wanted: str) -> TaskRequest:
+    """Return the example of an endpoint, of one on a robot that on the two-link arm, as a request for its picture."""
+    endpoint = BY_NAME[name]
+    robot, example = "", endpoint.example
+    if isinstance(endpoint, RobotEndpoint):
+        robot, example = "planar_2r", PLANAR_2R[name]["request"]
+    body = orjson.dumps(example | {"language": code})
+    return TaskRequest(buffers([body]), robot, wanted=wanted, endpoint=name)
 
 
 def _drawn(_: Context, task_request: TaskRequest) -> Response:

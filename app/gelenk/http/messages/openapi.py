@@ -69,7 +69,7 @@ _NAMED: dict[str, tuple[dict[str, Any], str]] = {
 _RESOURCES = {resource.name: resource for resource in RESOURCES}
 EXAMPLES = pathlib.Path(__file__).with_name("planar_2r.json")
 """A request of each operation on a robot for the course's two-link arm, with its answer, made by `./dev handbook`."""
-_ON_PLANAR_2R = json.loads(EXAMPLES.read_text(encoding="utf-8"))
+PLANAR_2R = json.loads(EXAMPLES.read_text(encoding="utf-8"))
 _TITLES = {"panda": "Panda", "planar_2r": "Two-link arm (robot: planar_2r)"}
 
 _SCHEME = {
@@ -272,7 +272,7 @@ def _add_refusals(operation: dict[str, Any], has_keys: bool) -> None:
 def _add_examples(operation: dict[str, Any]) -> None:
     """Add the examples on the two-link arm; here because FastAPI leaves out what is null in an answer."""
     route = ROUTES[operation["operationId"]]
-    if isinstance(route, RobotEndpoint) and (small := _ON_PLANAR_2R.get(route.name)):
+    if isinstance(route, RobotEndpoint) and (small := PLANAR_2R.get(route.name)):
         body = operation["requestBody"]["content"][JSON]
         body["examples"] = _examples(panda=body.pop("example"), planar_2r=small["request"])
         if "answer" in small:

@@ -1,6 +1,7 @@
 """The course's pictures that depend on nothing, by name; `titles` lists them."""
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -8,7 +9,7 @@ from matplotlib.figure import Figure
 from gelenk.errors import UnknownPicture
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
-from gelenk.plots.course.encoders import tracks_figure
+from gelenk.plots.course.encoders import disc_figure, tracks_figure
 from gelenk.plots.course.motor import circuit_figure
 from gelenk.plots.course.pairs import pairs_figure
 from gelenk.plots.course.sketch import DASHED, Sketch, direction
@@ -117,6 +118,7 @@ def wrist_figure() -> Figure:
 _GALLERY: dict[str, Callable[[], Figure]] = {
     "coincident-joints": coincident_figure,
     "dc-motor": circuit_figure,
+    "gray-disc": partial(disc_figure, 4),
     "joint-pairs": pairs_figure,
     "kinematic-spaces": spaces_figure,
     "quadrature": tracks_figure,
