@@ -21,6 +21,9 @@ class MotionLimitsInfo(Answer):
     joint_velocity: list[float] = Field(description="One number per joint, [rad/s or m/s].")
     joint_acceleration: list[float] = Field(description="One number per joint, [rad/s² or m/s²].")
     joint_jerk: list[float] = Field(description="One number per joint, [rad/s³ or m/s³].")
+    joint_torque: list[float | None] | None = optional(
+        "One number per joint, [N m or N], null for one without a limit; null if none has one."
+    )
     tip_velocity: float | None = Field(description="[m/s]; null without one.")
     tip_acceleration: float | None = Field(description="[m/s²]; null without one.")
     tip_angular_velocity: float | None = Field(description="[rad/s]; null without one.")
@@ -84,6 +87,9 @@ class TrajectoryAnswer(Answer):
     joint_velocities: list[list[float]] = Field(description="One row per sample, [rad/s or m/s].")
     joint_accelerations: list[list[float]] = Field(
         description="One row per sample, [rad/s² or m/s²]; where they jump, those after the jump."
+    )
+    joint_torques: list[list[float]] | None = optional(
+        "If `torques` were requested: those of the motors, one row per sample, [N m or N]."
     )
     tip_poses: list[Pose] | None = Field(description="T_base_tip at each sample; null if not requested.")
     segments: list[TrajectorySegmentInfo] = Field(description="The segments completed, wholly or in part.")

@@ -10,6 +10,7 @@ from gelenk.contract.course_motion import Duration
 from gelenk.contract.kinematics import ByName, ByOrder, Configuration
 from gelenk.contract.options import Directions, WithSteps
 from gelenk.contract.pose import ORIENTATIONS, AnswerFormat, Pose
+from gelenk.contract.statics import Gravity, PayloadInfo
 from gelenk.robot.arrays import Array
 from gelenk.robot.arrays import Configuration as GivenConfiguration
 from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw
@@ -40,6 +41,10 @@ def _limit_kind(value: Any) -> str:
     return "<list>" if isinstance(value, list) else "<object>" if isinstance(value, dict) else "<number>"
 
 
+def _torque_kind(value: Any) -> str:
+    return "<word>" if isinstance(value, str) else _limit_kind(value)
+
+
 def _segment_kind(value: Any) -> str:
     return f"<{value.get('type') if isinstance(value, dict) else getattr(value, 'type', None)}>"
 
@@ -67,6 +72,16 @@ JointValues = Annotated[
 """One number for all joints, one per joint, or numbers by joint name: joints left out keep their limits."""
 
 
+JointTorques = Annotated[
+    Annotated[Literal["effort"], Tag("<word>")]
+    | Annotated[_Bound, Tag("<number>")]
+    | Annotated[list[_Bound], Field(max_length=128, fail_fast=True), Tag("<list>")]
+    | Annotated[dict[str, _Bound], Field(max_length=128), Tag("<object>")],
+    Discriminator(_torque_kind),
+]
+"""The same, or the effort limits of the robot's description."""
+
+
 class TrajectoryLimits(Payload):
     """Limits of the joints and the tip; from 1e-6 to 1e6 each.
 
@@ -86,6 +101,12 @@ class TrajectoryLimits(Payload):
     joint_jerk: JointValues | None = optional(
         "|q⃛|, [rad/s³ or m/s³]; no robot's description has one. If left out, that with which the limit of the "
         "acceleration is reached in 0.1 s. Where a law lets the acceleration jump, the jump does not count."
+    )
+    joint_torque: JointTorques | None = optional(
+        "|τ| of the motors, [N m, or N for sliding], in the same forms; or `effort`, the effort limits of the robot's "
+        "description. None if left out. It counts the weight of the links and the `payload`, as `dynamics` does, "
+        "without friction. `time_optimal` is as fast as it allows at each place, another law takes longer as a whole. "
+        "A motion in which the weight alone asks for more is refused."
     )
     tip_velocity: _Bound | None = optional("Speed of the tip, [m/s]; none if left out.")
     tip_acceleration: _Bound | None = optional("Of the tip, along and across, [m/s²]; none if left out.")
@@ -234,6 +255,13 @@ class Motion(ChainOptions, MotionOptions, WithSteps):
         description=f"One after the other, with a stop between two that are not blended; 1 to {MAX_SEGMENTS}, with at "
         f"most {MAX_WAYPOINTS} waypoints in all.",
     )
+    payload: PayloadInfo | None = optional("A load carried by the tip during the whole motion; it counts for torques.")
+    gravity: Gravity = Field(
+        default=True,
+        description="For torques: true for 9.81 m/s² along -z of the root link, false for none, or the gravity in the "
+        "axes of the root link, [m/s²].",
+        examples=[[0.0, 0.0, -9.81]],
+    )
     law: Law = Field(
         default="trapezoidal",
         description="Of time along each segment: polynomials from rest to rest (`cubic`; `quintic`, acceleration zero "
@@ -284,6 +312,7 @@ class Motion(ChainOptions, MotionOptions, WithSteps):
     )
     coefficients: bool = Field(default=False, description="Whether to include each segment's polynomials in full.")
     tip_poses: bool = Field(default=True, description="Whether to include the tip's poses at the samples.")
+    torques: bool = Field(default=False, description="Whether to include the motors' torques at the samples.")
     pose_format: AnswerFormat = "quaternion_xyzw"
 
 

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from multiprocessing import get_context
 
 import numpy as np
@@ -14,6 +15,8 @@ from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.search.search import search, start_of
 from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.ik.verdict.branches import all_branches
+from gelenk.kinematics.dynamics.mechanism import mechanism
+from gelenk.kinematics.dynamics.torques import torque_limits
 from gelenk.kinematics.judge.placements import relative_poses, walk_to
 from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.kinematics.simd.kernels import chain_measures
@@ -104,7 +107,8 @@ def _closed_forms() -> None:
 def _motions() -> None:
     """Plan and audit a movement of the joints and the fastest motion along a spline; find a point of a path."""
     robot, chain, qs = _small_arm()
-    limits, start = SegmentLimits(*np.ones((3, 3))), qs[0]
+    torque = torque_limits(mechanism(robot, chain), np.full(3, 1e3), np.zeros(3), None)
+    limits, start = replace(SegmentLimits(*np.ones((3, 3))), torque=torque), qs[0]
     move = Segment("joint", "jerk_limited", limits, configuration=start + 0.5)
     points = start + np.array([[0.2], [0.3]])
     way = Segment("spline", "time_optimal", limits, configurations=points, stated_jerk=limits.jerk)

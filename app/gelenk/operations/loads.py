@@ -114,10 +114,16 @@ def one_each(rows: Array, count: int, field: str) -> Array:
 
 def weight_notes(loaded: LoadedRobot, found: ChainMechanism, load: Load | None) -> list[str]:
     """Return a sentence on each thing that the numbers leave out or assume."""
-    notes = []
+    notes = mass_notes(found, load)
     if loaded.table is not None and found.bodies:
         text = _("{reason}, as placeholders; for real numbers upload a URDF with `inertial` elements")
-        notes.append(text.format(reason=invented_masses()))
+        notes.insert(0, text.format(reason=invented_masses()))
+    return notes
+
+
+def mass_notes(found: ChainMechanism, load: Load | None) -> list[str]:
+    """Return a sentence on each thing that has no mass, and on a payload that loads no joint."""
+    notes = []
     if found.without_mass:
         text = _("the description gives no mass to {links}, which move: they weigh nothing")
         notes.append(text.format(links=", ".join(map(quoted, found.without_mass))))

@@ -6,6 +6,7 @@ from gelenk.contract.pose import Pose
 from gelenk.contract.trajectory_request import MAX_SAMPLES, JointSegment, TrajectoryRequest
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.trajectory_planned import PlannedTrajectory, TrajectorySizeLimits
+from gelenk.operations.trajectory_torques import has_torques
 from gelenk.robot.arrays import Array
 from gelenk.robot.compilation import is_awaited
 from gelenk.store.records import LoadedRobot
@@ -34,7 +35,7 @@ def is_heavy(call: TrajectoryRequest) -> bool:
     first = call.segments[0]
     is_move = isinstance(first, JointSegment) and not isinstance(first.target, Pose)
     is_moving = any(getattr(call, name) is not None for name in _MOVING)
-    has_more = call.steps or call.coefficients or call.compare_timing
+    has_more = call.steps or call.coefficients or call.compare_timing or has_torques(call)
     return len(call.segments) > 1 or not is_move or is_moving or has_more or is_awaited()
 
 

@@ -97,7 +97,7 @@ def bounds_of(chain: Chain, own: OwnVelocities, layers: Mapping[str, MotionOptio
         for prefix, options in layers.items():
             given = None if options.limits is None else getattr(options.limits, quantity)
             if given is not None:
-                found = _row(chain, given, f"{prefix}limits.{quantity}")
+                found = joint_row(chain, given, f"{prefix}limits.{quantity}")
                 counts = np.isfinite(found)
                 values, source = np.where(counts, found, values), np.where(counts, "request", source)
         rows.append(values)
@@ -114,7 +114,7 @@ def bounds_of(chain: Chain, own: OwnVelocities, layers: Mapping[str, MotionOptio
     return SourcedLimits(SegmentLimits(rows[0] * faster, rows[1] * harder, rows[2] * harder, tip), sources)
 
 
-def _row(chain: Chain, given: JointValues, field: str) -> Array:
+def joint_row(chain: Chain, given: JointValues, field: str) -> Array:
     """Return one number per joint, NaN if a name is left out; shape (n,)."""
     if isinstance(given, Mapping):
         for name in given:

@@ -22,6 +22,7 @@ from gelenk.operations.rows import json_objects, json_rows
 from gelenk.operations.trajectory_limits import limit_notes
 from gelenk.operations.trajectory_request import SourcedProblem, parse, shortest_duration
 from gelenk.operations.trajectory_steps import trajectory_steps
+from gelenk.operations.trajectory_torques import torque_notes
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
@@ -36,7 +37,7 @@ _LONGER, _LONG_SECONDS = 100.0, 60.0
 """Hardly any motion lasts longer than this many times its least duration, plus this many seconds."""
 _MOST_NAME = 16
 """Maximum number of characters of a robot's name in a title, which has room for 48."""
-SAMPLED = ("times", "joint_positions", "joint_velocities", "joint_accelerations", "tip_poses")
+SAMPLED = ("times", "joint_positions", "joint_velocities", "joint_accelerations")
 """Fields of the answer that have an entry for each sample."""
 _ROUNDING = 1e-9
 
@@ -67,7 +68,7 @@ class TrajectorySizeLimits:
         return _LONGER * shortest + _LONG_SECONDS > (self._most(call, chain) - 1) * call.sample_period
 
     def _most(self, call: TrajectoryRequest, chain: Chain) -> int:
-        numbers = 1 + 3 * len(chain) + _NUMBERS_A_POSE * call.tip_poses
+        numbers = 1 + (3 + call.torques) * len(chain) + _NUMBERS_A_POSE * call.tip_poses
         return min(self.samples, max(2, self.numbers // numbers))
 
 
@@ -93,16 +94,22 @@ def checked(robot: RobotModel, call: TrajectoryRequest, bounds: TrajectorySizeLi
 
 @dataclass(frozen=True, slots=True)
 class MotionSamples:
-    """A motion at times (N,), [s]: positions, velocities and accelerations, shape (N, n) each, and the tip's poses."""
+    """A motion at times (N,), [s]: positions, velocities, accelerations, shape (N, n) each, and poses and torques.
+
+    Poses and torques are None where they are not requested; torques have the shape (N, n), [N m or N].
+    """
 
     times: Array
     rates: list[Array]
     poses: Poses | None
+    torques: Array | None = None
 
     def to_json(self, pose_format: PoseFormat) -> dict[str, orjson.Fragment]:
-        """Return the entries of each requested field in `SAMPLED`."""
+        """Return the entries of each requested field that has some."""
         rows = [self.times, *self.rates]
-        entries = {name: json_rows(values) for name, values in zip(SAMPLED, rows, strict=False)}
+        entries = {name: json_rows(values) for name, values in zip(SAMPLED, rows, strict=True)}
+        if self.torques is not None:
+            entries["joint_torques"] = json_rows(self.torques)
         if self.poses is not None:
             entries["tip_poses"] = json_objects(pose_columns(self.poses, pose_format))
         return entries
@@ -126,9 +133,16 @@ class PlannedTrajectory:
         return cls(robot, chain, call, question, plan(robot, chain, question.problem), bounds)
 
     @property
+    def further(self) -> list[str]:
+        """Fields of the answer besides `SAMPLED` that have an entry for each sample, as requested."""
+        wanted = {"joint_torques": self.call.torques, "tip_poses": self.call.tip_poses}
+        return [name for name, is_wanted in wanted.items() if is_wanted]
+
+    @property
     def columns(self) -> list[str]:
         """Names of the table's columns."""
-        return ["time", *(f"{quantity}_{name}" for quantity in ("q", "qd", "qdd") for name in self.chain.joint_names)]
+        quantities = ("q", "qd", "qdd", "tau") if self.call.torques else ("q", "qd", "qdd")
+        return ["time", *(f"{quantity}_{name}" for quantity in quantities for name in self.chain.joint_names)]
 
     @property
     def headers(self) -> dict[str, str]:
@@ -146,14 +160,20 @@ class PlannedTrajectory:
         return sample_times(self.found.motion.duration, self.call.sample_period)
 
     def table(self, times: Array) -> Array:
-        """Return time, positions, velocities and accelerations side by side; shape (N, 1 + 3n)."""
-        return np.column_stack((times, *self.found.motion.rates_at(times)))
+        """Return time, positions, velocities, accelerations and requested torques side by side; (N, 1 + 3n or 4n)."""
+        rates = self.found.motion.rates_at(times)
+        return np.column_stack((times, *rates, *([self._torques(rates)] if self.call.torques else ())))
 
     def samples(self, times: Array) -> "MotionSamples":
-        """Return the motion at some times, with the poses if they are requested."""
+        """Return the motion at some times, with poses and torques if they are requested."""
         rates = self.found.motion.rates_at(times)
         poses = Poses(*chain_poses(self.chain.flat, rates[0])) if self.call.tip_poses else None
-        return MotionSamples(times, rates, poses)
+        return MotionSamples(times, rates, poses, self._torques(rates) if self.call.torques else None)
+
+    def _torques(self, rates: list[Array]) -> Array:
+        """Return the torques at N samples; shape (N, n), [N m or N]."""
+        torque = self.question.bounds.limits.torque
+        return np.zeros_like(rates[0]) if torque is None else np.add(*torque.parts(*rates))
 
     def certificate(self, samples: "MotionSamples") -> PoseCertificate | None:
         """Compare the poses with Pinocchio's; raises CertificationFailed. None if they are not sent."""
@@ -171,18 +191,25 @@ class PlannedTrajectory:
             "duration": found.motion.duration,
             "completed_fraction": found.completed_fraction,
             "failure": found.failure,
-            **{name: sampled.get(name) for name in SAMPLED},
+            "tip_poses": None,
+            **sampled,
             "segments": self._segments_json(),
             "audit": found.audit,
             "limits": _limits_json(bounds.limits),
             "limit_sources": bounds.sources,
-            "notes": limit_notes(self.chain, self.question.own, self.question.segment_bounds),
+            "notes": self._notes(),
             "certificate": certificate,
         }
         if self.call.steps:
             with language(self.call.language):  # A job answers outside the context of its request.
                 answer["steps"] = trajectory_steps(self.chain, self.question.problem.segments, found)
         return answer | ({"timing": found.timing} if self.call.compare_timing else {})
+
+    def _notes(self) -> list[str]:
+        notes = limit_notes(self.chain, self.question.own, self.question.segment_bounds)
+        if self.question.bounds.limits.torque is not None:
+            notes += torque_notes(self.robot, self.chain, self.call)
+        return notes
 
     def _segments_json(self) -> list[dict[str, Any]]:
         motion, reports, bounds = self.found.motion, self.found.segments, self.question.segment_bounds
@@ -227,6 +254,7 @@ def _limits_json(limits: SegmentLimits) -> dict[str, Any]:
         "joint_velocity": limits.velocity.tolist(),
         "joint_acceleration": limits.acceleration.tolist(),
         "joint_jerk": limits.jerk.tolist(),
+        "joint_torque": limits.torque.most.tolist() if limits.torque is not None and limits.torque.is_limited else None,
         "tip_velocity": limits.tip.speed,
         "tip_acceleration": limits.tip.acceleration,
         "tip_angular_velocity": limits.tip.angular_speed,

@@ -22,6 +22,7 @@ from gelenk.ik.search.words import DIRECTIONS
 from gelenk.operations.pose_arrays import poses_from
 from gelenk.operations.trajectory_ends import state_of, with_rates
 from gelenk.operations.trajectory_limits import OwnVelocities, SourcedLimits, bounds_of, has_own_limits, own_velocities
+from gelenk.operations.trajectory_torques import with_torques
 from gelenk.robot.arrays import Array, Configuration
 from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import check_limits, configurations, one_configuration
@@ -55,8 +56,9 @@ def parse(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedPr
         bounds_of(chain, own, {"": call, f"segments.{i}.": one}) if has_own_limits(one) else overall
         for i, one in enumerate(call.segments)
     )
+    overall, *segment_bounds = with_torques(robot, chain, call, (overall, *bounds))
     state = None if call.at is None else state_of(robot, chain, call.at, lambda *former: parse(*former).problem)
-    segments = tuple(_segment(chain, call, i, bounds[i]) for i in range(len(call.segments)))
+    segments = tuple(_segment(chain, call, i, segment_bounds[i]) for i in range(len(call.segments)))
     problem = TrajectoryProblem(
         _start(chain, call, state),
         with_rates(chain, call, segments, state),
@@ -70,7 +72,7 @@ def parse(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedPr
         call.duration,
         call.compare_timing,
     )
-    return SourcedProblem(problem, own, overall, bounds)
+    return SourcedProblem(problem, own, overall, tuple(segment_bounds))
 
 
 def _start(chain: Chain, call: TrajectoryRequest, state: Array | None) -> Array:

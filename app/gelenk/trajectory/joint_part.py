@@ -1,6 +1,7 @@
 """Segments in joint space: to a configuration, to a pose by inverse kinematics, or through waypoints."""
 
 import math
+from contextlib import suppress
 from dataclasses import replace
 from typing import cast
 
@@ -32,6 +33,7 @@ from gelenk.trajectory.motion.splines import EndRates
 from gelenk.trajectory.problem.parts import PlannedPart, in_field, standing
 from gelenk.trajectory.problem.problem import Segment, SegmentReport, TrajectoryProblem
 from gelenk.trajectory.problem.result import PlanningFailure, TimingComparison
+from gelenk.trajectory.timing.torque_constraints import torque_factor
 
 _REASONS: dict[Status, StopReason] = {
     "unreachable": "out_of_reach",
@@ -41,6 +43,8 @@ _REASONS: dict[Status, StopReason] = {
 }
 _MARGIN = 1e-9
 """Extra slowdown, because the sampled peaks of the tip may be slightly too low."""
+_LONGER, _MOST_TRIES = 1.05, 10
+"""Least factor from one duration to the next that is tried for limits of torque between moving ends, and how many."""
 
 
 def joint_part(
@@ -74,7 +78,7 @@ def _planned(
     if target is not None:
         check_within(chain, target[None], "target")
     if segment.ends is not None:
-        motion = moving_motion(chain, start, target, segment, segment.ends)
+        motion = _moving(chain, start, target, segment, segment.ends)
     elif target is not None:
         motion = point_to_point_motion(start, target, segment.law, segment.limits, segment.duration)
     elif segment.blends:
@@ -87,6 +91,25 @@ def _planned(
     end = motion.at(motion.breaks[-1:])[0] if target is None else target
     report = SegmentReport(index, segment.type, segment.law, 0.0, motion.duration, notes=notes)
     return PlannedPart(motion, (report,), _demands(segment, start, end, problem.following.task), failure, share, timing)
+
+
+def _moving(chain: Chain, start: Array, target: Array | None, segment: Segment, ends: EndRates) -> PiecewisePolynomial:
+    """Return the motion between moving ends; without a given time, the first of longer ones that keeps the torques."""
+    motion = moving_motion(chain, start, target, segment, ends)
+    torque = segment.limits.torque
+    is_free = segment.duration is None and segment.times is None
+    if torque is None or not torque.is_limited or not is_free or motion.duration == 0.0:
+        return motion
+    duration = motion.duration
+    for _ in range(_MOST_TRIES):
+        factor = torque_factor(motion, torque)
+        if factor == 1.0:
+            break
+        duration *= max(_LONGER, factor)
+        # More time can also mean more of another quantity.
+        with suppress(InvalidField):
+            motion = moving_motion(chain, start, target, replace(segment, duration=duration), ends)
+    return motion
 
 
 def _solved(
@@ -190,6 +213,7 @@ def _demands(segment: Segment, start: Array, end: Array, task: Task) -> Demands:
         keeps_jerk=keeps_jerk,
         stated_jerk=segment.stated_jerk,
         end_rates=None if segment.ends is None else _end_rates(segment, segment.ends),
+        torque=segment.limits.torque,
     )
 
 

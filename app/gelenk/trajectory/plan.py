@@ -7,6 +7,7 @@ why it ends. A motion that fails its audit is never returned.
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import accumulate
+from typing import cast
 
 import numpy as np
 
@@ -16,13 +17,15 @@ from gelenk.robot.configuration import check_limits
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.audit import audit, whole_audit
 from gelenk.trajectory.audit.demands import Demands
-from gelenk.trajectory.audit.result import Audit, TipPeaks
+from gelenk.trajectory.audit.result import Audit, Peak, TipPeaks
 from gelenk.trajectory.joint_part import joint_part
+from gelenk.trajectory.joints.moving_ends import given_rates
 from gelenk.trajectory.motion.extremes import peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
 from gelenk.trajectory.paths.segment_paths import is_blended
 from gelenk.trajectory.problem.parts import PlannedPart, standing
 from gelenk.trajectory.problem.problem import Segment, Trajectory, TrajectoryProblem
+from gelenk.trajectory.timing.torque_constraints import torque_factor
 from gelenk.trajectory.tip_part import tip_part
 
 _SAME_DURATION = 1e-9
@@ -31,6 +34,10 @@ _SAME_DURATION = 1e-9
 _LIMITS = {"velocity", "acceleration", "jerk", "tip"}
 _ROUNDING, _MARGIN = 1e-5, 1e-12
 """Relative excess over a limit that counts as rounding, and the least extra margin of a motion slowed down to it."""
+_MOST_TRIES = 3
+"""Times that a part is slowed down for torques that the audit finds beyond their limits."""
+_WORTH_A_NOTE = 1.001
+"""Least factor on the time of a part that its notes mention."""
 _MOST_REASONS = 4
 """Largest number of reasons that a refusal lists."""
 _MOMENT = 1e-9
@@ -46,9 +53,9 @@ def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Traject
         AuditFailed: The motion fails its audit.
     """
     check_limits(chain, problem.start[None])
-    parts = [_with_stated_jerk(part, problem) for part in _parts(robot, chain, problem)]
+    parts = [_with_torques(_with_stated_jerk(part, problem), problem) for part in _parts(robot, chain, problem)]
     factor, share, failure = _factor(parts, problem), parts[-1].share, parts[-1].failure
-    parts, audits = _judged(robot, chain, [part.slowed(factor) for part in parts])
+    parts, audits = _judged(robot, chain, [part.slowed(factor) for part in parts], problem)
     starts = list(accumulate((part.motion.duration for part in parts), initial=0.0))
     moving = [i for i, part in enumerate(parts) if part.motion.duration > 0.0]
     if moving:
@@ -157,21 +164,65 @@ def _margin(motion: PiecewisePolynomial) -> float:
     return float(np.clip(4.0 * np.finfo(float).eps * motion.duration / shortest, _MARGIN, _ROUNDING))
 
 
-def _judged(robot: RobotModel, chain: Chain, parts: list[PlannedPart]) -> tuple[list[PlannedPart], list[Audit]]:
+def _with_torques(part: PlannedPart, problem: TrajectoryProblem) -> PlannedPart:
+    """Slow a part down until its torques keep their limits; `InvalidField` if its times or its ends' rates are given.
+
+    It is refused too where the weight alone asks for more than a limit.
+    """
+    torque = part.demands.torque
+    if torque is None or not torque.is_limited or part.motion.duration == 0.0:
+        return part
+    factor = torque_factor(part.motion, torque)
+    if factor == 1.0:
+        return part
+    for report in part.reports:
+        segment = problem.segments[report.index]
+        if segment.ends is not None:
+            reason = "with it the joints would need more torque than their limits allow"
+            raise InvalidField(given_rates(segment.ends), reason)
+        for name in ("duration", "times"):
+            if getattr(segment, name) is not None:
+                reason = f"the limits of torque are kept in {factor:.6g} times the time"
+                raise InvalidField(f"segments.{report.index}.{name}", reason)
+    slowed = part.slowed(factor * (1.0 + _ROUNDING))
+    if part.reports[0].law == "time_optimal" or factor < _WORTH_A_NOTE:
+        return slowed
+    return slowed.noted((f"the limits of torque make it take {factor:.4g} times the time",))
+
+
+def _judged(
+    robot: RobotModel, chain: Chain, parts: list[PlannedPart], problem: TrajectoryProblem
+) -> tuple[list[PlannedPart], list[Audit]]:
     """Audit each part that moves; slow down a part that exceeds a limit by rounding alone."""
     judged, audits = [], []
     for planned in parts:
         part = planned
         if part.motion.duration > 0.0:
-            found = audit(robot, chain, part.motion, part.demands)
+            part, found = _within_torques(robot, chain, part, problem)
             excess = _excess(found)
             if 1.0 < excess <= 1.0 + _ROUNDING:
-                part = planned.slowed(excess * (1.0 + _margin(part.motion)))
+                part = part.slowed(excess * (1.0 + _margin(part.motion)))
                 found = audit(robot, chain, part.motion, part.demands)
             audits.append(found)
             part = part.noted(_of_jerk(part, found))
         judged.append(part)
     return judged, audits
+
+
+def _within_torques(
+    robot: RobotModel, chain: Chain, part: PlannedPart, problem: TrajectoryProblem
+) -> tuple[PlannedPart, Audit]:
+    """Audit a part, and slow it down by what its torques exceed their limits between the planner's places."""
+    found, torque = audit(robot, chain, part.motion, part.demands), part.demands.torque
+    for _ in range(_MOST_TRIES):
+        if torque is None or not any(reason.check == "torque" for reason in found.reasons):
+            break
+        ratio = cast(float, cast(Peak, found.joint_torque).ratio)
+        tighter = replace(part.demands, torque=torque.tightened(ratio * (1.0 + _ROUNDING)))
+        slowed = _with_torques(replace(part, demands=tighter), problem)
+        part = replace(slowed, demands=replace(slowed.demands, torque=torque))
+        found = audit(robot, chain, part.motion, part.demands)
+    return part, found
 
 
 def _of_jerk(part: PlannedPart, found: Audit) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import cast
 
@@ -14,6 +14,7 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.demands import Demands, JointLimits, TipLimits, Zone
+from gelenk.trajectory.audit.torques import TorqueLimits
 from gelenk.trajectory.follow.exact import path_error
 from gelenk.trajectory.follow.follow import FollowedPath, follow
 from gelenk.trajectory.laws.laws import scaled_law
@@ -74,7 +75,10 @@ class _TipPart:
             return limits[0]
         tip = TipLimits(*(max(getattr(one.tip, name) for one in limits) for name in TipLimits.__slots__))
         velocity, acceleration, jerk = (np.min([getattr(one, name) for one in limits], axis=0) for name in QUANTITIES)
-        return SegmentLimits(velocity, acceleration, jerk, tip)
+        torque = limits[0].torque
+        if torque is not None:
+            torque = replace(torque, most=np.min([cast(TorqueLimits, one.torque).most for one in limits], axis=0))
+        return SegmentLimits(velocity, acceleration, jerk, tip, torque)
 
     @property
     def slows_at_corners(self) -> bool:
@@ -126,6 +130,7 @@ class _TipPart:
             timing.has_bounded_jerk,
             np.min(stated, axis=0) if stated else None,
             path_error(joints.positions, joints.bend_errors, timing, limits),
+            torque=limits.torque,
         )
 
     def failure(self) -> tuple[PlanningFailure | None, float]:

@@ -114,7 +114,7 @@ def planned_part(job: _Plan) -> bytes:
     """Compute all but the samples, in a separate process: the answer with gaps for them, and their number."""
     planned = _planned(job)
     certificate = planned.certificate(planned.samples(planned.times()))
-    named = SAMPLED if planned.call.tip_poses else SAMPLED[:-1]
+    named = (*SAMPLED, *planned.further)
     gaps = {name: orjson.Fragment(_GAP + name.encode() + _GAP) for name in named}
     frame = orjson.dumps(planned.to_json(gaps, certificate), option=orjson.OPT_SERIALIZE_NUMPY)
     return packed(

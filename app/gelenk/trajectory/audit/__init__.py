@@ -1,6 +1,6 @@
 """Checks of a motion, with code that shares nothing with the planners.
 
-- `audit`: the verdict. `pieces`: joints; `tip`: the tip; both also between samples, by `peaks`.
+- `audit`: the verdict. `pieces`: joints; `tip`: the tip; `torques`: torques; all also between samples, by `peaks`.
 - `kernels`: rates of the tip and singular values, eight samples at a time.
 - `demands`: the requirements. `result`, and the names in `words`: what a motion's answer contains.
 """

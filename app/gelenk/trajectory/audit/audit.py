@@ -32,6 +32,7 @@ from gelenk.trajectory.audit.result import (
     TipPeaks,
 )
 from gelenk.trajectory.audit.tip import Largest, path_peaks, poses_at, smallest_singular_value, tip_peaks
+from gelenk.trajectory.audit.torques import torque_peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _Timed = TypeVar("_Timed", Peak, LimitMargin, SmallestSingularValue, Reason)
@@ -61,6 +62,7 @@ def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands:
     continuity = examination.continuity(peaks)
     margin = examination.margin()
     ends = examination.ends(peaks)
+    torque = examination.torque()
     return Audit(
         not examination.reasons,
         peaks.get("velocity"),
@@ -73,6 +75,7 @@ def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands:
         margin,
         ends,
         tip,
+        torque,
         certify_poses(robot, chain, qs, {chain.tip_frame: poses}),
         demands.way_error,
         tuple(examination.reasons),
@@ -108,6 +111,7 @@ def whole_audit(chain: Chain, motion: PiecewisePolynomial, audits: Sequence[Audi
         min(moved("limit_margin"), key=lambda one: one.value, default=None),
         _of(audits[0], "start") | _of(audits[-1], "end"),
         TipPeaks(*(_worst_tip([_moved(getattr(one.tip, name), at) for one, at in timed]) for name in _TIP_UNITS)),
+        _worst_part(moved("joint_torque")),
         PoseCertificate(
             sum(one.samples for one in certificates),
             max(one.max_position_error for one in certificates),
@@ -222,6 +226,17 @@ class _Examination:
                     detail = f"{quantity} at the {end} is off by {error:.6g}"
                     self.reasons.append(Reason("boundary", detail, names[joint], time))
         return errors
+
+    def torque(self) -> Peak | None:
+        """Find the torque nearest to its limit, or the largest if none is limited."""
+        limits = self.demands.torque
+        if limits is None or not self.chain.joint_names:
+            return None
+        peak = _worst(*torque_peaks(self.pieces, limits), self.chain.joint_names, limits.most)
+        if peak.ratio is not None and not peak.ratio <= 1.0 + self.demands.tolerance:
+            detail = f"torque is {peak.ratio:.6g} times the limit"
+            self.reasons.append(Reason("torque", detail, peak.joint, peak.time))
+        return peak
 
     def tip(self) -> tuple[TipPeaks, dict[str, Peak]]:
         """Find the peaks of the tip, and its deviations from the path by quantity; none without a path."""

@@ -7,6 +7,7 @@ from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.audit.result import PathError
 from gelenk.trajectory.audit.tip import PathOfTime
+from gelenk.trajectory.audit.torques import TorqueLimits
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +64,7 @@ class Demands:
             peak or to 1; also the allowed jump of position, ten times as much for velocity, and so on.
         end_rates: Velocities, and accelerations if they count, at the start and the end, shape (1 or 2, n) each;
             if None the motion rests at both.
+        torque: Limits of the joints' torques; None if torques do not count.
     """
 
     joints: JointLimits = field(default_factory=JointLimits)
@@ -79,3 +81,4 @@ class Demands:
     way_error: PathError | None = None
     tolerance: float = 1e-9
     end_rates: tuple[Array, Array] | None = None
+    torque: TorqueLimits | None = None

@@ -14,7 +14,8 @@ class Peak(Result):
 
     Attributes:
         ratio: To its limit or tolerance, no unit; null without one.
-        value: With its sign: of a joint [rad or m per sᵏ]; of the tip [m or rad], [m/s or rad/s], [m/s² or rad/s²].
+        value: With its sign: of a joint [rad or m per sᵏ] or its torque [N m or N]; of the tip [m or rad], [m/s or
+            rad/s], [m/s² or rad/s²].
         joint: Which joint; null for the tip.
         time: Time of the peak, [s].
     """
@@ -143,6 +144,8 @@ class Audit(Result):
         limit_margin: Null where no joint has limits.
         ends: By name, how far a position, velocity or acceleration at the start or the end is from its required value,
             [rad or m per sᵏ].
+        joint_torque: Torque of the joint nearest to its limit, or without limits the largest, recomputed through
+            Pinocchio; null unless the request has `limits.joint_torque`, `payload` or `torques`.
         certificate: Of poses along the motion, recomputed through Pinocchio.
         way_error: Difference of these three from those of the exact tip path; null without one.
         reasons: Why the motion fails the audit.
@@ -159,6 +162,7 @@ class Audit(Result):
     limit_margin: LimitMargin | None
     ends: dict[str, float]
     tip: TipPeaks
+    joint_torque: Peak | None
     certificate: PoseCertificate
     way_error: PathError | None
     reasons: tuple[Reason, ...]

@@ -99,7 +99,7 @@ def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE
     piece, tau, _ = grid(pieces, _SIGMA_SAMPLES, 1)
     times = pieces.times(piece, tau)[np.append(tau[:-1] < 1.0, True)]
     inner = np.arange(1, len(times) - 1)
-    value, _, time = _between(times, np.zeros(len(times), np.int64), inner, negative, np.zeros(1))[0]
+    value, _, time = between(times, np.zeros(len(times), np.int64), inner, negative, np.zeros(1))[0]
     return SmallestSingularValue(-value, time)
 
 
@@ -133,14 +133,14 @@ def _named(
 ) -> dict[str, Largest]:
     """Find the largest value of each quantity by name, from samples of each piece."""
     piece, tau, inner = samples
-    found = _between(tau, piece, inner, quantities, least)
+    found = between(tau, piece, inner, quantities, least)
     return {
         name: Largest(value, float(pieces.starts[piece[row]] + at * pieces.widths[piece[row]]))
         for name, (value, row, at) in zip(names, found, strict=True)
     }
 
 
-def _between(
+def between(
     places: Array, piece: Indices, inner: Indices, quantities: Callable[[Indices, Array], Array], least: Array
 ) -> list[tuple[float, int, float]]:
     """Find the largest value of each of Q quantities, also between samples: value, nearest sample, and place.

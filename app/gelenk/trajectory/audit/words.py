@@ -2,7 +2,9 @@
 
 from typing import Literal, TypeAlias
 
-Check: TypeAlias = Literal["velocity", "acceleration", "jerk", "joint_limit", "continuity", "path", "tip", "boundary"]
+Check: TypeAlias = Literal[
+    "velocity", "acceleration", "jerk", "joint_limit", "continuity", "path", "tip", "boundary", "torque"
+]
 PolynomialLaw: TypeAlias = Literal["cubic", "quintic", "septic"]
 Law: TypeAlias = Literal[PolynomialLaw, "trapezoidal", "jerk_limited", "time_optimal"]
 SegmentType: TypeAlias = Literal["joint", "line", "circle", "spline"]

@@ -24,6 +24,7 @@ from gelenk.trajectory.motion.time_laws import rest_to_rest
 from gelenk.trajectory.problem.parts import standing
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.timing import Timings
+from gelenk.trajectory.timing.torque_constraints import optimal_within, torque_factor
 
 NO_LENGTH = 1e-12
 """Largest displacement that counts as standing still, [rad or m]."""
@@ -52,7 +53,8 @@ def point_to_point_motion(
     - trapezoidal: the slowest joint is as fast as its limits allow, the others are slowed down by k = T/T_j: v/k, a/k².
       In a given time each keeps its acceleration and coasts more slowly. No ramp is shorter than 2e-6 of the time; if
       it would be, the acceleration is reduced.
-    - time_optimal: the same, except in a given time.
+    - time_optimal: the same, except in a given time, or where torques exceed their limits: then it is slowed down, or
+      the fastest along the straight line in joint space if that takes less time.
 
     In a given time all laws but the trapezoid are slowed down as a whole. Tip limits are not considered.
 
@@ -79,12 +81,22 @@ def point_to_point_motion(
     if law == "trapezoidal":
         return _trapezoid(start, steps, limits, duration)
     if law == "time_optimal":
-        motion = _trapezoid(start, steps, limits, None)
+        motion = _optimal(start, steps, limits)
     else:
         motion = _along_line(start, steps, law, limits)
         if law == "jerk_limited" and not _is_one_slowest(steps, limits):
             motion = _beside_line(start, target, limits, motion)
     return motion if duration is None else lasting(motion, duration, law, limits)
+
+
+def _optimal(start: Array, steps: Array, limits: SegmentLimits) -> PiecewisePolynomial:
+    """Return the fastest motion; where its torques exceed their limits, it or the one on the straight line, slower."""
+    motion = _trapezoid(start, steps, limits, None)
+    factor = 1.0 if limits.torque is None else torque_factor(motion, limits.torque)
+    if factor == 1.0:
+        return motion
+    line = PiecewisePolynomial(np.array([0.0, 1.0]), np.stack((start, steps))[None])
+    return min(motion.scaled(factor), optimal_within(line, limits).motion, key=lambda one: one.duration)
 
 
 def kept_limits(law: Law, limits: SegmentLimits) -> ScalingLimits:
@@ -109,6 +121,7 @@ def compared_point_to_point(start: Array, target: Array, law: Law, limits: Segme
 
     The trapezoid has its own path. Its slowest joint is already as fast as its limits allow, so nothing can be gained.
     """
+    limits = replace(limits, torque=None)
     motion = point_to_point_motion(start, target, law, limits)
     if motion.duration == 0.0:
         return Timings(0.0, 0.0, 0.0, 0.0)

@@ -33,6 +33,7 @@ from gelenk.trajectory.problem.parts import standing
 from gelenk.trajectory.problem.problem import Segment
 from gelenk.trajectory.timing.time_optimal import time_optimal
 from gelenk.trajectory.timing.timing import Timings, compared, timed
+from gelenk.trajectory.timing.torque_constraints import optimal_within
 
 _AT_REST = ("clamped", "assigned")
 """Boundaries of splines that are at rest at both ends."""
@@ -136,7 +137,7 @@ class JointSpline:
         if self._is_scaled():
             return self.path.scaled(uniform_scaling(self.path, kept_limits(law, limits)).factor or 1.0)
         if law == "time_optimal":
-            return time_optimal(self.path, limits.velocity, limits.acceleration).motion
+            return optimal_within(self.path, limits).motion
         return timed(geometry_of(None, self.path, limits), law).motion
 
 

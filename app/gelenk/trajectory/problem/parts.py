@@ -62,10 +62,10 @@ def standing(configuration: Array, duration: float = 0.0) -> PiecewisePolynomial
 
 @contextmanager
 def in_field(field: str, *whole: str) -> Iterator[None]:
-    """Name the part of the request in refusals of its fields, but for rates at the ends and fields of the `whole`."""
+    """Name the part of the request in refusals of its fields, but for torques, rates at the ends, and the `whole`."""
     try:
         yield
     except InvalidField as error:
-        if error.field.startswith(("start_", "end_")) or error.field in whole:
+        if error.field.startswith(("start_", "end_", "limits.joint_torque")) or error.field in whole:
             raise
         raise InvalidField(f"{field}.{error.field}", error.reason) from error

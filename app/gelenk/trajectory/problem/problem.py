@@ -14,6 +14,7 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.demands import TipLimits
 from gelenk.trajectory.audit.result import Audit
+from gelenk.trajectory.audit.torques import TorqueLimits
 from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw, SegmentType
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import Boundary, EndRates
@@ -29,12 +30,14 @@ class SegmentLimits:
 
     Attributes:
         velocity, acceleration, jerk: Of each joint; shape (n,), [rad or m per s, s², s³].
+        torque: Limits of torque, if torques count.
     """
 
     velocity: Array
     acceleration: Array
     jerk: Array
     tip: TipLimits = field(default_factory=TipLimits)
+    torque: TorqueLimits | None = None
 
     @property
     def joints(self) -> Array:

@@ -60,7 +60,7 @@ class PlanningFailure(Result):
 
 @dataclass(frozen=True, slots=True)
 class TimingComparison(Result):
-    """Two timings of one path.
+    """Two timings of one path, without limits of torque.
 
     Attributes:
         segments: Indices of the segments, from 0; several if they are blended.

@@ -3,5 +3,6 @@
 - `timing`: the choice of a law, or given times. `path_laws`: given laws; `chain_laws`: one speed for each of several
   blended lines.
 - `time_optimal`: in the least time, by `reachability` of path speeds.
-- `tip_constraints`: limits of the tip as rows; `path_peaks`: the largest use of a limit along a path.
+- `tip_constraints`, `torque_constraints`: limits of the tip and of torques as rows; `path_peaks`: the largest
+  use of a limit along a path.
 """

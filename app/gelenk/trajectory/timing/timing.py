@@ -30,8 +30,8 @@ from gelenk.trajectory.problem.parts import standing
 from gelenk.trajectory.timing.chain_laws import chain_law
 from gelenk.trajectory.timing.path_laws import s_curve, trapezoid
 from gelenk.trajectory.timing.path_peaks import peaks_of
-from gelenk.trajectory.timing.time_optimal import time_optimal
 from gelenk.trajectory.timing.tip_constraints import tip_rows
+from gelenk.trajectory.timing.torque_constraints import optimal_within
 
 _ONE_LAW: Final = (
     "one law runs through all blended lines: a corner, or the line with the lowest limits of the tip, makes it slow "
@@ -99,7 +99,11 @@ class Timings(NamedTuple):
 
 
 def compared(geometry: LimitedPath, law: Law) -> Timings:
-    """Compare a law, scaled uniformly until some limit is just reached, with the time-optimal one on the same path."""
+    """Compare a law, scaled uniformly until some limit is just reached, with the time-optimal one on the same path.
+
+    Limits of torque do not count.
+    """
+    geometry = replace(geometry, limits=replace(geometry.limits, torque=None))
     uniform, optimal = timed(geometry, law), timed(geometry, "time_optimal")
     duration = uniform.motion.duration
     if duration == 0.0:
@@ -203,11 +207,13 @@ def _shape(geometry: LimitedPath, law: Law) -> PiecewisePolynomial:
 
 def _time_optimal(geometry: LimitedPath) -> Timed:
     limits = geometry.limits
-    found = time_optimal(geometry.joints, limits.velocity, limits.acceleration, further=tip_rows(geometry))
+    found = optimal_within(geometry.joints, limits, tip_rows(geometry))
     timing = Timed(found.motion, found.time_law, 1, False, "some limit is reached nearly everywhere")
     if geometry.limits_tip:
         peaks = peaks_of(geometry, found.motion, found.time_law, with_jerk=False, with_joints=False)
         timing = _scaled(timing, max(1.0, peaks.factor))
+    if limits.torque is not None and limits.torque.is_limited:
+        return timing
     # Along a straight path the trapezoidal law is the exact optimum, with only three pieces.
     simple = _fastest(geometry, "trapezoidal")
     return simple if simple.motion.duration <= timing.motion.duration * (1.0 + _ROUNDING) else timing

@@ -58,18 +58,18 @@ def _rows(along: Array, bend: Array, slope: Array, gains: Array, bounds: Array) 
     ):
         if np.isfinite(speed).any():
             squares = np.einsum("nki,nki->nk", slope[:, :, part], slope[:, :, part]) / speed**2
-            alphas.append(_control(gains * squares))
-            betas.append(_control(squares))
+            alphas.append(control_points(gains * squares))
+            betas.append(control_points(squares))
         if np.isfinite(acceleration).any():
             limit = acceleration[:, :, None]
-            points = ((_control(values[:, :, part]) / limit).reshape(-1, 3) for values in (along, bend))
+            points = ((control_points(values[:, :, part]) / limit).reshape(-1, 3) for values in (along, bend))
             alpha, beta = _polygon(*points)
             alphas.append(alpha.reshape(len(along), -1))
             betas.append(beta.reshape(len(along), -1))
     return np.hstack(alphas), np.hstack(betas)
 
 
-def _control(values: Array) -> Array:
+def control_points(values: Array) -> Array:
     """Return the control points of the parabolas through three values each; their bounds hold for whole parabolas."""
     points = values.copy()
     points[:, 1] = 2.0 * values[:, 1] - 0.5 * (values[:, 0] + values[:, 2])
