@@ -134,7 +134,7 @@ ENDPOINT = Endpoint(
     rest in C. It is refused where the blend and the ramps overlap. As a picture with `Accept: image/svg+xml` or
     `image/png`.
     """,
-    picture="The corner in its plane, and the speed and the acceleration over time.",
+    picture="The corner in its plane, and the distance covered, the speed and the acceleration over time.",
     example={
         "start": [3.0, 3.0],
         "corner": [1.0, 9.0],

@@ -1,4 +1,4 @@
-"""Picture of a corner passed without a stop: the path in its plane, and speed and acceleration over time."""
+"""Picture of a corner passed without a stop: the path, and distance, speed and acceleration over time."""
 
 from typing import Any
 
@@ -20,24 +20,29 @@ _LEAST = 0.25
 
 def fly_over_picture(blend: Blend, motion: PiecewisePolynomial | None, kind: style.PictureFormat) -> bytes:
     """Draw a fly-over; `motion` is the whole one, or that of the blend, in [m], or None if it takes no time."""
-    figure = style.new_figure(6.4, 8.0)
+    figure = style.new_figure(6.4, 9.4)
     title = _("Fly-over in {time:.4g} s: d₁ = {before:.4g} m, d₂ = {after:.4g} m")
     title = title.format(time=blend.time, before=blend.distance_before, after=blend.distance_after)
-    style.write(figure, 0.06, 0.98, [title], size=style.TITLE)
-    axes = figure.add_axes((0.13, 0.45, 0.83, 0.48))
-    _draw_way(axes, blend)
-    for bottom, order, label, color in (
-        (0.25, 1, _("speed / (m/s)"), style.VELOCITY),
-        (0.07, 2, _("acceleration / (m/s²)"), style.FORCE),
-    ):
-        part = figure.add_axes((0.13, bottom, 0.83, 0.13))
+    style.write(figure, 0.06, 0.985, [title], size=style.TITLE)
+    _draw_way(figure.add_axes((0.13, 0.53, 0.83, 0.41)), blend)
+    labels = r"$\sigma$ / m", _("speed / (m/s)"), _("acceleration / (m/s²)")
+    for order, (label, color) in enumerate(zip(labels, (style.INK, style.VELOCITY, style.FORCE), strict=True)):
+        part = figure.add_axes((0.13, 0.36 - 0.15 * order, 0.83, 0.11))
         time_axes(part, label, is_last=order == 2)
         if motion is not None:
-            times, values = curve(motion.derivative(order))
-            part.plot(times, np.linalg.norm(values, axis=1), color=color, linewidth=1.5)
+            part.plot(*_magnitudes(motion, order), color=color, linewidth=1.5)
             part.set_xlim(motion.breaks[0], motion.breaks[-1])
             part.set_ylim(bottom=0.0)
     return style.as_bytes(figure, kind)
+
+
+def _magnitudes(motion: PiecewisePolynomial, order: int) -> tuple[Array, Array]:
+    """Return times and, there, the distance σ covered along the path (order 0), or the size of a derivative."""
+    times, values = curve(motion.derivative(max(order, 1)))
+    sizes = np.linalg.norm(values, axis=1)
+    if order > 0:
+        return times, sizes
+    return times, np.concatenate(([0.0], np.cumsum(0.5 * (sizes[1:] + sizes[:-1]) * np.diff(times))))
 
 
 def _draw_way(axes: Axes, blend: Blend) -> None:

@@ -19,7 +19,7 @@ CALCULATED: Final = {
     "bang-coast-bang": ("line", marked("A line by bang-coast-bang: distance, speed and acceleration over time")),
     "counted-lines": ("encoder", marked("Samples of an incremental encoder")),
     "cubic-spline": ("spline", marked("A spline of cubics through way-points")),
-    "fly-over": ("fly_over", marked("A fly-over: the corner, and σ(t) with its derivatives")),
+    "fly-over": ("fly_over", marked("A fly-over: the corner, σ(t), speed and acceleration")),
     "four-bar": ("mobility", marked("Links and pairs of a mechanism")),
     "lever-arms": ("statics", marked("Kinetostatics: the lever arms of a force at the tip")),
     "operating-point": ("dc_motor", marked("A DC motor with its numbers, and its operating point")),
