@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation, RotationSpline, Slerp
 
 from gelenk.robot.arrays import Array
+from gelenk.trajectory.paths.curves import PARABOLA, QUARTIC
 from gelenk.trajectory.paths.orientation_paths import (
     AxisAnglePath,
     OrientationPath,
@@ -135,11 +136,14 @@ def test_the_spline_passes_its_knots_smoothly() -> None:
     np.testing.assert_allclose(path.at(x)[1], differs_by_steps(path, x, 1e-6)[0], atol=1e-6 * scale)
 
 
-def test_the_turn_over_a_corner_joins_its_legs() -> None:
+@pytest.mark.parametrize("weights", [PARABOLA, QUARTIC], ids=["parabola", "quartic"])
+def test_the_turn_over_a_corner_joins_its_legs(weights: Array) -> None:
     """Its rates at both ends are twice those of the ways to and from the corner, as a parabola's are."""
     entry, corner, leaving = Rotation.random(3, rng=5).as_matrix()
-    path = rotation_corner(entry, corner, leaving)
-    rotations, rates, _ = path.at(ENDS)
+    path = rotation_corner(entry, corner, leaving, weights)
+    rotations, rates, changes = path.at(ENDS)
+    if weights is QUARTIC:
+        np.testing.assert_allclose(changes, 0.0, atol=1e-13)
     np.testing.assert_allclose(rotations, [entry, leaving], atol=5e-15)
     ways: list[AxisAnglePath] = [axis_angle(entry, corner), axis_angle(corner, leaving)]
     np.testing.assert_allclose(rates, [2.0 * way.angle * (way.start @ way.axis) for way in ways], atol=1e-13)

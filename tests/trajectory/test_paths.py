@@ -13,9 +13,12 @@ from gelenk.course.motion.fly_over import blended, corner_of
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses, transform
+from gelenk.trajectory.paths.curves import QUARTIC
 from gelenk.trajectory.paths.paths import Path, PathSamples, circle, line
 from gelenk.trajectory.paths.spline_paths import blended_lines, spline
 from gelenk.trajectory.paths.zyz_paths import zyz_turns
+
+SMOOTH = [QUARTIC] * 3
 
 
 def poses(count: int, seed: int, step: float = 0.7) -> Poses:
@@ -40,6 +43,10 @@ def example(kind: str, seed: int = 1) -> Path:
         "spline": lambda: spline(poses(6, seed)),
         "spline by zyz": lambda: spline(poses(6, seed), "natural", "zyz"),
         "blended lines": lambda: blended_lines(poses(5, seed), [0.2, 0.1, 0.3]),
+        "smooth corners": lambda: blended_lines(poses(5, seed), [0.2, 0.1, 0.3], shapes=SMOOTH),
+        "smooth corners by zyz": lambda: blended_lines(
+            poses(5, seed), [0.2, 0.1, 0.3], zyz_turns(poses(5, seed).rotations, [False, True, False, False]), SMOOTH
+        ),
         "blended lines by zyz": lambda: blended_lines(
             poses(5, seed), [0.2, 0.1, 0.3], turns=zyz_turns(poses(5, seed).rotations, [False, True, False, False])
         ),
@@ -61,6 +68,7 @@ def twists(samples: PathSamples, speeds: Array) -> Array:
 KINDS = (
     *("line", "line by zyz", "turn", "circle", "circle by zyz"),
     *("spline", "spline by zyz", "blended lines", "blended lines by zyz"),
+    *("smooth corners", "smooth corners by zyz"),
 )
 
 
@@ -91,11 +99,11 @@ def test_derivatives_by_differences(kind: str) -> None:
 def test_the_parameter_is_the_arc_length(kind: str) -> None:
     """The chords of many small steps add up to it, and the tangent has length one."""
     path = example(kind)
-    samples = path.at(np.linspace(0.0, path.extent, 20_001))
+    samples = path.at(np.linspace(0.0, path.extent, 40_001))
     chords = np.linalg.norm(np.diff(samples.poses.positions, axis=0), axis=1)
     assert chords.sum() == pytest.approx(path.extent if path.unit == "m" else 0.0, rel=1e-6, abs=1e-12)
     if path.unit == "m":
-        np.testing.assert_allclose(chords, path.extent / 20_000, rtol=1e-3)
+        np.testing.assert_allclose(chords, path.extent / len(chords), rtol=1e-3)
         np.testing.assert_allclose(np.linalg.norm(samples.first[:, :3], axis=1), 1.0, rtol=1e-12)
     turns = Rotation.from_matrix(samples.poses.rotations)
     assert (turns[1:] * turns[:-1].inv()).magnitude().sum() == pytest.approx(angle_of(path), rel=1e-6)
@@ -362,6 +370,33 @@ def test_tangent_and_angular_rate_go_on_across_blends() -> None:
     assert len(places) == 6
     before, after = path.at(places - 1e-10), path.at(places + 1e-10)
     np.testing.assert_allclose(before.first, after.first, atol=1e-7)
+
+
+@pytest.mark.parametrize("kind", ["smooth corners", "smooth corners by zyz"])
+def test_curvature_and_angular_rates_go_on_across_smooth_corners(kind: str) -> None:
+    path = example(kind, 13)
+    places = np.array(path.breaks)
+    assert len(places) == 6
+    before, after = path.at(places - 1e-8), path.at(places + 1e-8)
+    np.testing.assert_allclose(before.first, after.first, atol=1e-6)
+    np.testing.assert_allclose(before.second, after.second, atol=1e-4)
+
+
+def test_a_smooth_corner_passes_nearer_than_the_parabola() -> None:
+    """At u = 1/2, 3/16 of the difference of both legs' ends from the corner, the parabola a quarter."""
+    waypoints, radius = poses(3, 11), 0.25
+    path = blended_lines(waypoints, [radius], shapes=[QUARTIC])
+    begin, finish = path.breaks
+    points = path.at(np.linspace(begin, finish, 4001)).poses.positions
+    way = corner_of(waypoints.positions[0], waypoints.positions[1], waypoints.positions[2], 1.0, 1.0)
+    middle = 0.1875 * radius * float(np.linalg.norm(way.direction_after - way.direction_before))
+    distances = np.linalg.norm(points - way.corner, axis=1)
+    assert distances.min() == pytest.approx(middle, rel=1e-6)
+    assert distances.max() == pytest.approx(radius, rel=1e-12)
+    # Beside a leg, the path stays in the triangle of the corner and both ends of the blend.
+    within = np.linalg.lstsq(np.array([-way.direction_before, way.direction_after]).T, (points - way.corner).T)[0]
+    assert within.min() > -1e-12
+    assert within.sum(axis=0).max() < radius * (1.0 + 1e-9)
 
 
 def test_blends_that_do_not_fit_are_refused() -> None:

@@ -9,6 +9,7 @@ from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
 from gelenk.robot.arrays import Array
+from gelenk.trajectory.paths.curves import PARABOLA
 from gelenk.trajectory.paths.orientation_paths import OrientationPath
 from gelenk.trajectory.paths.zyz_paths import ZyzPath, zyz_corner, zyz_spline, zyz_triples, zyz_turns
 from tests.trajectory.test_orientation_paths import ENDS, angle_between, differs_by_steps, zyz
@@ -128,7 +129,7 @@ def test_turns_in_a_row_begin_where_the_one_before_ends() -> None:
 
 def test_over_a_corner_the_rates_are_those_of_both_turns() -> None:
     before, after = zyz_turns(rotations(3, 8), [False, True])
-    corner = zyz_corner(before.triple_at(0.6), after.triple_at(0.0), after.triple_at(0.4))
+    corner = zyz_corner(before.triple_at(0.6), after.triple_at(0.0), after.triple_at(0.4), PARABOLA)
     turns_by(corner)
     entry, leaving = before.at(np.array([0.6])), after.at(np.array([0.4]))
     np.testing.assert_allclose(corner.at(ENDS)[0], [entry[0][0], leaving[0][0]], atol=1e-14)

@@ -74,15 +74,15 @@ def rotation_spline(rotations: Array, knots: Array) -> RotationVectorPath:
     return RotationVectorPath(rotations[:-1], PiecewisePolynomial(np.asarray(knots, dtype=float), coefficients))
 
 
-def rotation_corner(entry: Array, corner: Array, exit_: Array) -> RotationVectorPath:
-    """Return the turn over a corner, R(u) = R_B Exp((1 - u)² θ_a + u² θ_b), from R_B Exp(θ_a) to R_B Exp(θ_b).
+def rotation_corner(entry: Array, corner: Array, exit_: Array, weights: Array) -> RotationVectorPath:
+    """Return the turn over a corner, R(u) = R_B Exp(A(u) θ_a + B(u) θ_b), from R_B Exp(θ_a) to R_B Exp(θ_b).
 
-    As with the parabola of positions, the angular rates at both ends are those of the turns that it connects. The
-    orientations, of shape (3, 3), are those at A', where the blend begins, at B, and at C', where it ends.
+    As with the position, the angular rates at both ends are those of the turns that it connects, and with `QUARTIC` so
+    are their derivatives. The orientations, of shape (3, 3), are those at A', where the blend begins, at B, and at C',
+    where it ends; the weights A and B are `PARABOLA` or `QUARTIC`.
     """
-    a, b = vectors_from_rotations(np.ascontiguousarray(corner.T @ np.array([entry, exit_])))
-    coefficients = np.array([[a, -2.0 * a, a + b]])
-    return RotationVectorPath(corner[None], PiecewisePolynomial(np.array([0.0, 1.0]), coefficients))
+    ends = vectors_from_rotations(np.ascontiguousarray(corner.T @ np.array([entry, exit_])))
+    return RotationVectorPath(corner[None], PiecewisePolynomial(np.array([0.0, 1.0]), (weights.T @ ends)[None]))
 
 
 def _solve(steps: Array, widths: Array, inverses: Array, omegas: Array) -> None:

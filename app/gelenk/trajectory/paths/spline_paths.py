@@ -19,7 +19,7 @@ from gelenk.trajectory.audit.words import OrientationLaw
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline
 from gelenk.trajectory.motion.time_laws import hermite_pieces
-from gelenk.trajectory.paths.curves import Line
+from gelenk.trajectory.paths.curves import PARABOLA, Line
 from gelenk.trajectory.paths.orientation_paths import AxisAnglePath, OrientationPath, axis_angle
 from gelenk.trajectory.paths.paths import (
     POINT,
@@ -178,11 +178,17 @@ def spline(
     return path
 
 
-def blended_lines(poses: Poses, radii: Sequence[float], turns: Sequence[Turn] | None = None) -> PathSequence:
-    """Return a polyline through poses whose corners are replaced by parabolas.
+def blended_lines(
+    poses: Poses,
+    radii: Sequence[float],
+    turns: Sequence[Turn] | None = None,
+    shapes: Sequence[Array] | None = None,
+) -> PathSequence:
+    """Return a polyline through poses whose corners are replaced by polynomials of a parameter.
 
-    If its parameter advances at a constant rate, such a parabola is the fly-over with equal speeds. Position and
-    orientation have continuous first derivatives by s; second derivatives jump where a parabola begins or ends.
+    If the parameter of a parabola advances at a constant rate, it is the fly-over with equal speeds. Position and
+    orientation have continuous first derivatives by s; second derivatives jump where a parabola begins or ends, and are
+    continuous with a quartic, which passes the corner at three quarters of the parabola's distance.
     `InvalidField` if a leg is shorter than the sum of the radii at its ends, or turns back along the previous one.
 
     Args:
@@ -190,6 +196,7 @@ def blended_lines(poses: Poses, radii: Sequence[float], turns: Sequence[Turn] | 
         radii: Distance from each inner pose at which its parabola begins and ends, > 0, [m].
         turns: Turns from each pose to the next, each beginning where the previous one ends, all about axes or all by
             ZYZ angles; by default each about one axis.
+        shapes: Of each corner, `PARABOLA` or `QUARTIC`; parabolas by default.
     """
     Ts = poses.matrices()
     if turns is None:
@@ -206,7 +213,8 @@ def blended_lines(poses: Poses, radii: Sequence[float], turns: Sequence[Turn] | 
         if i > 0:
             a, b = (legs[k].curve.at(np.zeros(1))[1][0] for k in (i - 1, i))
             refuse_reversal(a, b, "blend_radius")
-            parts.append(_corner(legs[i - 1 : i + 1], turns[i - 1 : i + 1], cuts[i]))
+            shape = PARABOLA if shapes is None else shapes[i - 1]
+            parts.append(_corner(legs[i - 1 : i + 1], turns[i - 1 : i + 1], cuts[i], shape))
         begin, finish = cuts[i] / leg.curve.length, 1.0 - cuts[i + 1] / leg.curve.length
         if finish - begin > 1e-12:
             ends = leg.curve.at(np.array([begin, finish]) * leg.curve.length)[0]
@@ -214,21 +222,21 @@ def blended_lines(poses: Poses, radii: Sequence[float], turns: Sequence[Turn] | 
     return PathSequence(tuple(parts))
 
 
-def _corner(legs: Sequence[CurvePath], turns: Sequence[Turn], radius: float) -> PolynomialPath:
-    """Return the parabola between two legs, p(u) = p_B - (1 - u)² a + u² b, with the orientation blended likewise."""
+def _corner(legs: Sequence[CurvePath], turns: Sequence[Turn], radius: float, weights: Array) -> PolynomialPath:
+    """Return the corner between two legs, p(u) = p_B - A(u) a + B(u) b, with the orientation blended likewise."""
     before, after = legs
     a = radius * before.curve.at(np.array([before.curve.length]))[1][0]
     corner, directions, _ = after.curve.at(np.array([0.0]))
-    b = radius * directions[0]
-    coefficients = np.array([[corner[0] - a, 2.0 * a, b - a]])
-    turn = _turn_over(turns, 1.0 - radius / before.curve.length, radius / after.curve.length)
-    return PolynomialPath(PiecewisePolynomial(np.array([0.0, 1.0]), coefficients), turn)
+    c = weights.T @ np.array([-a, radius * directions[0]])
+    c[0] += corner[0]
+    turn = _turn_over(turns, 1.0 - radius / before.curve.length, radius / after.curve.length, weights)
+    return PolynomialPath(PiecewisePolynomial(np.array([0.0, 1.0]), c[None]), turn)
 
 
-def _turn_over(turns: Sequence[Turn], entry: float, leaving: float) -> OrientationPath:
+def _turn_over(turns: Sequence[Turn], entry: float, leaving: float, weights: Array) -> OrientationPath:
     """Return the turn over the corner of two turns, from x = `entry` on the first to x = `leaving` on the second."""
     before, after = turns
     if isinstance(before, ZyzPath) and isinstance(after, ZyzPath):
-        return zyz_corner(before.triple_at(entry), after.triple_at(0.0), after.triple_at(leaving))
-    at_entry = before.at(np.array([entry]))[0][0]
-    return rotation_corner(at_entry, *after.at(np.array([0.0, leaving]))[0])
+        return zyz_corner(before.triple_at(entry), after.triple_at(0.0), after.triple_at(leaving), weights)
+    at_entry, (at_corner, at_leaving) = before.at(np.array([entry]))[0][0], after.at(np.array([0.0, leaving]))[0]
+    return rotation_corner(at_entry, at_corner, at_leaving, weights)

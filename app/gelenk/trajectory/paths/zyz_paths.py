@@ -65,14 +65,15 @@ def zyz_spline(rotations: Array, knots: Array, flips: Sequence[bool]) -> ZyzPath
     return ZyzPath(cubic_spline(np.asarray(knots, dtype=float), zyz_triples(rotations, flips), "natural").motion)
 
 
-def zyz_corner(entry: Array, corner: Array, leaving: Array) -> ZyzPath:
-    """Return the turn over a corner, a parabola in the angles: c + (1 - u)² (e - c) + u² (l - c).
+def zyz_corner(entry: Array, corner: Array, leaving: Array, weights: Array) -> ZyzPath:
+    """Return the turn over a corner in the angles: c + A(u) (e - c) + B(u) (l - c).
 
-    As with the parabola of positions, its rates at both ends are those of the turns that it connects. The triples, of
-    shape (3,), [rad], are those at A', where the blend begins, at B, and at C', where it ends.
+    See `rotation_corner`. The triples, of shape (3,), [rad], are those at A', where the blend begins, at B, and at C',
+    where it ends.
     """
-    a, b = entry - corner, leaving - corner
-    return _polynomial(entry, -2.0 * a, a + b)
+    c = weights.T @ np.array([entry - corner, leaving - corner])
+    c[0] += corner
+    return _polynomial(*c)
 
 
 def zyz_triples(rotations: Array, flips: Sequence[bool]) -> Array:
