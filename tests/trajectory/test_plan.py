@@ -57,6 +57,16 @@ def joint(target: Array, law: Law = "trapezoidal", limits: SegmentLimits = LIMIT
     return Segment("joint", law, limits, configuration=target, **options)  # type: ignore[arg-type]
 
 
+def check_smoothness(found: Trajectory) -> None:
+    """The acceleration is continuous and the jerk within its limits, by the audit."""
+    jump, jerk = found.audit.continuity.acceleration, found.audit.jerk
+    assert jump is not None
+    assert jump.value < 1e-6
+    assert jerk is not None
+    assert jerk.ratio is not None
+    assert jerk.ratio <= 1.0 + 1e-9
+
+
 def tip_at(found: Trajectory, times: Array) -> Poses:
     return Poses(*chain_poses(ARM.flat, found.motion.at(times)))
 
@@ -158,6 +168,37 @@ def test_a_blend_keeps_to_its_acceleration(law: Law, limits: SegmentLimits) -> N
     later = lasting.segments[0].blend
     assert later is not None
     assert later.start_time == pytest.approx(1.5 * blend.start_time, rel=1e-9)
+
+
+@pytest.mark.parametrize("law", ["quintic", "septic", "jerk_limited"])
+def test_smooth_laws_pass_a_corner_without_a_jump(law: Law) -> None:
+    radius = 0.06
+    found = planned(line(SIDE, law, blend_radius=radius), line(ABOVE, law))
+    assert [report.law for report in found.segments] == [law, law]
+    assert found.audit.passed
+    check_smoothness(found)
+    assert not any("curvature jumps" in note for report in found.segments for note in report.notes)
+    points = tip_at(found, np.linspace(0.0, found.motion.duration, 3000)).positions
+    nearest = np.linalg.norm(points - SIDE[:3, 3], axis=1).min()
+    assert nearest == pytest.approx(0.375 * radius * np.cos(np.pi / 4), abs=2e-4)
+    sharp = planned(line(SIDE, law), line(ABOVE, law))
+    assert found.motion.duration < sharp.motion.duration, "sooner than with a stop"
+
+
+@pytest.mark.quick(3)
+@pytest.mark.parametrize("law", ["cubic", "quintic", "septic", "trapezoidal", "jerk_limited"])
+@pytest.mark.parametrize("turn", [0.0, 0.7])
+def test_along_a_spline_a_law_slows_down_only_where_it_bends(law: Law, turn: float) -> None:
+    waypoints = np.array([moved(HERE, 0.02, 0.1, 0.0), moved(HERE, 0.0, 0.1, 0.1), moved(HERE, 0.0, -0.1, 0.1)])
+    waypoints[1:, :3, :3] = waypoints[1:, :3, :3] @ Rotation.from_rotvec([0.0, 0.0, turn]).as_matrix()
+    poses = Poses(waypoints[:, :3, 3], waypoints[:, :3, :3])
+    found, optimal = (planned(Segment("spline", one, LIMITS, poses=poses)) for one in (law, "time_optimal"))
+    assert found.audit.passed
+    assert found.motion.duration < 1.5 * optimal.motion.duration
+    smooth = law in {"quintic", "septic", "jerk_limited"}
+    assert found.segments[0].law == (law if smooth else "time_optimal")
+    if smooth:
+        check_smoothness(found)
 
 
 def test_a_blend_beyond_its_acceleration_fails_the_audit() -> None:
@@ -295,7 +336,9 @@ def test_two_timings_are_compared_on_request() -> None:
     assert [timing.segments for timing in found.timing] == [(0,), (1,), (2, 3)]
     for timing, begin, end in zip(found.timing, (0, 1, 2), (0, 1, 3), strict=True):
         lasts = found.segments[end].end_time - found.segments[begin].start_time
-        assert timing.uniform_duration == pytest.approx(lasts, rel=1e-9)
+        # Along blended lines the motion slows down at the corner, not everywhere like the scaled law.
+        expected = timing.time_optimal_duration if end == 3 else timing.uniform_duration
+        assert expected == pytest.approx(lasts, rel=1e-9)
         assert timing.time_optimal_duration < timing.uniform_duration
         k = max(timing.velocity_factor, np.sqrt(timing.acceleration_factor))
         assert timing.uniform_duration == pytest.approx(k, rel=1e-6)

@@ -20,6 +20,7 @@ from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
 from gelenk.trajectory.paths.paths import circle, line
 from gelenk.trajectory.paths.spline_paths import blended_lines
 from gelenk.trajectory.problem.problem import SegmentLimits
+from gelenk.trajectory.timing.averages import moving_average
 from gelenk.trajectory.timing.timing import Timed
 from tests.trajectory.timed_ways import (
     LAWS,
@@ -284,11 +285,34 @@ def test_where_the_direction_jumps_it_stops() -> None:
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_slowing_down_locally_is_time_optimal_and_says_so(law: Law) -> None:
-    way, bounds = planar_line(20), limits([3.0, 2.5], [5.0, 7.0])
+def test_slowing_down_locally_is_as_smooth_as_the_law_and_says_how(law: Law) -> None:
+    way, bounds = planar_line(20), limits([3.0, 2.5], [5.0, 7.0], [60.0, 80.0])
     found, optimal = timed(None, way, law, bounds, slow_down=True), timed(None, way, "time_optimal", bounds)
-    assert found.motion.duration == optimal.motion.duration
     assert any(law in note for note in found.notes) == (law != "time_optimal")
+    assert joint_ratios(found, bounds, with_jerk=law in SMOOTH).max() <= 1.0 + 1e-9
+    if law not in SMOOTH:
+        assert found.motion.duration == optimal.motion.duration
+        return
+    assert found.continuous == 2
+    for order in range(4 if law == "septic" else 3):
+        assert jumps(found.law, order) < 1e-8
+    assert jumps(found.motion, 2) < 1e-8
+    assert optimal.motion.duration < found.motion.duration < 1.3 * optimal.motion.duration
+    assert found.motion.duration < timed(None, way, law, bounds).motion.duration
+
+
+def test_the_average_of_a_trapezoid_is_the_jerk_limited_law() -> None:
+    """A window of 1/4 s over ramps of 1 s and a coast of 2 s: jerks of 1/4 s, by another planner."""
+    trapezoid = PiecewisePolynomial(
+        np.array([0.0, 1.0, 3.0, 4.0]), np.array([[0.0, 0.0, 0.5], [0.5, 1.0, 0.0], [2.5, 1.0, -0.5]])[:, :, None]
+    )
+    average = moving_average(trapezoid, 128, 8, 1)
+    wanted = jerk_limited(at_rest(np.zeros(1)), at_rest(np.array([3.0])), np.array([[1.0], [1.0], [4.0]]))
+    assert average.duration == pytest.approx(wanted.duration, rel=1e-12) == 4.25
+    times = np.linspace(0.0, 4.25, 200)
+    for order in range(3):
+        found, exact = (law.derivative(order).at(times) for law in (average, wanted))
+        np.testing.assert_allclose(found, exact, atol=1e-12)
 
 
 # Durations

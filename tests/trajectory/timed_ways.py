@@ -22,7 +22,7 @@ LOOSE = 1e6
 
 def timed(path: Path | None, joints: PiecewisePolynomial, law: Law, limits: SegmentLimits, **options: object) -> Timed:
     """The motion along a path, with options of the geometry and of the timing."""
-    of_geometry = {name: options.pop(name) for name in ("tip_motion", "zones", "corners") if name in options}
+    of_geometry = {name: options.pop(name) for name in ("tip_motion", "zones") if name in options}
     if path is not None:
         of_geometry.setdefault("tip_motion", tip_of_gantry(path))
     geometry = geometry_of(path, joints, limits, **of_geometry)  # type: ignore[arg-type]

@@ -151,8 +151,9 @@ class LineSegment(SegmentOptions):
     type: Literal["line"] = Field(description="Straight on.")
     target: Pose = Field(description="Pose of `tip_frame` in `base_frame` at its end.")
     blend_radius: float | None = optional(
-        "Distance from the target at which the motion leaves this line for the next one, along a parabola, without a "
-        "stop, [m]. The next segment must be a line.",
+        "Distance from the target at which the motion leaves this line for the next one, without a stop, [m]: along a "
+        "parabola, or with `quintic`, `septic` and `jerk_limited` a quartic of continuous curvature, closer to the "
+        "target. The next segment must be a line.",
         ge=0,
         le=1e6,
     )
@@ -266,7 +267,9 @@ class Motion(ChainOptions, MotionOptions, WithSteps):
         default="trapezoidal",
         description="Of time along each segment: polynomials from rest to rest (`cubic`; `quintic`, acceleration zero "
         "at both ends; `septic`, jerk too), `trapezoidal` velocity, `jerk_limited`, or `time_optimal`: as fast as the "
-        "limits of velocity and acceleration allow at each place.",
+        "limits of velocity and acceleration allow at each place. Along blended lines and splines of poses the motion "
+        "is slow only where the path bends, and as smooth as the law: `time_optimal` in place of `cubic` and "
+        "`trapezoidal`, else its moving average; `notes` say so.",
     )
     law_fallback: bool = Field(
         default=False,

@@ -15,9 +15,10 @@ from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.demands import Demands, JointLimits, TipLimits, Zone
 from gelenk.trajectory.audit.torques import TorqueLimits
+from gelenk.trajectory.audit.words import Law
 from gelenk.trajectory.follow.exact import path_error
 from gelenk.trajectory.follow.follow import FollowedPath, follow
-from gelenk.trajectory.laws.laws import scaled_law
+from gelenk.trajectory.laws.laws import LAWS, scaled_law
 from gelenk.trajectory.laws.time_scaling import QUANTITIES
 from gelenk.trajectory.motion.composition import times_at
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
@@ -81,14 +82,20 @@ class _TipPart:
         return SegmentLimits(velocity, acceleration, jerk, tip, torque)
 
     @property
-    def slows_at_corners(self) -> bool:
-        """Whether a corner slows the tip down only there: accelerate, coast and brake on each line and corner."""
-        return len(self.segments) > 1 and self.segments[0].law == "trapezoidal"
+    def slows_down(self) -> bool:
+        """Whether the tip slows down where its path bends, along a spline and at corners, instead of everywhere."""
+        return len(self.segments) > 1 or self.segments[0].type == "spline"
+
+    @property
+    def law(self) -> Law:
+        """The law taken: where the tip slows down, the time-optimal one in place of those as smooth."""
+        law = self.segments[0].law
+        return law if LAWS[law].keeps_jerk or not self.slows_down else "time_optimal"
 
     @cached_property
     def geometry(self) -> LimitedPath:
         motion, path = tip_through(self.chain), self.path
-        return geometry_of(path.path, self.joints.positions, self.limits, motion, path.zones, path.edges)
+        return geometry_of(path.path, self.joints.positions, self.limits, motion, path.zones)
 
     def timed(self) -> Timed:
         """Time the path; an incomplete path gets the shortest time, whatever the request."""
@@ -97,7 +104,7 @@ class _TipPart:
             if segment.times is not None and is_whole:
                 return passing_at(self.geometry, cast(PolynomialPath, self.path.path).knots[1:], segment.times)
             duration = segment.duration if is_whole else None
-            return timed(self.geometry, segment.law, duration=duration, slow_down=self.slows_at_corners)
+            return timed(self.geometry, segment.law, duration=duration, slow_down=self.slows_down)
 
     def comparison(self) -> TimingComparison:
         law = scaled_law(self.segments[0].law)
@@ -164,7 +171,7 @@ class _TipPart:
                 SegmentReport(
                     self.first + i,
                     segment.type,
-                    "time_optimal" if self.slows_at_corners else segment.law,
+                    self.law,
                     *self._times_at(timing.law, begin, end),
                     *self._travelled(begin, min(end, joints.reached)),
                     deviation if damped else None,

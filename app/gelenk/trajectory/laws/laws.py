@@ -19,8 +19,6 @@ class TimeLaw:
         scales_splines: Whether a spline that is at rest at both ends is the motion itself, all times multiplied by one
             factor; another law leads along the spline.
         end_rates: How many derivatives of joints may be given at its ends, from the velocity on; else it rests there.
-        adapts_to_corners: Whether it is slow only at the corners of blended lines. Another law is chosen for each line,
-            with constant speed in the corners, if that takes less time than one law along all of them.
     """
 
     continuous: int
@@ -28,7 +26,6 @@ class TimeLaw:
     peaks: tuple[float, ...] = ()
     scales_splines: bool = False
     end_rates: int = 0
-    adapts_to_corners: bool = False
 
     @property
     def keeps_jerk(self) -> bool:
@@ -41,9 +38,9 @@ LAWS: Final[dict[Law, TimeLaw]] = {
     "quintic": TimeLaw(continuous=2, conditions=3, peaks=(1.875, 10.0 / math.sqrt(3.0), 60.0), end_rates=2),
     # s' = 140 y³, s'' = 420 y² (1 - 2λ), s''' = 840 (y - 5y²) with y = λ (1 - λ).
     "septic": TimeLaw(continuous=3, conditions=4, peaks=(2.1875, 16.8 / math.sqrt(5.0), 52.5), end_rates=2),
-    "trapezoidal": TimeLaw(continuous=1, scales_splines=True, adapts_to_corners=True),
+    "trapezoidal": TimeLaw(continuous=1, scales_splines=True),
     "jerk_limited": TimeLaw(continuous=2, end_rates=2),
-    "time_optimal": TimeLaw(continuous=1, adapts_to_corners=True),
+    "time_optimal": TimeLaw(continuous=1),
 }
 
 POLYNOMIALS: Final = {name: law.conditions for name, law in LAWS.items() if law.conditions is not None}

@@ -89,14 +89,12 @@ class LimitedPath:
         joints: q(s), whose breaks include those of the tip's path.
         tip_motion: Function from the joints' motion to the tip's; None if the tip has no limits.
         zones: Where the tip has its own limits; each begins and ends at a break.
-        corners: s at the beginning and the end of each blend of lines, which are breaks too.
     """
 
     joints: PiecewisePolynomial
     limits: SegmentLimits
     tip_motion: TipMotion | None
     zones: tuple[Zone, ...] = ()
-    corners: tuple[tuple[float, float], ...] = ()
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -180,7 +178,6 @@ def geometry_of(
     limits: SegmentLimits,
     tip_motion: TipMotion | None = None,
     zones: tuple[Zone, ...] = (),
-    corners: tuple[tuple[float, float], ...] = (),
 ) -> LimitedPath:
     """Combine limits with a path of the joints, which is also cut at the breaks of the tip's path."""
     breaks = joints.breaks
@@ -190,7 +187,7 @@ def geometry_of(
     if len(extra):
         nodes = np.union1d(breaks, extra)
         joints = PiecewisePolynomial(nodes, cut(joints, nodes))
-    return LimitedPath(joints, limits, tip_motion, zones, corners)
+    return LimitedPath(joints, limits, tip_motion, zones)
 
 
 def subdivided(lengths: Array, count: int, least: int) -> tuple[Indices, Indices, Indices]:

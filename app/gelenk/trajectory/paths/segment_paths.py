@@ -12,6 +12,9 @@ from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.demands import TipLimits, Zone
+from gelenk.trajectory.audit.words import Law
+from gelenk.trajectory.laws.laws import LAWS
+from gelenk.trajectory.paths.curves import PARABOLA, QUARTIC
 from gelenk.trajectory.paths.orientation_paths import axis_angle
 from gelenk.trajectory.paths.paths import POINT, Path, circle, line, refuse_reversal
 from gelenk.trajectory.paths.spline_paths import PolynomialPath, SplineBoundary, Turn, blended_lines, spline
@@ -50,11 +53,6 @@ class SegmentsPath:
     corners: tuple[BlendedCorner, ...] = ()
     zones: tuple[Zone, ...] = ()
     notes: tuple[str, ...] = ()
-
-    @property
-    def edges(self) -> tuple[tuple[float, float], ...]:
-        """Values of s at the beginning and the end of each blend."""
-        return tuple((corner.begin, corner.end) for corner in self.corners)
 
 
 def path_through(start: Array, segments: Sequence[Segment], first: int) -> SegmentsPath:
@@ -109,11 +107,17 @@ def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]
 def _blended(start: Array, segments: Sequence[Segment], first: int) -> SegmentsPath:
     poses = _poses(start, *(cast(Array, segment.pose) for segment in segments))
     blends = _blends(np.diff(poses.positions, axis=0), segments, first)
-    path = blended_lines(poses, [blend.radius for blend in blends], turns=_turns(poses.rotations, segments, first))
+    radii, turns = [blend.radius for blend in blends], _turns(poses.rotations, segments, first)
+    path = blended_lines(poses, radii, turns, [_shape(blend, segments[0].law) for blend in blends])
     spans = [span for part, span in zip(path.parts, pairwise(path.ends.tolist()), strict=True) if _is_corner(part)]
     corners = tuple(replace(blend, begin=begin, end=end) for blend, (begin, end) in zip(blends, spans, strict=True))
     ends = (*(0.5 * (begin + end) for begin, end in spans), path.extent)
     return SegmentsPath(path, ends, corners, _zones(corners, segments, path.extent))
+
+
+def _shape(blend: BlendedCorner, law: Law) -> Array:
+    """Return the fly-over's parabola where the blend has an acceleration, or the law lets accelerations jump."""
+    return QUARTIC if LAWS[law].keeps_jerk and math.isinf(blend.acceleration) else PARABOLA
 
 
 def _is_corner(part: Path) -> bool:

@@ -26,6 +26,9 @@ from gelenk.trajectory.timing.reachability import controllable, fastest, stages
 Rows: TypeAlias = Callable[[Array], tuple[Array, Array]]
 """Maps nodes from 0 to 1 to α and β of rows αu + βx ≤ 1 on the intervals between them; (N + 1,) → (N, m) each."""
 
+Slower: TypeAlias = Callable[[Array], Array]
+"""Maps nodes from 0 to 1 to factors k ≥ 1 of time on the intervals between them; (N + 1,) → (N,)."""
+
 INTERVALS = 200
 LARGEST_PATH = 100_000
 """Largest number of intervals times joints in the first run; the second run may double it."""
@@ -67,6 +70,7 @@ class _Task:
     limits: Array
     most_at_ends: tuple[float, float]
     rows: Rows | None
+    slower: Slower | None
 
 
 def time_optimal(
@@ -76,6 +80,7 @@ def time_optimal(
     *,
     intervals: int = INTERVALS,
     further: Rows | None = None,
+    slower: Slower | None = None,
 ) -> TimeOptimal:
     """Plan the fastest motion along a path from rest to rest; the limits are kept everywhere.
 
@@ -88,6 +93,7 @@ def time_optimal(
             optimum: 200 are within 1.5 % of it along splines through up to 20 knots.
         further: Further constraints on u = s̈ and x = ṡ² at the start of each interval, for the path scaled to
             0 ≤ s ≤ 1; u = x = 0 has to satisfy them.
+        slower: Where to keep further below the limits, as if time ran faster there.
 
     Returns:
         The motion, starting at time 0; along a path of zero length (≤ 1e-13), one piece whose two breaks coincide.
@@ -101,7 +107,7 @@ def time_optimal(
     if travels.max(initial=0.0) <= _NO_LENGTH:
         law = PiecewisePolynomial(np.zeros(2), path.breaks[None, -1:, None])
         return TimeOptimal(law, PiecewisePolynomial(np.zeros(2), path.at(path.breaks[-1:])[None]))
-    task = _task(path, travels.max(axis=1), np.stack((velocity, acceleration)) * (1.0 - MARGIN), further)
+    task = _task(path, travels.max(axis=1), np.stack((velocity, acceleration)) * (1.0 - MARGIN), further, slower)
     nodes = _nodes(task, travels, intervals // 2)
     x = _squared_speeds(task, nodes)
     more = np.sort(np.concatenate((_switches(nodes, x), _between(task, nodes, _time_law(nodes, x), intervals))))
@@ -123,7 +129,9 @@ def _travels(path: PiecewisePolynomial) -> Array:
     return travels
 
 
-def _task(path: PiecewisePolynomial, travels: Array, limits: Array, further: Rows | None) -> _Task:
+def _task(
+    path: PiecewisePolynomial, travels: Array, limits: Array, further: Rows | None, slower: Slower | None
+) -> _Task:
     length = path.duration
     powers = length ** np.arange(path.coefficients.shape[1])[:, None]
     unit = PiecewisePolynomial((path.breaks - path.breaks[0]) / length, path.coefficients * powers)
@@ -137,7 +145,7 @@ def _task(path: PiecewisePolynomial, travels: Array, limits: Array, further: Row
     before, after = slopes.coefficients[:, 0], np.einsum("mk,mkj->mj", powers, slopes.coefficients)
     still = _STILL * np.abs(np.concatenate((before, after))).max()
     start, end = (np.inf if np.abs(slope).max() <= still else 0.0 for slope in (before[0], after[-1]))
-    return _Task(unit, limits, (start, end), further)
+    return _Task(unit, limits, (start, end), further, slower)
 
 
 def _nodes(task: _Task, travels: Array, intervals: int) -> Array:
@@ -161,6 +169,9 @@ def _squared_speeds(task: _Task, nodes: Array) -> Array:
     if task.rows is not None:
         more = task.rows(nodes)
         alpha, beta = np.hstack((alpha, more[0])), np.hstack((beta, more[1]))
+    if task.slower is not None:
+        squares = task.slower(nodes)[:, None] ** 2
+        alpha, beta = squares * alpha, squares * beta
     constraints = stages(lengths, alpha, beta, least_shares)
     start, end = task.most_at_ends
     return fastest(constraints, controllable(constraints, end), start)

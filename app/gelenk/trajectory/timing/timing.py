@@ -2,11 +2,13 @@
 
 A law s(t) is chosen, then scaled uniformly until the joints' polynomials in time, or the tip, just reach some limit:
 
-- `cubic`, `quintic`, `septic`: a fixed shape; along blended lines one law per line, with constant speed through the
-  blends, if that takes less time (`chain_laws`).
+- `cubic`, `quintic`, `septic`: a fixed shape.
 - `trapezoidal`: the acceleration and the cruise speed of the shortest time.
-- `jerk_limited`: likewise, with a jerk along s; along blended lines, it is chosen like the polynomials.
+- `jerk_limited`: likewise, with a jerk along s.
 - `time_optimal`: some joint, or the tip, is at a limit nearly always.
+
+One shape along a path that bends is slow everywhere because of its narrowest bend. A motion that may slow down locally
+has the smoothness of its law instead: the time-optimal law, averaged over time as often as that takes (`averages`).
 
 Jerk limits apply to the laws with continuous acceleration: `quintic`, `septic`, `jerk_limited`.
 """
@@ -27,16 +29,14 @@ from gelenk.trajectory.motion.splines import cubic_spline
 from gelenk.trajectory.motion.time_laws import rest_to_rest
 from gelenk.trajectory.paths.path_geometry import LimitedPath
 from gelenk.trajectory.problem.parts import standing
-from gelenk.trajectory.timing.chain_laws import chain_law
+from gelenk.trajectory.timing.averages import averaged
 from gelenk.trajectory.timing.path_laws import s_curve, trapezoid
 from gelenk.trajectory.timing.path_peaks import peaks_of
 from gelenk.trajectory.timing.tip_constraints import tip_rows
 from gelenk.trajectory.timing.torque_constraints import optimal_within
 
-_ONE_LAW: Final = (
-    "one law runs through all blended lines: a corner, or the line with the lowest limits of the tip, makes it slow "
-    "everywhere, `trapezoidal` and `time_optimal` only there"
-)
+_IN_PLACE: Final = "to be slow only where the path bends, the time-optimal law is taken in place of `{}`"
+_AVERAGED: Final = "to be slow only where the path bends, `{}` is a moving average of the time-optimal law"
 _ROUNDING = 1e-9
 """Relative tolerance for a requested duration that falls short of the shortest one, and then means it."""
 
@@ -73,19 +73,16 @@ def timed(geometry: LimitedPath, law: Law, *, duration: float | None = None, slo
     Args:
         geometry: The path of the joints, possibly ending before the path of the tip does, and the limits.
         duration: Requested duration, [s]; the shortest within the limits if None.
-        slow_down: Whether the motion may slow down locally where the joints require it; the time-optimal law then
-            replaces `law`.
+        slow_down: Whether the motion may slow down locally where the limits require it, with the smoothness of `law`
+            but not its shape.
 
     Raises:
         InvalidField: The duration is shorter than the limits allow, or limits and path differ too much in magnitude.
     """
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        found = _whole(geometry, "time_optimal" if slow_down else law)
+        found = _whole(geometry, law, slow_down)
     if not np.isfinite(found.motion.coefficients).all():
         raise InvalidField("limits", "these limits and this path are too many powers of ten apart")
-    if slow_down and law != "time_optimal":
-        note = f"to be slow only where the joints have to, the time-optimal law is taken in place of `{law}`"
-        found = replace(found, notes=(note, *found.notes))
     return found if duration is None else _lasting(found, duration)
 
 
@@ -150,11 +147,11 @@ def _refuse_going_back(law: PiecewisePolynomial) -> None:
         raise InvalidField("times", reason)
 
 
-def _whole(geometry: LimitedPath, law: Law) -> Timed:
+def _whole(geometry: LimitedPath, law: Law, slow_down: bool) -> Timed:
     if geometry.stands_still:
         end = geometry.joints.breaks[-1:]
         return Timed(standing(geometry.joints.at(end)[0]), standing(end), 2, True, "nothing moves")
-    parts = [_fastest(part, law) for part in geometry.parts()]
+    parts = [_fastest(part, law, slow_down) for part in geometry.parts()]
     if len(parts) == 1:
         return parts[0]
     stops = ", ".join(f"{part.law.at(part.law.breaks[-1:])[0, 0]:.4g}" for part in parts[:-1])
@@ -169,18 +166,18 @@ def _whole(geometry: LimitedPath, law: Law) -> Timed:
     )
 
 
-def _fastest(geometry: LimitedPath, law: Law) -> Timed:
-    if law == "time_optimal":
-        return _time_optimal(geometry)
+def _fastest(geometry: LimitedPath, law: Law, slow_down: bool) -> Timed:
+    averages = LAWS[law].continuous - 1
+    if law == "time_optimal" or (slow_down and averages == 0):
+        optimal = _time_optimal(geometry)
+        return optimal if law == "time_optimal" else replace(optimal, notes=(_IN_PLACE.format(law), *optimal.notes))
     single = _along(geometry, law, _shape(geometry, law))
-    if LAWS[law].adapts_to_corners or not geometry.corners:
+    if not slow_down:
         return single
-    chained = chain_law(geometry, LAWS[law].conditions)
-    if chained is not None:
-        each = _along(geometry, law, chained)
-        if each.motion.duration < single.motion.duration:
-            return each
-    return replace(single, notes=(*single.notes, _ONE_LAW))
+    average = _along(geometry, law, averaged(geometry, averages))
+    if single.motion.duration <= average.motion.duration:
+        return single
+    return replace(average, notes=(_AVERAGED.format(law), *average.notes))
 
 
 def _along(geometry: LimitedPath, law: Law, along: PiecewisePolynomial) -> Timed:
@@ -215,7 +212,7 @@ def _time_optimal(geometry: LimitedPath) -> Timed:
     if limits.torque is not None and limits.torque.is_limited:
         return timing
     # Along a straight path the trapezoidal law is the exact optimum, with only three pieces.
-    simple = _fastest(geometry, "trapezoidal")
+    simple = _fastest(geometry, "trapezoidal", False)
     return simple if simple.motion.duration <= timing.motion.duration * (1.0 + _ROUNDING) else timing
 
 

@@ -14,7 +14,7 @@ from gelenk.robot.arrays import Array
 from gelenk.trajectory.audit.torques import TorqueLimits
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut, derivatives
 from gelenk.trajectory.problem.problem import SegmentLimits
-from gelenk.trajectory.timing.time_optimal import INTERVALS, Rows, TimeOptimal, time_optimal
+from gelenk.trajectory.timing.time_optimal import INTERVALS, Rows, Slower, TimeOptimal, time_optimal
 from gelenk.trajectory.timing.tip_constraints import control_points
 
 FIELD = "limits.joint_torque"
@@ -25,7 +25,9 @@ _LEAST, _EACH = 800, 4
 """Least number of intervals between examined places in a motion, and in each of its pieces."""
 
 
-def optimal_within(path: PiecewisePolynomial, limits: SegmentLimits, further: Rows | None = None) -> TimeOptimal:
+def optimal_within(
+    path: PiecewisePolynomial, limits: SegmentLimits, further: Rows | None = None, slower: Slower | None = None
+) -> TimeOptimal:
     """Plan the fastest motion along a path under limits of velocity, acceleration and torque, and further rows.
 
     With limits of torque the intervals are half as long: torques bend more than accelerations.
@@ -39,7 +41,7 @@ def optimal_within(path: PiecewisePolynomial, limits: SegmentLimits, further: Ro
 
     intervals = INTERVALS if torques is None else 2 * INTERVALS
     rows = together if every else None
-    return time_optimal(path, limits.velocity, limits.acceleration, intervals=intervals, further=rows)
+    return time_optimal(path, limits.velocity, limits.acceleration, intervals=intervals, further=rows, slower=slower)
 
 
 def torque_rows(path: PiecewisePolynomial, torque: TorqueLimits | None) -> Rows | None:
