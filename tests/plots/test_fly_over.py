@@ -36,7 +36,7 @@ def drawn(monkeypatch: pytest.MonkeyPatch, blend: Blend, motion: PiecewisePolyno
 def test_the_way_and_its_points_are_those_of_the_blend(monkeypatch: pytest.MonkeyPatch) -> None:
     blend = blend_of(FLAT, 4.0)
     figure = drawn(monkeypatch, blend, blend.motion)
-    way, speed, acceleration = figure.axes
+    way, distance, speed, acceleration = figure.axes
     points = {text.get_text(): text.xy for text in way.texts}  # type: ignore[attr-defined]
     wanted = {"A": FLAT[0], "B": FLAT[1], "C": FLAT[2], "A'": blend.entry, "C'": blend.exit}
     assert set(points) == set(wanted)
@@ -46,6 +46,10 @@ def test_the_way_and_its_points_are_those_of_the_blend(monkeypatch: pytest.Monke
     nearest = np.linalg.norm(line - FLAT[1], axis=1).min()
     assert nearest == pytest.approx(blend.closest_distance, rel=1e-3)
     assert speed.lines[0].get_ydata()[[0, -1]] == pytest.approx([1.0, 2.0])  # type: ignore[index]
+    times = np.linspace(0.0, blend.time, 2001)[:, None]
+    path = times ** np.arange(3) @ blend.coefficients
+    length = np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
+    assert distance.lines[0].get_ydata()[[0, -1]] == pytest.approx([0.0, length], rel=1e-4)  # type: ignore[index]
     constant = float(np.linalg.norm(blend.acceleration))
     np.testing.assert_allclose(np.asarray(acceleration.lines[0].get_ydata(), dtype=float), constant)
 
