@@ -22,7 +22,7 @@ class MotionLimitsInfo(Answer):
     joint_acceleration: list[float] = Field(description="One number per joint, [rad/s² or m/s²].")
     joint_jerk: list[float] = Field(description="One number per joint, [rad/s³ or m/s³].")
     joint_torque: list[float | None] | None = optional(
-        "One number per joint, [N m or N], null for one without a limit; null if none has one."
+        "One number per joint, [N m or N], null for one without a limit; left out if none has one."
     )
     tip_velocity: float | None = Field(description="[m/s]; null without one.")
     tip_acceleration: float | None = Field(description="[m/s²]; null without one.")
