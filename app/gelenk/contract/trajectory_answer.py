@@ -10,7 +10,7 @@ from gelenk.course.steps import Step
 from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.trajectory.audit.result import Audit
 from gelenk.trajectory.audit.words import Law, SegmentType
-from gelenk.trajectory.problem.result import Damping, PlanningFailure, SegmentBlend, TimingComparison
+from gelenk.trajectory.problem.result import Damping, PlanningFailure, SegmentBlend, TimingComparison, ToolChoice
 
 LimitSource = Literal["request", "robot", "assumed"]
 
@@ -94,6 +94,7 @@ class TrajectoryAnswer(Answer):
     tip_poses: list[Pose] | None = Field(description="T_base_tip at each sample; null if not requested.")
     segments: list[TrajectorySegmentInfo] = Field(description="The segments completed, wholly or in part.")
     audit: Audit
+    path: ToolChoice | None = optional("If a `path` was requested: turns, branches and configurations at its poses.")
     timing: list[TimingComparison] | None = optional("If `compare_timing` was requested.")
     limits: MotionLimitsInfo = Field(description="Of the trajectory; each segment has its own.")
     limit_sources: LimitSourcesInfo

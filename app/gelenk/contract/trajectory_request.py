@@ -9,7 +9,7 @@ from gelenk.contract.common import ChainOptions, OnTheWire, Payload, optional
 from gelenk.contract.course_motion import Duration
 from gelenk.contract.kinematics import ByName, ByOrder, Configuration
 from gelenk.contract.options import Directions, WithSteps
-from gelenk.contract.pose import ORIENTATIONS, AnswerFormat, Pose
+from gelenk.contract.pose import ORIENTATIONS, AnswerFormat, Pose, pose_fields
 from gelenk.contract.statics import Gravity, PayloadInfo
 from gelenk.robot.arrays import Array
 from gelenk.robot.arrays import Configuration as GivenConfiguration
@@ -22,7 +22,9 @@ MAX_JOB_SAMPLES = 500_000
 """Maximum number of samples of a motion that a job computes."""
 MAX_SEGMENTS = 100
 MAX_WAYPOINTS = 1000
-"""Maximum number of waypoints of all segments together."""
+"""Maximum number of waypoints of all segments together, and of poses of a path."""
+MAX_TURNS = 72
+"""Maximum number of turns of the tool that are tried at each pose."""
 
 _POSE_FIELDS = frozenset({"position", "matrix", *ORIENTATIONS})
 
@@ -228,6 +230,35 @@ Segment = Annotated[
 ]
 
 
+class ToolPath(Payload):
+    """A path of the tool (welding, milling, gluing) that may turn about one of its own axes along it.
+
+    Of all branches of the inverse kinematics and all turns tried, at all poses, the sequence with the least joint
+    travel is chosen: Σ ‖Δq_j/v_j‖, with the joints' velocity limits v, clear of joint limits and singularities. The
+    turns in between are then used for an even motion.
+    """
+
+    poses: Annotated[
+        Sequence[Pose] | Array,
+        OnTheWire(
+            Annotated[list[Pose], Field(min_length=2, max_length=MAX_WAYPOINTS, fail_fast=True)],
+            lambda given: pose_fields(given, "path.poses"),
+        ),
+    ] = Field(
+        description=f"Poses of `tip_frame` in `base_frame`, 2 to {MAX_WAYPOINTS}, the first one included; the tip "
+        "passes through their positions on a smooth curve."
+    )
+    free: list[Literal["rx", "ry", "rz"]] = Field(
+        max_length=1,
+        description="The axis of `tip_frame` about which the tool may turn, as `rz`; or none, `[]`, if only the "
+        "branch is to be chosen.",
+        examples=[["rz"]],
+    )
+    steps: int = Field(
+        default=36, ge=1, le=MAX_TURNS, description="Turns that are tried at each pose, spread over a full turn."
+    )
+
+
 _RATES = (
     "one number per joint or by joint name; at rest if left out. That segment is a `joint` motion with the law `cubic` "
     "(velocities), `quintic`, `septic` or `jerk_limited`, or a `spline` through configurations with the law `cubic` "
@@ -236,11 +267,12 @@ _RATES = (
 
 
 class Motion(ChainOptions, MotionOptions, WithSteps):
-    """A motion through segments, one after the other."""
+    """A motion through segments, one after the other, or along the path of a tool."""
 
     start: Configuration | None = optional(
         "Configuration in which the motion begins, one number per joint of the chain or by joint name, [rad or m]; "
-        "required without `at`."
+        "required without `at`. With `path` it may be left out: then the motion begins at the first pose; otherwise a "
+        "motion of the joints, segment 0, leads there, and its travel counts."
     )
     start_velocities: Configuration | None = Field(
         default=None, description=f"At the start of the first segment, [rad/s or m/s], {_RATES}"
@@ -250,11 +282,16 @@ class Motion(ChainOptions, MotionOptions, WithSteps):
     )
     end_velocities: Configuration | None = optional("At the end of the last segment, [rad/s or m/s], likewise.")
     end_accelerations: Configuration | None = optional("At the end of the last segment, [rad/s² or m/s²], likewise.")
-    segments: Annotated[
-        Sequence[Segment], OnTheWire(Annotated[list[Segment], Field(min_length=1, max_length=MAX_SEGMENTS)])
-    ] = Field(
-        description=f"One after the other, with a stop between two that are not blended; 1 to {MAX_SEGMENTS}, with at "
-        f"most {MAX_WAYPOINTS} waypoints in all.",
+    segments: (
+        Annotated[Sequence[Segment], OnTheWire(Annotated[list[Segment], Field(min_length=1, max_length=MAX_SEGMENTS)])]
+        | None
+    ) = optional(
+        f"One after the other, with a stop between two that are not blended; 1 to {MAX_SEGMENTS}, with at most "
+        f"{MAX_WAYPOINTS} waypoints in all. Required without `path`."
+    )
+    path: ToolPath | None = optional(
+        "Instead of `segments`, the path of a tool that may turn about one of its axes; of arms with six joints whose "
+        "inverse kinematics has a closed form. From rest to rest, and in all directions (no `task`)."
     )
     payload: PayloadInfo | None = optional("A load carried by the tip during the whole motion; it counts for torques.")
     gravity: Gravity = Field(

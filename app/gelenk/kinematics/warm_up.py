@@ -38,6 +38,7 @@ from gelenk.trajectory.follow.ladder import Metric, Rungs, way_up
 from gelenk.trajectory.follow.nearest import nearest
 from gelenk.trajectory.plan import plan
 from gelenk.trajectory.problem.problem import Segment, SegmentLimits, TrajectoryProblem
+from gelenk.trajectory.tool.candidates import regular
 
 
 def warm_up() -> None:
@@ -114,8 +115,9 @@ def _motions() -> None:
     way = Segment("spline", "time_optimal", limits, configurations=points, stated_jerk=limits.jerk)
     plan(robot, chain, TrajectoryProblem(start, (move, way))).motion.rates_at(np.zeros(1))
     nearest(_six_joints()[1].flat, np.zeros(3), np.eye(3), *np.zeros((3, 6)))
-    metric = Metric(*np.ones((2, 3)), np.zeros(3, dtype=bool))
+    metric = Metric(np.ones(3), np.ones(3), np.zeros(3, dtype=bool))
     way_up(Rungs(np.zeros((2, 3)), np.arange(3)), metric, np.zeros(1))
+    regular(chain.flat, qs, 0.0)
 
 
 def _answers() -> None:

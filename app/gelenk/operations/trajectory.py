@@ -32,6 +32,8 @@ def attempt(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> Out
 
 def is_heavy(call: TrajectoryRequest) -> bool:
     """Check whether planning takes more than about a millisecond: all but one movement of resting joints."""
+    if call.segments is None:
+        return True
     first = call.segments[0]
     is_move = isinstance(first, JointSegment) and not isinstance(first.target, Pose)
     is_moving = any(getattr(call, name) is not None for name in _MOVING)

@@ -203,6 +203,8 @@ class PlannedTrajectory:
         if self.call.steps:
             with language(self.call.language):  # A job answers outside the context of its request.
                 answer["steps"] = trajectory_steps(self.chain, self.question.problem.segments, found)
+        if found.choice is not None:
+            answer["path"] = found.choice
         return answer | ({"timing": found.timing} if self.call.compare_timing else {})
 
     def _notes(self) -> list[str]:

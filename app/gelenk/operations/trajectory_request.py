@@ -17,11 +17,13 @@ from gelenk.contract.trajectory_request import (
     TrajectoryRequest,
 )
 from gelenk.errors import InvalidField, InvalidPose, OutsideLimits, counted
+from gelenk.ik.search.bounds import mid_range
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.ik.search.words import DIRECTIONS
 from gelenk.operations.pose_arrays import poses_from
 from gelenk.operations.trajectory_ends import state_of, with_rates
 from gelenk.operations.trajectory_limits import OwnVelocities, SourcedLimits, bounds_of, has_own_limits, own_velocities
+from gelenk.operations.trajectory_path import free_tool, refuse_beside, tool_segments
 from gelenk.operations.trajectory_torques import with_torques
 from gelenk.robot.arrays import Array, Configuration
 from gelenk.robot.chain import Chain
@@ -47,18 +49,25 @@ class SourcedProblem:
 
 def parse(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedProblem:
     """Convert a request into the problem for the core; raises InvalidInput, which names the field."""
-    waypoints = sum(len(segment.waypoints) for segment in call.segments if isinstance(segment, SplineSegment))
+    refuse_beside(call)
+    requested = call.segments or ()
+    waypoints = sum(len(segment.waypoints) for segment in requested if isinstance(segment, SplineSegment))
     if waypoints > MAX_WAYPOINTS:
         raise InvalidField("segments", f"all together have {waypoints} waypoints; at most {MAX_WAYPOINTS} are allowed")
     own = own_velocities(robot, chain)
     overall = bounds_of(chain, own, {"": call})
     bounds = tuple(
         bounds_of(chain, own, {"": call, f"segments.{i}.": one}) if has_own_limits(one) else overall
-        for i, one in enumerate(call.segments)
+        for i, one in enumerate(requested)
     )
     overall, *segment_bounds = with_torques(robot, chain, call, (overall, *bounds))
     state = None if call.at is None else state_of(robot, chain, call.at, lambda *former: parse(*former).problem)
-    segments = tuple(_segment(chain, call, i, segment_bounds[i]) for i in range(len(call.segments)))
+    if call.path is None:
+        segments = tuple(_segment(chain, call, i, segment_bounds[i]) for i in range(len(requested)))
+    else:
+        part = Part("spline", _tip_law(call, None, "law"), overall.limits, stated_jerk=_stated(overall))
+        segments = tool_segments(call, call.path, part)
+        segment_bounds = [overall] * len(segments)
     problem = TrajectoryProblem(
         _start(chain, call, state),
         with_rates(chain, call, segments, state),
@@ -71,6 +80,7 @@ def parse(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedPr
         ),
         call.duration,
         call.compare_timing,
+        None if call.path is None else free_tool(call.path),
     )
     return SourcedProblem(problem, own, overall, tuple(segment_bounds))
 
@@ -78,6 +88,8 @@ def parse(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedPr
 def _start(chain: Chain, call: TrajectoryRequest, state: Array | None) -> Array:
     """Return where the motion begins, by the request or in the state of a running motion; shape (n,), [rad or m]."""
     if state is None:
+        if call.start is None and call.path is not None:
+            return mid_range(chain)
         if call.start is None:
             raise InvalidField("start", "is missing: give a list of one number per joint, or a running motion as `at`")
         return _within(chain, call.start, "start")
@@ -104,15 +116,15 @@ def _task(call: TrajectoryRequest) -> Task:
 
 
 def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedLimits) -> Part:
-    segment, place = call.segments[index], f"segments.{index}"
-    stated = np.array([source == "request" for source in bounds.sources["joint_jerk"]])
+    segments = call.segments or ()
+    segment, place = segments[index], f"segments.{index}"
     left_open = None if _task(call).has_rotations else OPEN
     part = Part(
         segment.type,
-        _law(call, index),
+        _tip_law(call, segment.law, f"{place}.law") if _is_tip_path(segment) else segment.law or call.law,
         bounds.limits,
         segment.duration,
-        stated_jerk=np.where(stated, bounds.limits.jerk, np.inf) if stated.any() else None,
+        stated_jerk=_stated(bounds),
     )
     match segment:
         case JointSegment():
@@ -121,7 +133,7 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedL
                 return replace(part, pose=_matrix(segment.target, f"{place}.target", anyhow))
             return replace(part, configuration=_within(chain, segment.target, f"{place}.target"))
         case LineSegment():
-            _check_blend(call.segments, index)
+            _check_blend(segments, index)
             return replace(
                 part,
                 pose=_matrix(segment.target, f"{place}.target", left_open),
@@ -143,15 +155,20 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedL
             return _spline(chain, segment, part, place, left_open)
 
 
-def _law(call: TrajectoryRequest, index: int) -> Law:
-    """Return the law of a segment; with `slow_down`, only `time_optimal` suits a path of the tip."""
-    segment = call.segments[index]
-    law = segment.law or call.law
-    if law == "time_optimal" or call.near_singularity != "slow_down" or not _is_tip_path(segment):
+def _stated(bounds: SourcedLimits) -> Array | None:
+    """Return the limits of jerk that the request gives, ∞ for the others; None if it gives none; shape (n,)."""
+    stated = np.array([source == "request" for source in bounds.sources["joint_jerk"]])
+    return np.where(stated, bounds.limits.jerk, np.inf) if stated.any() else None
+
+
+def _tip_law(call: TrajectoryRequest, own: Law | None, field: str) -> Law:
+    """Return the law along a path of the tip, its own or the trajectory's; with `slow_down` only `time_optimal`."""
+    law = own or call.law
+    if law == "time_optimal" or call.near_singularity != "slow_down":
         return law
-    if (segment.law or "law" in call.model_fields_set) and not call.law_fallback:
+    if (own or "law" in call.model_fields_set) and not call.law_fallback:
         raise InvalidField(
-            f"segments.{index}.law" if segment.law else "law",
+            field if own else "law",
             f"`{law}` has one shape along the whole path, and `near_singularity` `slow_down` is slow only where the "
             "joints must be: ask for `time_optimal`, or allow another law with `law_fallback`",
         )

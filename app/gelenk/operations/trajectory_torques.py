@@ -34,7 +34,7 @@ def with_torques(
     load, gravity = load_of(call.payload), gravity_of(call.gravity)
     overall = _most(robot, chain, call, "", np.full(len(chain), np.inf))
     limits = torque_limits(found, overall, np.zeros(3) if gravity is None else gravity, load)
-    each = [_most(robot, chain, one, f"segments.{i}.", overall) for i, one in enumerate(call.segments)]
+    each = [_most(robot, chain, one, f"segments.{i}.", overall) for i, one in enumerate(call.segments or ())]
     return tuple(_with(one, replace(limits, most=most)) for one, most in zip(bounds, (overall, *each), strict=True))
 
 
@@ -44,7 +44,7 @@ def has_torques(call: Motion) -> bool:
 
 
 def _limits_torques(call: Motion) -> bool:
-    return any(one.limits is not None and one.limits.joint_torque is not None for one in (call, *call.segments))
+    return any(one.limits is not None and one.limits.joint_torque is not None for one in (call, *(call.segments or ())))
 
 
 def torque_notes(robot: RobotModel, chain: Chain, call: Motion) -> list[str]:

@@ -27,6 +27,7 @@ from gelenk.trajectory.problem.parts import PlannedPart, standing
 from gelenk.trajectory.problem.problem import Segment, Trajectory, TrajectoryProblem
 from gelenk.trajectory.timing.torque_constraints import torque_factor
 from gelenk.trajectory.tip_part import tip_part
+from gelenk.trajectory.tool.placing import placed_tool, stopped
 
 _SAME_DURATION = 1e-9
 """Relative tolerance for a requested duration that falls short of the shortest one, and then means it."""
@@ -53,7 +54,16 @@ def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Traject
         AuditFailed: The motion fails its audit.
     """
     check_limits(chain, problem.start[None])
-    parts = [_with_torques(_with_stated_jerk(part, problem), problem) for part in _parts(robot, chain, problem)]
+    if problem.tool is None:
+        return _whole(robot, chain, problem, _parts(robot, chain, problem))
+    placed, sequence = placed_tool(chain, problem, problem.tool)
+    parts = stopped(_parts(robot, chain, placed), placed, sequence)
+    return replace(_whole(robot, chain, placed, parts), choice=sequence.choice)
+
+
+def _whole(robot: RobotModel, chain: Chain, problem: TrajectoryProblem, planned: list[PlannedPart]) -> Trajectory:
+    """Time, join and audit the parts of a trajectory."""
+    parts = [_with_torques(_with_stated_jerk(part, problem), problem) for part in planned]
     factor, share, failure = _factor(parts, problem), parts[-1].share, parts[-1].failure
     parts, audits = _judged(robot, chain, [part.slowed(factor) for part in parts], problem)
     starts = list(accumulate((part.motion.duration for part in parts), initial=0.0))
@@ -82,6 +92,8 @@ def _parts(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> list[
     parts: list[PlannedPart] = []
     configuration = problem.start
     for first, segments in _grouped(problem.segments):
+        if segments[0].turn is not None and segments[0].turn.is_blocked:
+            break
         if segments[0].type == "joint" or segments[0].configurations is not None:
             part = joint_part(robot, chain, configuration, segments[0], first, problem)
         else:

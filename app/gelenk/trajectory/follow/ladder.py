@@ -45,7 +45,7 @@ def way_up(rungs: Rungs, metric: Metric, first_costs: Array) -> tuple[Indices, f
 
     `first_costs` are the costs of the configurations on the first rung, infinite where none may begin.
     """
-    costs, before = _climbed(*rungs, *metric, first_costs)
+    costs, before = _climbed(rungs.qs, rungs.firsts, metric.weights, metric.longest, metric.turning, first_costs)
     owners = np.repeat(np.arange(len(rungs.firsts) - 1), np.diff(rungs.firsts))
     reached = np.flatnonzero(np.isfinite(costs))
     if len(reached) == 0:

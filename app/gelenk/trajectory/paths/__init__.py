@@ -2,5 +2,6 @@
 
 - `paths`: lines, circles and blended corners; `spline_paths`: splines; both built from `curves`.
 - `orientation_paths`, `zyz_paths`, `rotation_splines`: orientations along them.
+- `turned_path`: a path on which the tip turns about an axis of its own besides.
 - `segment_paths`: the paths of a request's segments. `path_geometry`: their derivatives where joints follow them.
 """

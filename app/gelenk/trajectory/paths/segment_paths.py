@@ -14,10 +14,12 @@ from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.demands import TipLimits, Zone
 from gelenk.trajectory.audit.words import Law
 from gelenk.trajectory.laws.laws import LAWS
+from gelenk.trajectory.motion.splines import cubic_spline
 from gelenk.trajectory.paths.curves import PARABOLA, QUARTIC
 from gelenk.trajectory.paths.orientation_paths import axis_angle
 from gelenk.trajectory.paths.paths import POINT, Path, circle, line, refuse_reversal
 from gelenk.trajectory.paths.spline_paths import PolynomialPath, SplineBoundary, Turn, blended_lines, spline
+from gelenk.trajectory.paths.turned_path import TurnedPath
 from gelenk.trajectory.paths.zyz_paths import zyz_turns
 from gelenk.trajectory.problem.parts import in_field
 from gelenk.trajectory.problem.problem import Segment
@@ -74,6 +76,10 @@ def is_blended(segment: Segment) -> bool:
 
 
 def _single(start: Array, segment: Segment) -> tuple[Path, tuple[str, ...]]:
+    if segment.poses is not None and segment.turn is not None:
+        turn = segment.turn
+        angle = cubic_spline(turn.places, turn.turns[:, None], "natural").motion
+        return TurnedPath(spline(segment.poses), turn.axis, angle), ()
     if segment.poses is not None:
         boundary, notes = _tangent_boundary(segment)
         poses = _poses(start, *segment.poses.matrices())

@@ -18,7 +18,7 @@ from gelenk.trajectory.audit.torques import TorqueLimits
 from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw, SegmentType
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import Boundary, EndRates
-from gelenk.trajectory.problem.result import Damping, PlanningFailure, SegmentBlend, TimingComparison
+from gelenk.trajectory.problem.result import Damping, PlanningFailure, SegmentBlend, TimingComparison, ToolChoice
 
 OPEN = np.full((3, 3), np.nan)
 """Orientation of a pose on a tip path that leaves it open: that of the pose before."""
@@ -46,6 +46,33 @@ class SegmentLimits:
 
 
 @dataclass(frozen=True, slots=True)
+class FreeTool:
+    """A turn of the tip about an axis of its own that a path leaves open.
+
+    Attributes:
+        axis: In the tip's frame, a unit vector, or zero if only the branch is to be chosen; shape (3,).
+        steps: Angles per turn that are tried.
+    """
+
+    axis: Array
+    steps: int
+
+
+@dataclass(frozen=True, slots=True)
+class ToolTurn:
+    """Turns of the tip about an axis of its own, (3,), at places of a path, (R,), [m]; shape (R,), [rad]."""
+
+    axis: Array
+    places: Array
+    turns: Array
+
+    @property
+    def is_blocked(self) -> bool:
+        """Whether it leads nowhere, because no place after the first can be reached."""
+        return len(self.places) < 2
+
+
+@dataclass(frozen=True, slots=True)
 class Segment:
     """One segment of a requested trajectory.
 
@@ -59,7 +86,8 @@ class Segment:
         orientation: How a tip path turns: about an axis (on a smooth spline if it passes several orientations), or by
             ZYZ Euler angles on either branch.
         configurations: Waypoints of a joint spline after the start; shape (m, n), [rad or m].
-        poses: Waypoints of a Cartesian spline after the start.
+        poses: Waypoints of a Cartesian spline after the start; all of them, if the tip turns along it.
+        turn: How the tip turns about an axis of its own along a spline of poses.
         times: Time of each waypoint, counted from the start of the segment; shape (m,), [s].
         blends: Whether joints pass beside the waypoints on straight lines with parabolic blends, not on a spline.
         stated_jerk: Requested jerk limits, which hold for every law; ∞ where none was requested; shape (n,),
@@ -85,6 +113,7 @@ class Segment:
     blends: bool = False
     stated_jerk: Array | None = None
     ends: EndRates | None = None
+    turn: ToolTurn | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,6 +145,8 @@ class TrajectoryProblem:
         segments: At least one, in order.
         duration: Of the whole, [s]; the shortest within the limits if None.
         compares_timing: Whether to compare uniform and time-optimal timing of each segment.
+        tool: Of a path that leaves a turn of the tip open. The last segment is then a spline of all of its poses. If
+            there is one before, the joints move to the first pose; else the motion begins there, wherever the start is.
     """
 
     start: Array
@@ -123,6 +154,7 @@ class TrajectoryProblem:
     following: Following = field(default_factory=Following)
     duration: float | None = None
     compares_timing: bool = False
+    tool: FreeTool | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,6 +202,7 @@ class Trajectory:
         completed_fraction: Completed fraction; segments count equally, an incomplete one by its completed length.
         failure: Why the trajectory ends early; None if it is complete.
         laws: s(t) of each path of the tip, [m or rad], from its start, with the index of its first segment.
+        choice: Of the turns of a tool that a path leaves open.
     """
 
     motion: PiecewisePolynomial
@@ -179,3 +212,4 @@ class Trajectory:
     audit: Audit
     timing: tuple[TimingComparison, ...] = ()
     laws: tuple[tuple[int, PiecewisePolynomial], ...] = ()
+    choice: ToolChoice | None = None

@@ -78,3 +78,21 @@ class TimingComparison(Result):
     velocity_factor: float
     acceleration_factor: float
     time_optimal_duration: float
+
+
+@dataclass(frozen=True, slots=True)
+class ToolChoice(Result):
+    """How the tool is turned along a `path`, and on which branch, at each of its poses as far as they are reached.
+
+    Attributes:
+        joint_travel: Σ ‖Δq_j/v_j‖ along the path, with the joints' velocity limits v, [s]: no sequence of the turns and
+            branches tried has less, and the turns in between were then used.
+        turns: Of the tip about its free axis, counted on beyond ±π, [rad].
+        branches: Names of the choices that make up the branch, as in `ik`.
+        joint_positions: One row per pose, [rad or m].
+    """
+
+    joint_travel: float
+    turns: tuple[float, ...]
+    branches: tuple[dict[str, str | int], ...]
+    joint_positions: tuple[tuple[float, ...], ...]

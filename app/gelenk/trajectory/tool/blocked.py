@@ -1,0 +1,54 @@
+"""Why a sequence of a tool's poses goes no further."""
+
+import numpy as np
+
+from gelenk.ik.closed.closed_form import ClosedForm
+from gelenk.ik.search.bounds import mid_range
+from gelenk.robot.arrays import Array
+from gelenk.robot.notations import rotations_from_vectors
+from gelenk.robot.poses import Poses
+from gelenk.trajectory.audit.words import StopReason
+from gelenk.trajectory.problem.result import PlanningFailure
+from gelenk.trajectory.tool.candidates import regular
+
+
+def blocked(
+    form: ClosedForm, pose: Poses, axis: Array, turns: Array, least: float, place: tuple[int, bool]
+) -> PlanningFailure:
+    """Return why a pose, the first that cannot be reached, is not; its segment and time are left at zero.
+
+    `place` is the last pose of the request up to there, and whether it is this one; the limits are those of the form.
+    """
+    near, is_own = place
+    where = f"way-point {near}" if is_own else f"the path between way-points {near} and {near + 1}"
+    targets = Poses(
+        np.repeat(pose.positions, len(turns), axis=0),
+        pose.rotations @ rotations_from_vectors(turns[:, None] * axis),
+    )
+    seed, at = mid_range(form.chain)[None], f" at any turn of the tool ({len(turns)} tried)" if len(turns) > 1 else ""
+    anywhere = form.solve(targets, seed, respect_limits=False).qs
+    inside = form.solve(targets, seed).qs
+    reason: StopReason
+    joint = None
+    if len(anywhere) == 0:
+        reason, detail = "out_of_reach", f"{where} is out of reach{at}"
+    elif len(inside) == 0:
+        reason, (joint, beyond) = "joint_limit", _nearest_to_limits(form, anywhere)
+        detail = f"{where} is beyond the joint limits{at}: in the best case {joint} by {beyond:.4g}"
+    elif not regular(form.chain.flat, inside, least).any():
+        reason = "singularity"
+        detail = f"{where} is near a singularity{at}: the smallest singular value is below {least:g}"
+    else:
+        reason = "branch_change"
+        before = near - 1 if is_own else near
+        detail = f"no continuous step leads from way-point {before} to {before + 1}: the joints would have to jump"
+    return PlanningFailure(reason, 0, 0.0, tuple(pose.positions[0].tolist()), joint, detail)
+
+
+def _nearest_to_limits(form: ClosedForm, qs: Array) -> tuple[str, float]:
+    """Return the joint that is furthest beyond a limit, and how far, where that is least, [rad or m]."""
+    chain = form.chain
+    beyond = np.maximum(chain.lower - qs, qs - chain.upper)
+    row = int(beyond.max(axis=1).argmin())
+    joint = int(beyond[row].argmax())
+    return chain.joint_names[joint], float(beyond[row, joint])

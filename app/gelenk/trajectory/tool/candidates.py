@@ -1,0 +1,99 @@
+"""All configurations with the tip at poses turned about an axis of its own, clear of limits and singularities."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gelenk.ik.closed.branch_kernels import BranchTable
+from gelenk.ik.closed.closed_form import ClosedForm
+from gelenk.ik.search.bounds import mid_range
+from gelenk.ik.search.search import in_pieces
+from gelenk.kinematics.simd.kernels import chain_jacobians
+from gelenk.robot.arrays import Array, Flags, Indices
+from gelenk.robot.chain import FlatChain
+from gelenk.robot.compilation import compiled
+from gelenk.robot.notations import rotations_from_vectors
+from gelenk.robot.poses import Poses
+from gelenk.trajectory.follow.ladder import Rungs
+
+_PIECE = 1024
+"""Targets that one thread solves at a time."""
+_CLEAR, _CLEAR_SHARE = 0.01, 0.01
+"""Distance from the joint limits, [rad or m], and at most this share of the range: so much do joints swing out between
+two rungs."""
+
+
+@dataclass(frozen=True, slots=True)
+class TurnedCandidates:
+    """Configurations of each rung, with the tip's turn, (M,), [rad], and the branch codes, (M,)."""
+
+    rungs: Rungs
+    turns: Array
+    codes: Indices
+
+
+def clear_of_limits(form: ClosedForm) -> ClosedForm:
+    """Return the closed form with limits that leave a margin."""
+    chain = form.chain
+    with np.errstate(invalid="ignore"):
+        margin = np.fmin(_CLEAR, _CLEAR_SHARE * (chain.upper - chain.lower))
+    return replace(form, chain=replace(chain, lower=chain.lower + margin, upper=chain.upper - margin))
+
+
+def candidates(form: ClosedForm, poses: Poses, axis: Array, turns: Array, least: float) -> TurnedCandidates:
+    """Return the configurations within the limits whose smallest singular value is at least `least`.
+
+    Args:
+        poses: One of each rung.
+        axis: About which the tip turns, in its frame; shape (3,).
+        turns: The angles to try, [rad]; shape (K,).
+    """
+    rows, count = np.arange(len(poses) * len(turns)), len(turns)
+    turned = poses.rotations[:, None] @ rotations_from_vectors(turns[:, None] * axis)
+    targets = Poses(np.repeat(poses.positions, count, axis=0), turned.reshape(-1, 3, 3))
+    found: dict[int, tuple[Array, Indices, Indices]] = {}
+
+    def solve(part: slice) -> None:
+        each = Poses(targets.positions[part], targets.rotations[part])
+        table = form.solve(each, mid_range(form.chain)[None])
+        clear = regular(form.chain.flat, table.qs, least)
+        owners = np.repeat(rows[part], np.diff(table.firsts))
+        found[part.start] = table.qs[clear], table.codes[clear], owners[clear]
+
+    in_pieces(solve, len(rows), _PIECE, small=False)
+    qs, codes, owners = (np.concatenate(each) for each in zip(*(found[k] for k in sorted(found)), strict=True))
+    firsts = np.searchsorted(owners, count * np.arange(len(poses) + 1))
+    return TurnedCandidates(Rungs(qs, firsts), turns[owners % count], codes)
+
+
+def solved_near(form: ClosedForm, targets: Poses, qs: Array) -> tuple[BranchTable, Flags]:
+    """Return the solution of each target nearest to a configuration, and which targets have one."""
+    table = form.solve(targets, qs, most=1)
+    return table, np.diff(table.firsts) > 0
+
+
+def regular(flat: FlatChain, qs: Array, least: float) -> Flags:
+    """Flag configurations whose Jacobian's smallest singular value is at least `least`; shape (N,)."""
+    return np.asarray(_regular(chain_jacobians(flat, qs)[2], least))
+
+
+@compiled
+def _regular(Js: Array, least: float) -> Flags:
+    """Flag matrices (N, 6, n) for which JJᵀ - least² I has a Cholesky factor: it is positive definite."""
+    flags, L = np.empty(len(Js), np.bool_), np.zeros((6, 6))
+    for i in range(len(Js)):
+        J, good = Js[i], True
+        for k in range(6):
+            for m in range(k + 1):
+                entry = -(least**2) if k == m else 0.0
+                for j in range(J.shape[1]):
+                    entry += J[k, j] * J[m, j]
+                for j in range(m):
+                    entry -= L[k, j] * L[m, j]
+                if k == m:
+                    good &= entry > 0.0
+                    L[k, k] = np.sqrt(max(entry, 1e-300))
+                else:
+                    L[k, m] = entry / L[m, m]
+        flags[i] = good
+    return flags
