@@ -263,6 +263,7 @@ def test_poses_are_passed_at_their_times() -> None:
     poses = Poses(np.array([T[:3, 3] for T in targets]), np.array([T[:3, :3] for T in targets]))
     times = np.array([2.0, 4.0, 6.5])
     found = planned(Segment("spline", "cubic", LIMITS, poses=poses, times=times))
+    assert found.segments[0].law == "cubic"
     assert tip_at(found, times).positions == pytest.approx(poses.positions, abs=4e-5)
     assert found.motion.duration == 6.5
     with pytest.raises(InvalidField, match=r"segments\.0\.times.*multiply all times by"):

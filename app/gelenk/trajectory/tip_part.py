@@ -84,7 +84,12 @@ class _TipPart:
     @property
     def slows_down(self) -> bool:
         """Whether the tip slows down where its path bends, along a spline and at corners, instead of everywhere."""
-        return len(self.segments) > 1 or self.segments[0].type == "spline"
+        return len(self.segments) > 1 or (self.segments[0].type == "spline" and not self.has_times)
+
+    @property
+    def has_times(self) -> bool:
+        """Whether the waypoints' times are given; an incomplete path gets the shortest time, whatever the request."""
+        return self.segments[0].times is not None and self.joints.stop is None
 
     @property
     def law(self) -> Law:
@@ -98,12 +103,12 @@ class _TipPart:
         return geometry_of(path.path, self.joints.positions, self.limits, motion, path.zones)
 
     def timed(self) -> Timed:
-        """Time the path; an incomplete path gets the shortest time, whatever the request."""
-        is_whole, segment = self.joints.stop is None, self.segments[0]
+        segment = self.segments[0]
         with in_field(f"segments.{self.first}"):
-            if segment.times is not None and is_whole:
-                return passing_at(self.geometry, cast(PolynomialPath, self.path.path).knots[1:], segment.times)
-            duration = segment.duration if is_whole else None
+            if self.has_times:
+                knots = cast(PolynomialPath, self.path.path).knots[1:]
+                return passing_at(self.geometry, knots, cast(Array, segment.times))
+            duration = segment.duration if self.joints.stop is None else None
             return timed(self.geometry, segment.law, duration=duration, slow_down=self.slows_down)
 
     def comparison(self) -> TimingComparison:
