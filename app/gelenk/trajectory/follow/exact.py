@@ -16,7 +16,7 @@ from gelenk.trajectory.follow.bounds import SLACK
 from gelenk.trajectory.follow.rate_field import RateField
 from gelenk.trajectory.follow.rows import row_derivatives, task_rows
 from gelenk.trajectory.motion.composition import RATES_KNOWN
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut, derivatives
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut, derivatives, divided
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.timing import Timed
@@ -95,13 +95,11 @@ def _errors(field: RateField, positions: PiecewisePolynomial) -> tuple[Array, In
 
 def _divided(field: RateField, positions: PiecewisePolynomial, parts: Indices) -> PiecewisePolynomial:
     """Divide pieces at exact knots; a piece that would then leave the joint limits keeps its own quintic."""
-    piece = np.repeat(np.arange(len(parts)), parts)
-    share = (np.arange(len(piece)) - np.repeat(np.cumsum(parts) - parts, parts)) / parts[piece]
-    widths = np.diff(positions.breaks)
-    breaks = np.append(positions.breaks[piece] + share * widths[piece], positions.breaks[-1])
+    piece, widths = np.repeat(np.arange(len(parts)), parts), np.diff(positions.breaks)
+    breaks = divided(positions.breaks, parts)
     own = cut(positions, breaks)
     starts = np.stack((own[:, 0], own[:, 1], 2.0 * own[:, 2]))
-    new = share > 0.0
+    new = np.diff(piece, prepend=-1) == 0
     starts[:, new] = _exact(field, breaks[:-1][new], *starts[:, new])[0]
     ends = np.roll(starts, -1, axis=1)
     ends[:, np.append(~new[1:], True)] = np.stack(derivatives(positions.coefficients, widths[:, None], 2))

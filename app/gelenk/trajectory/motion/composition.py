@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.robot.arrays import Array, Indices
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, composed, cut, derivatives
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, composed, cut, derivatives, divided
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 
 _EXACT_DEGREE = 10
@@ -95,8 +95,7 @@ def in_time(joints: PiecewisePolynomial, law: PiecewisePolynomial) -> PiecewiseP
         parts = _parts(exact, coefficients)
         if rounds_left == 0 or (parts == 1).all():
             break
-        shares = np.concatenate([np.arange(count) / count for count in parts])
-        breaks = np.append(np.repeat(breaks[:-1], parts) + shares * np.repeat(np.diff(breaks), parts), breaks[-1])
+        breaks = divided(breaks, parts)
     coefficients[:, 0] += exact.starts
     return PiecewisePolynomial(breaks, coefficients)
 

@@ -22,3 +22,20 @@ def evaluated(breaks: Array, coefficients: Array, times: Array, order: int) -> A
                     found[1, i, j] = found[1, i, j] * local + found[0, i, j]
                 found[0, i, j] = found[0, i, j] * local + coefficients[piece, k, j]
     return found
+
+
+@compiled
+def expanded(breaks: Array, coefficients: Array, nodes: Array) -> Array:
+    """Expand polynomials about nodes, (N + 1,), which include all their breaks; shape (N, d + 1, n)."""
+    _, size, n = coefficients.shape
+    found, inner = np.empty((len(nodes) - 1, size, n)), breaks[1:-1]
+    for i in range(len(found)):
+        piece = np.searchsorted(inner, 0.5 * (nodes[i] + nodes[i + 1]), side="right")
+        offset = nodes[i] - breaks[piece]
+        found[i] = coefficients[piece]
+        # Repeated Horner steps give the Taylor expansion about another point.
+        for k in range(size - 1):
+            for m in range(size - 2, k - 1, -1):
+                for j in range(n):
+                    found[i, m, j] += offset * found[i, m + 1, j]
+    return found

@@ -11,7 +11,7 @@ from math import comb, factorial
 
 import numpy as np
 
-from gelenk.robot.arrays import Array
+from gelenk.robot.arrays import Array, Indices
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,15 +94,16 @@ def derivatives(c: Array, local: Array, order: int = 3) -> list[Array]:
 
 def cut(path: PiecewisePolynomial, nodes: Array) -> Array:
     """Return the coefficients of a path between nodes, (N + 1,), which include all its breaks; shape (N, d + 1, n)."""
-    i = np.clip(np.searchsorted(path.breaks, 0.5 * (nodes[:-1] + nodes[1:]), side="right") - 1, 0, None)
-    offsets = (nodes[:-1] - path.breaks[i])[:, None]
-    c = path.coefficients[i]
-    # Repeated Horner steps give the Taylor expansion about another point.
-    size = c.shape[1]
-    for k in range(size - 1):
-        for m in range(size - 2, k - 1, -1):
-            c[:, m] += offsets * c[:, m + 1]
-    return c
+    from gelenk.trajectory.motion.evaluation import expanded  # noqa: PLC0415 - a client has no compiler
+
+    return expanded(np.ascontiguousarray(path.breaks), np.ascontiguousarray(path.coefficients), nodes)
+
+
+def divided(breaks: Array, counts: Indices) -> Array:
+    """Return breaks, (M + 1,), with each piece divided evenly into a number of parts, (M,)."""
+    piece = np.repeat(np.arange(len(counts)), counts)
+    share = (np.arange(len(piece)) - (np.cumsum(counts) - counts)[piece]) / counts[piece]
+    return np.append(breaks[piece] + share * np.diff(breaks)[piece], breaks[-1])
 
 
 def bernstein(c: Array) -> Array:

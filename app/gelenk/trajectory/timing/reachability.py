@@ -72,7 +72,10 @@ def _highest(upper: Array, lower: Array, x: float) -> float:
     to the right of the zero, and finitely many steps reach it.
     """
     for _ in range(_MOST_STEPS):
-        i, j = (upper[0] + upper[1] * x).argmin(), (lower[0] + lower[1] * x).argmax()
+        i, j = 0, 0
+        for k in range(1, upper.shape[1]):
+            i = k if upper[0, k] + upper[1, k] * x < upper[0, i] + upper[1, i] * x else i
+            j = k if lower[0, k] + lower[1, k] * x > lower[0, j] + lower[1, j] * x else j
         room, slope = upper[0, i] - lower[0, j], lower[1, j] - upper[1, i]
         if not (slope > 0.0 and slope * x > room and room / slope < x):
             break
@@ -102,6 +105,8 @@ def fastest(constraints: Stages, most: Array, start: float) -> Array:
     x = np.empty(len(most))
     x[0] = min(start, most[0])
     for i in range(len(offsets)):
-        u = (offsets[i] + slopes[i] * x[i]).min()
+        u = np.inf
+        for k in range(offsets.shape[1]):
+            u = min(u, offsets[i, k] + slopes[i, k] * x[i])
         x[i + 1] = max(min(x[i] + 2.0 * constraints.lengths[i] * u, most[i + 1]), 0.0)
     return x

@@ -20,7 +20,8 @@ import numpy as np
 from gelenk.errors import InvalidField, TooLarge
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.time_scaling import LARGEST, check_limits
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, composed, cut
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, composed, cut, divided
+from gelenk.trajectory.timing.joint_constraints import joint_rows
 from gelenk.trajectory.timing.reachability import controllable, fastest, stages
 
 Rows: TypeAlias = Callable[[Array], tuple[Array, Array]]
@@ -156,16 +157,14 @@ def _nodes(task: _Task, travels: Array, intervals: int) -> Array:
     counts = np.maximum(np.ceil(shares * intervals - _STILL), _LEAST_INTERVALS).astype(int)
     if counts.sum() * travels.shape[1] > LARGEST_PATH:
         raise TooLarge("intervals along a path times joints", int(counts.sum()) * travels.shape[1], LARGEST_PATH)
-    spans = zip(breaks[:-1], breaks[1:], counts, strict=True)
-    nodes = np.concatenate([*(np.linspace(a, b, count, endpoint=False) for a, b, count in spans), breaks[-1:]])
-    steps = _NEAR * np.diff(breaks) / counts
-    return np.union1d(nodes, [breaks[0] + steps[0], breaks[-1] - steps[-1]])
+    nodes, steps = divided(breaks, counts), _NEAR * np.diff(breaks) / counts
+    return np.concatenate((nodes[:1], nodes[:1] + steps[0], nodes[1:-1], nodes[-1:] - steps[-1], nodes[-1:]))
 
 
 def _squared_speeds(task: _Task, nodes: Array) -> Array:
     lengths = np.diff(nodes)
     least_shares = _LEAST_SHARE * (1.0 - nodes[1:]) / (1.0 - nodes[:-1])
-    alpha, beta = _rows(cut(task.path, nodes), lengths, task.limits)
+    alpha, beta = joint_rows(cut(task.path, nodes), lengths, task.limits)
     if task.rows is not None:
         more = task.rows(nodes)
         alpha, beta = np.hstack((alpha, more[0])), np.hstack((beta, more[1]))
@@ -175,34 +174,6 @@ def _squared_speeds(task: _Task, nodes: Array) -> Array:
     constraints = stages(lengths, alpha, beta, least_shares)
     start, end = task.most_at_ends
     return fastest(constraints, controllable(constraints, end), start)
-
-
-def _rows(pieces: Array, lengths: Array, limits: Array) -> tuple[Array, Array]:
-    """Return α and β of the constraints αu + βx ≤ 1 that the limits impose on each interval; shape (N, m) each.
-
-    With τ = (s - s_i)/Δ, q̇² = q'² (x + 2Δτu) and q̈ = q' u + q'' (x + 2Δτu) are polynomials in τ whose Bernstein
-    coefficients are linear in (u, x), and these bound it in the whole interval.
-
-    The pieces have the shape (N, d + 1, n), from each node on, the lengths Δ (N,), the limits (2, n).
-    """
-    size = pieces.shape[1] - 1
-    k = np.arange(size)[:, None]
-    length = lengths[:, None, None]
-    # In powers of τ: q' = Σ slope_k τᵏ, Δ q'' = Σ k slope_k τᵏ⁻¹.
-    slope = pieces[:, 1:] * (k + 1) * length**k
-    bend = np.concatenate((slope[:, 1:] * k[1:] / length, np.zeros_like(slope[:, :1])), axis=1)
-    square = np.zeros((len(pieces), 2 * size, pieces.shape[2]))
-    for j in range(size):
-        square[:, j : j + size] += slope[:, j : j + 1] * slope
-    velocity, acceleration = limits
-    forces = [bernstein(c) / acceleration for c in (slope * (2 * k + 1), bend)]
-    shifted = np.roll(square, 1, axis=1) * 2.0 * length  # The last coefficient is zero.
-    speeds = [bernstein(c) / velocity**2 for c in (shifted, square)]
-    alpha, beta = (
-        np.concatenate((force, -force, speed), axis=1).reshape(len(pieces), -1)
-        for force, speed in zip(forces, speeds, strict=True)
-    )
-    return alpha, beta
 
 
 def _switches(nodes: Array, x: Array) -> Array:
@@ -227,8 +198,9 @@ def _between(task: _Task, nodes: Array, law: PiecewisePolynomial, intervals: int
     parts = np.fmax(lasting / law.duration * intervals - 0.5, changes / _CHANGE)
     most = max(1, min(_MOST_PARTS, 2 * LARGEST_PATH // slopes.size))
     counts = np.ceil(np.minimum(parts, most)).astype(int)
-    times = [law.breaks[i] + lasting[i] * np.arange(1, counts[i]) / counts[i] for i in np.flatnonzero(counts > 1)]
-    between: Array = law.at(np.concatenate([*times, np.empty(0)]))[:, 0]
+    counts = np.maximum(counts, 1)
+    times = np.delete(divided(law.breaks, counts), np.append(0, np.cumsum(counts)))
+    between: Array = law.at(times)[:, 0]
     return between
 
 
