@@ -171,7 +171,7 @@ MOTION: dict[str, Any] = {
 @pytest.mark.parametrize(
     "options",
     [
-        {"law": "trapezoidal", "sample_period": 0.0003, "pose_format": "rpy"},
+        {"law": "trapezoidal", "sample_period": 0.0003, "pose_format": "rpy", "torques": True},
         {"law": "jerk_limited", "sample_period": 0.01, "coefficients": True, "compare_timing": True},
         pytest.param({"law": "quintic", "sample_period": 0.0004, "tip_poses": False}, marks=pytest.mark.slow),
         {"law": "cubic", "segments": [{"type": "line", "target": {"position": [3.0, 0.0, 0.0], "rpy": [0, 0, 0]}}]},
