@@ -24,9 +24,12 @@ from scipy.spatial.transform import Rotation
 from gelenk.contract.trajectory_request import MAX_SAMPLES, TrajectoryRequest
 from gelenk.operations.trajectory_planned import PlannedTrajectory, TrajectorySizeLimits
 from gelenk.robot.arrays import Array
+from gelenk.robot.poses import Poses
 from gelenk.settings import Settings
 from gelenk.store.library import Library
 from gelenk.trajectory.joints.splines import JointSpline
+from gelenk.trajectory.problem.problem import FreeTool
+from gelenk.trajectory.tool.sequence import tool_sequence
 from tests.benchmarks.server import running
 from tests.benchmarks.table import Row
 from tests.test_serve import HOST
@@ -64,7 +67,7 @@ def measure() -> list[Row]:
         connection = http.client.HTTPConnection(HOST, server.port, timeout=60)
         rows = [*point_to_point(connection), *corner(connection)]
         connection.close()
-    return [*rows, way()]
+    return [*rows, way(), seam()]
 
 
 def point_to_point(connection: http.client.HTTPConnection) -> list[Row]:
@@ -147,6 +150,17 @@ def way() -> Row:
         {"here": ours, "toppra": theirs},
         "≤ 1 ms, ≤ +0.2 %",
     )
+
+
+def seam() -> Row:
+    """The path of a UR5's tool through 1,000 poses with a free turn: all branches at 36 turns each."""
+    a = np.linspace(0.0, 1.5 * np.pi, 1000)
+    circle = np.column_stack((0.5 + 0.12 * np.cos(a), 0.12 * np.sin(a), np.full(1000, 0.1)))
+    robot = Library(Settings().catalogue_dir, Settings().catalogue_dir / "none").get("ur5").robot
+    chain, down = robot.chain(None, None), np.tile(np.diag([1.0, -1.0, -1.0]), (1000, 1, 1))
+    tool = FreeTool(np.array([0.0, 0.0, 1.0]), 36)
+    times = medians({"here": lambda: tool_sequence(chain, Poses(circle, down), tool, np.full(6, np.pi), 0.01)})
+    return Row("trajectory: turns and branches at 1,000 poses", f"{times['here'] * 1e3:.0f} ms", wanted="≤ 500 ms")
 
 
 def here(content: dict[str, Any]) -> Callable[[], PlannedTrajectory]:
