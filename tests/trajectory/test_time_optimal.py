@@ -216,6 +216,21 @@ def test_the_parameter_the_units_and_the_direction_do_not_matter() -> None:
         assert time_optimal(spline(knots[::-1]), v, a).motion.duration == pytest.approx(duration, rel=5e-3)
 
 
+def test_it_slows_down_by_a_factor_of_each_place() -> None:
+    """Everywhere k, the motion is scaled by k; on one half, k reserves the limits there and little elsewhere."""
+    knots, velocity, acceleration = task(4)
+    path = spline(knots)
+    fastest = time_optimal(path, velocity, acceleration)
+    slow = time_optimal(path, velocity, acceleration, slower=lambda nodes: np.full(len(nodes) - 1, 2.0))
+    assert slow.motion.duration == pytest.approx(2.0 * fastest.motion.duration, rel=1e-9)
+    half = time_optimal(path, velocity, acceleration, slower=lambda nodes: np.where(nodes[1:] > 0.5, 2.0, 1.0))
+    assert_sound(half, path, velocity, acceleration)
+    late = half.time_law.at(half.motion.breaks[:-1])[:, 0] >= 0.5
+    for order, found in enumerate(ratios(half.motion, velocity, acceleration), start=1):
+        assert found.reshape(len(late), -1)[late].max() <= 0.5**order * (1.0 + 1e-9)
+    assert 1.2 * fastest.motion.duration < half.motion.duration < slow.motion.duration
+
+
 def test_sizes_from_no_joint_to_many_and_many_pieces() -> None:
     nothing = time_optimal(PiecewisePolynomial(np.array([0.0, 1.0]), np.zeros((1, 2, 0))), np.empty(0), np.empty(0))
     assert nothing.motion.duration == 0.0
