@@ -200,24 +200,24 @@ def test_a_limit_passed_between_knots_is_found() -> None:
     assert way.positions.at(np.linspace(0.0, way.reached, 1000))[:, 0].max() <= math.pi + 1e-9
 
 
-def test_joints_to_spare_are_kept_from_a_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_joints_to_spare_look_ahead_to_keep_from_a_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     arm = robot("xarm7")
     chain = arm.chain(None, None)
     rng = np.random.default_rng(8)
     q = starts(chain, FULL_POSE, 1, seed=8)[0]
     path = line(pose(chain, q), moved(pose(chain, q), 0.3 * rng.normal(size=3), np.zeros(3)))
-    pushed = follow(arm, chain, path, q, Following())
-    assert pushed.stop is None
+    ahead = follow(arm, chain, path, q, Following())
+    assert ahead.stop is None
     s = np.linspace(0.0, path.extent, 300)
-    qs = pushed.positions.at(s)
+    qs = ahead.positions.at(s)
     assert (qs >= chain.lower - 1e-9).all()
     assert (qs <= chain.upper + 1e-9).all()
     assert max(deviations(path.at(s).poses, pinocchio_poses(arm, chain, qs), FULL_POSE)) < 1e-3
     for order in range(3):
-        one = pushed.positions.derivative(order) if order else pushed.positions
-        knots = pushed.positions.breaks[1:-1]
+        one = ahead.positions.derivative(order) if order else ahead.positions
+        knots = ahead.positions.breaks[1:-1]
         np.testing.assert_allclose(one.at(np.nextafter(knots, 0.0)), one.at(knots), atol=1e-6)
-    monkeypatch.setattr(follow_module, "_PUSHES", ())
+    monkeypatch.setattr(follow_module, "guides", lambda *_: ())
     plain = follow(arm, chain, path, q, Following())
     assert plain.stop is not None
     assert plain.stop.reason == "joint_limit"

@@ -18,6 +18,7 @@ from gelenk.trajectory.follow.rows import row_derivatives, task_rows
 from gelenk.trajectory.motion.composition import RATES_KNOWN
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut, derivatives, divided
 from gelenk.trajectory.motion.time_laws import hermite_pieces
+from gelenk.trajectory.paths.paths import PathSamples
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.timing import Timed
 
@@ -47,7 +48,7 @@ def refined(field: RateField, positions: PiecewisePolynomial) -> tuple[Piecewise
         off, parts = _errors(field, positions)
         if left == 0 or (parts == 1).all():
             break
-        positions = _divided(field, positions, parts)
+        positions = with_exact_knots(field, positions, parts)
     return positions, off
 
 
@@ -79,7 +80,7 @@ def _errors(field: RateField, positions: PiecewisePolynomial) -> tuple[Array, In
     widths, extent = np.diff(positions.breaks), field.path.extent
     places = (positions.breaks[:-1] + _PROBES[:, None] * widths).ravel()
     rates = positions.rates_at(places)
-    exact, near = _exact(field, places, *rates)
+    exact, near = exact_next_to(field, field.path.at(places), *rates)
     errors = np.where(near[:, None], np.abs(exact[2] - rates[2]), np.inf)
     q, first, second, off = (
         np.abs(values).reshape(len(_PROBES), len(widths), -1).max(axis=0) for values in (*rates, errors)
@@ -93,14 +94,14 @@ def _errors(field: RateField, positions: PiecewisePolynomial) -> tuple[Array, In
     return off, np.minimum(wanted, most).astype(np.int64)
 
 
-def _divided(field: RateField, positions: PiecewisePolynomial, parts: Indices) -> PiecewisePolynomial:
+def with_exact_knots(field: RateField, positions: PiecewisePolynomial, parts: Indices) -> PiecewisePolynomial:
     """Divide pieces at exact knots; a piece that would then leave the joint limits keeps its own quintic."""
     piece, widths = np.repeat(np.arange(len(parts)), parts), np.diff(positions.breaks)
     breaks = divided(positions.breaks, parts)
     own = cut(positions, breaks)
     starts = np.stack((own[:, 0], own[:, 1], 2.0 * own[:, 2]))
     new = np.diff(piece, prepend=-1) == 0
-    starts[:, new] = _exact(field, breaks[:-1][new], *starts[:, new])[0]
+    starts[:, new] = exact_next_to(field, field.path.at(breaks[:-1][new]), *starts[:, new])[0]
     ends = np.roll(starts, -1, axis=1)
     ends[:, np.append(~new[1:], True)] = np.stack(derivatives(positions.coefficients, widths[:, None], 2))
     lengths = np.diff(breaks)
@@ -112,9 +113,9 @@ def _divided(field: RateField, positions: PiecewisePolynomial, parts: Indices) -
     return PiecewisePolynomial(breaks, coefficients)
 
 
-def _exact(field: RateField, s: Array, q: Array, first: Array, second: Array) -> tuple[Array, Flags]:
+def exact_next_to(field: RateField, at: PathSamples, q: Array, first: Array, second: Array) -> tuple[Array, Flags]:
     """Return q, q', q'' of the exact path next to given ones, (3, N, n), and whether found; if not, the given ones."""
-    chain, task, at = field.chain, field.task, field.path.at(s)
+    chain, task = field.chain, field.task
     rows, exact = task_rows(chain, task, at, q), q
     inverses = _inverses(rows.jacobians)
     for _ in range(_STEPS):

@@ -1,22 +1,24 @@
 """Joint path along a path of the tip: q(s) on one continuous branch of the inverse kinematics.
 
 Between exact knots q is the quintic with their q, q' and q'', so it is continuous up to q'' except where the tip path's
-derivatives jump. The tolerances determine the knot spacing; then `exact` refines it. Where the branch cannot be
-followed any further the path ends, and `verdict` says why; `damped` leaves the path near singularities instead.
+derivatives jump. The tolerances determine the knot spacing; then `exact` refines it. Spare joints move as little
+as they can; if that leads to no end, they look `ahead`. Where the branch cannot be followed any further the path ends,
+and `verdict` says why; `damped` leaves the path near singularities instead.
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gelenk.errors import InvalidField
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.follow.ahead import guides
 from gelenk.trajectory.follow.damped import damped
 from gelenk.trajectory.follow.exact import refined
+from gelenk.trajectory.follow.guided import guided
 from gelenk.trajectory.follow.integrate import Trace, traced
 from gelenk.trajectory.follow.rate_field import RateField
 from gelenk.trajectory.follow.verdict import Stop, never_back, verdict
@@ -29,8 +31,6 @@ _STILL = 1e-12
 """Width of the single piece for a path of zero length, [m or rad]."""
 _LOOSE = (1e-3, 1e-2)
 """Largest distance of a start from the path's first pose, [m and rad]."""
-_PUSHES = (8.0, 40.0)
-"""Gains that push spare joints away from their limits: joint rate per rate of the tip."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,10 +75,10 @@ def follow(robot: RobotModel, chain: Chain, path: Path, start: Array, following:
     threshold = 0.0 if following.near_singularity == "slow_down" else following.min_singular_value
     field = RateField(chain, path, following.task, tolerances, threshold)
     trace = traced(field, start)
+    if trace.ending != "complete" and field.is_redundant:
+        trace = _ahead(field, trace)
     if following.near_singularity == "damp":
         return _damped_path(robot, field, trace)
-    if trace.ending == "joint_limit" and field.is_redundant:
-        field, trace = _away_from_limits(field, trace)
     return _exactly(field, _joint_path(trace, verdict(robot, field, trace)))
 
 
@@ -101,20 +101,13 @@ def _exactly(field: RateField, path: FollowedPath) -> FollowedPath:
     return replace(path, positions=positions, bend_errors=bend_errors)
 
 
-def _away_from_limits(field: RateField, plain: Trace) -> tuple[RateField, Trace]:
-    """Return the field and trace that get farthest, with and without pushing joints away from their limits."""
-    best = field, plain
-    for push in _PUSHES:
-        pushed = replace(field, push=push)
-        try:
-            trace = traced(pushed, plain.start)
-        except InvalidField:
-            continue
-        if trace.reached > best[1].reached:
-            best = pushed, trace
+def _ahead(field: RateField, plain: Trace) -> Trace:
+    """Return a trace to the end by another use of the spare joints than the shortest one, else the plain trace."""
+    for guide in guides(field, plain.start):
+        trace = guided(field, plain.start, guide)
         if trace.ending == "complete":
-            break
-    return best
+            return trace
+    return plain
 
 
 def _motionless(start: Array, stop: Stop | None) -> FollowedPath:

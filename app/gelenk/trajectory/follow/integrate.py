@@ -141,7 +141,7 @@ def _pieces(field: RateField, a: Knot, stretch: tuple[float, float], trace: Trac
                 trace.ending, trace.crossing = "lost", Crossing(a.s, s, "lost")
                 return
             continue
-        crossing = _first_crossing(field, piece, stretch, trace)
+        crossing = first_crossing(field, piece, stretch, trace)
         if crossing is not None:
             part, trace.crossing = located(field, piece, crossing, stretch)
             trace.ending = trace.crossing.kind
@@ -173,7 +173,7 @@ def _next_place(s: float, h: float, end: float) -> float:
     return s + (0.5 * left if left < 2.0 * h else h)
 
 
-def _first_crossing(field: RateField, piece: Piece, stretch: tuple[float, float], trace: Trace) -> Crossing | None:
+def first_crossing(field: RateField, piece: Piece, stretch: tuple[float, float], trace: Trace) -> Crossing | None:
     """Find the first violation in a piece, and update the trace's largest σ."""
     near, best = None, max(trace.best, float(piece.sigmas.max()))
     if field.threshold > 0.0:

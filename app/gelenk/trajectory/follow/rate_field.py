@@ -1,8 +1,7 @@
 """Field of joint rates along a path of the tip, and the exact knots of the joint path in it.
 
 q' = J⁺ξ; with more joints than directions that count it is the shortest q'. With at least as many joints its
-derivative is q'' = J̇ᵀλ + J⁺(ξ' - J̇q' - J J̇ᵀλ) with λ = (JJᵀ)⁻¹ξ. For a redundant arm the field may also have a part
-along the self-motion, which keeps joints away from their limits.
+derivative is q'' = J̇ᵀλ + J⁺(ξ' - J̇q' - J J̇ᵀλ) with λ = (JJᵀ)⁻¹ξ.
 """
 
 from collections.abc import Callable
@@ -29,8 +28,6 @@ SHARE = 1.0 / 3.0
 _DIFFERENCE = 1e-3
 """Step of differences in q, [rad or m]; smaller near a singularity, where the field changes fast."""
 _ELIMINATED = 1e-6
-_EDGE = 0.2
-"""Share of a joint's range at each limit within which the joint is pushed away."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +61,6 @@ class RateField:
         tolerances: Largest distance [m] and angle [rad] from the path.
         threshold: σ at which following ends; 0 goes through singularities as long as an exact path exists.
         limited: Whether joints must keep their limits.
-        push: Gain that pushes spare joints away from their limits.
     """
 
     chain: Chain
@@ -73,7 +69,6 @@ class RateField:
     tolerances: tuple[float, float]
     threshold: float = 0.0
     limited: bool = True
-    push: float = 0.0
 
     @property
     def is_redundant(self) -> bool:
@@ -95,26 +90,15 @@ class RateField:
 
     def velocities(self, at: PathSamples, qs: Array) -> tuple[Array, Array]:
         """Return the field's rates q', shape (N, n), and the smallest singular value, shape (N,)."""
-        dqs, (_, sigmas, _) = self._rates(task_rows(self.chain, self.task, at, qs), qs)
+        dqs, (_, sigmas, _) = _rates(task_rows(self.chain, self.task, at, qs))
         return dqs, sigmas[:, -1]
-
-    def _rates(self, rows: CountedRows, qs: Array) -> tuple[Array, tuple[Array, Array, Array]]:
-        """Return the field's rates q', shape (N, n), and the singular value decompositions of J."""
-        left, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
-        dqs = _applied(left, sigmas, right, rows.rates)
-        if self.push > 0.0:
-            dqs = dqs + self._pushed(right, rows.rates, qs)
-        return dqs, (left, sigmas, right)
 
     def knot(self, s: float, at: PathSamples, q: Array, rows: CountedRows | None = None) -> Knot:
         """Return the knot at a configuration on the path; `at` is one sample, `rows` its task rows if known."""
         rows = task_rows(self.chain, self.task, at, q[None]) if rows is None else rows
-        dq, (left, sigmas, right) = self._rates(rows, q[None])
+        dq, (left, sigmas, right) = _rates(rows)
         dJ, dxi = row_derivatives(self.chain, self.task, at, q[None], dq)
-        if self.push > 0.0:
-            ddq = derivative_along(self.velocities, at, q, dq[0], float(sigmas[0, -1]))
-        else:
-            ddq = _acceleration(rows, left, sigmas, right, dq, dJ, dxi)[0]
+        ddq = _acceleration(rows, left, sigmas, right, dq, dJ, dxi)[0]
         return Knot(s, q, dq[0], ddq, float(sigmas[0, -1]), right[0], float(np.sqrt(np.sum(dJ * dJ))))
 
     def first_knot(self, s: float, at: PathSamples, q: Array) -> Knot:
@@ -125,7 +109,7 @@ class RateField:
 
     def next_to(self, s: float, at: PathSamples, q: Array) -> Knot | None:
         """Find the knot nearest to a configuration by Newton's method; None if it does not converge."""
-        if len(self.task) == len(FULL_POSE) <= len(self.chain) and self.push == 0.0:
+        if len(self.task) == len(FULL_POSE) <= len(self.chain):
             one = (at.poses.positions[0], at.poses.rotations[0], at.first[0], at.second[0], q)
             found = nearest(self.chain.flat, *map(np.ascontiguousarray, one))
             return Knot(s, *found[1:]) if found[0] else None
@@ -153,18 +137,11 @@ class RateField:
         limits = np.where(np.flatnonzero(self.task.weights) < 3, *self.residuals)
         return bool((np.abs(rows.errors[0]) <= limits).all())
 
-    def _pushed(self, right: Array, rates: Array, qs: Array) -> Array:
-        """Return the part of the field along the self-motion that pushes joints away from near limits; shape (N, n)."""
-        lower, upper = self.chain.lower, self.chain.upper
-        ranges = upper - lower
-        limited = np.isfinite(ranges) & (ranges > 0.0)
-        edges = np.where(limited, _EDGE * ranges, 1.0)
-        low = np.where(limited, np.maximum(lower + edges - qs, 0.0) / edges, 0.0)
-        high = np.where(limited, np.maximum(qs - upper + edges, 0.0) / edges, 0.0)
-        # The cube keeps q'' continuous where a joint enters the edge of its range.
-        away = self.push * np.linalg.norm(rates, axis=1)[:, None] * (low**3 - high**3)
-        result: Array = away - np.einsum("bri,br->bi", right, np.einsum("bri,bi->br", right, away))
-        return result
+
+def _rates(rows: CountedRows) -> tuple[Array, tuple[Array, Array, Array]]:
+    """Return the shortest rates q', shape (N, n), and the singular value decompositions of J."""
+    left, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
+    return _applied(left, sigmas, right, rows.rates), (left, sigmas, right)
 
 
 def _step(rows: CountedRows) -> Array:

@@ -34,8 +34,9 @@ _EXACT = 1e-6
 """Tolerance of inverse kinematics at these poses, [m and rad]."""
 _MOST_BRANCHES, _MOST_SAMPLED = 16, 8
 """Largest number of branches tried, for arms with as many joints as directions and for redundant ones."""
-_MOST_PIECES = 300
-"""Pieces traced to see whether a branch goes on beyond a threshold, and to see how far other branches lead."""
+_MOST_PIECES, _MOST_SPARE = 300, 60
+"""Pieces traced to see whether a branch goes on beyond a threshold, and to see how far other branches lead; the second
+for redundant arms, which have looked ahead before."""
 _ABOVE_ALL = 1e300
 """σ that no arm reaches: tracing then only stops early where the end of a branch is extrapolated."""
 _MISSED = 0.05
@@ -77,6 +78,11 @@ class _Ended:
         )
         return inverse_kinematics(self.robot, field.chain, field.path.at(places).poses, self.trace.last[None], options)
 
+    @property
+    def most(self) -> int:
+        """Largest number of pieces that a verdict traces."""
+        return _MOST_SPARE if self.field.is_redundant else _MOST_PIECES
+
     def place(self, s: float) -> str:
         path = self.field.path
         x, y, z = path.at(np.array([s])).poses.positions[0]
@@ -106,18 +112,21 @@ def never_back(robot: RobotModel, field: RateField, trace: Trace) -> Stop:
 def _with_the_rest(ended: _Ended, stop: Stop) -> Stop:
     """Extend a verdict on a branch: what no branch can reach goes before it, what other branches can do after it."""
     field, (farthest, words) = ended.field, _of_all_branches(ended)
-    stop, left = replace(stop, detail=f"{stop.detail}{words}"), field.path.extent - farthest
+    spare = "; looking ahead over the self-motion has found no way to the end" if field.is_redundant else ""
+    stop, left = replace(stop, detail=f"{stop.detail}{spare}{words}"), field.path.extent - farthest
     if not left > 0.0:
         return stop
     places = farthest + left * np.arange(1, _POSES + 1) / _POSES
     # An arm with too few joints for all directions follows the path only approximately.
     tolerances = field.residuals if len(field.chain) < len(field.task) else (_EXACT, _EXACT)
-    found = ended.solved(places, *tolerances)
-    missed = [i for i in range(_POSES) if found.statuses[i] == "unreachable"]
+    found = ended.solved(places[-1:], *tolerances)
+    if found.statuses[-1] != "unreachable":
+        found = ended.solved(places[:-1], *tolerances)
+    missed = [i for i in range(len(found)) if found.statuses[i] == "unreachable"]
     if not missed:
         return stop
     i = missed[-1]
-    what = "the end of the path" if i == _POSES - 1 else f"the path {ended.place(places[i])}"
+    what = "the end of the path" if len(found) == 1 else f"the path {ended.place(places[i])}"
     detail = f"{what} is out of reach: {found.failures[i].reason}; {stop.detail}"
     return replace(stop, reason="out_of_reach", detail=detail)
 
@@ -138,11 +147,11 @@ def _at_threshold(ended: _Ended, s: float) -> Stop:
     beyond, onward = replace(ended.field, limited=False, threshold=0.0), "the branch continues beyond"
     threshold, trace = ended.field.threshold, ended.trace
     try:
-        ahead = traced(beyond, trace.last, trace.reached, 1.01 * threshold, _MOST_PIECES)
+        ahead = traced(beyond, trace.last, trace.reached, 1.01 * threshold, ended.most)
         if ahead.ending != "complete" and ahead.crossing is not None:
             return _at_end_of_branch(ended, ahead.crossing.bad)
     except InvalidField:
-        onward = f"the next {_MOST_PIECES} pieces do not show whether the branch continues beyond"
+        onward = f"the next {ended.most} pieces do not show whether the branch continues beyond"
     detail = (
         f"the smallest singular value falls to {threshold:.6g}, the threshold min_singular_value, "
         f"{ended.place(s)}; {onward}"
@@ -229,7 +238,7 @@ def _of_all_branches(ended: _Ended) -> tuple[float, str]:
     options = Options(task=field.task, every=True, most=most)
     found = inverse_kinematics(ended.robot, field.chain, at.poses, trace.start[None], options)
     apart = np.abs(found.qs - trace.start).max(axis=1)
-    traces, left = [trace], _MOST_PIECES
+    traces, left = [trace], ended.most
     is_whole = found.complete == [True]
     for q in found.qs[(apart > apart.min(initial=np.inf)) | (apart > _SAME)]:
         try:
