@@ -21,6 +21,7 @@ from gelenk.trajectory.paths.paths import circle, line
 from gelenk.trajectory.paths.spline_paths import blended_lines
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.averages import moving_average
+from gelenk.trajectory.timing.path_laws import least_trapezoidal
 from gelenk.trajectory.timing.timing import Timed
 from tests.trajectory.timed_ways import (
     LAWS,
@@ -188,6 +189,19 @@ def splines(seed: int) -> tuple[CubicSpline, SegmentLimits]:
     rng = np.random.default_rng(seed)
     knots = rng.uniform(-2.0, 2.0, (5, 7))
     return CubicSpline(np.linspace(0.0, 1.0, 5), knots), limits(rng.uniform(1.0, 3.0, 7), rng.uniform(3.0, 15.0, 7))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_fastest_law_bounds_the_trapezoidal_one_from_below(seed: int) -> None:
+    if seed == 0:
+        way, bounds = straight(1.0, -0.5), limits([3.0, 2.5], [5.0, 7.0])
+    else:
+        spline, bounds = splines(seed)
+        way = PiecewisePolynomial(spline.x, np.ascontiguousarray(spline.c[::-1].transpose(1, 0, 2)))
+    fastest, trapezoidal = (timed(None, way, law, bounds).law for law in ("time_optimal", "trapezoidal"))
+    bound = least_trapezoidal(fastest)
+    assert 0.3 * trapezoidal.duration < bound < 1.03 * trapezoidal.duration
+    assert least_trapezoidal(trapezoidal) <= trapezoidal.duration * (1.0 + 1e-9)
 
 
 @pytest.mark.parametrize("seed", range(4))

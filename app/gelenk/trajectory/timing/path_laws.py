@@ -60,6 +60,23 @@ def trapezoid(geometry: LimitedPath) -> PiecewisePolynomial:
     return bang_coast_bang(geometry, float(d[i]), float(speeds[i]))
 
 
+def least_trapezoidal(fastest: PiecewisePolynomial) -> float:
+    """Return a lower bound on the duration of the trapezoidal s(t) on a path, from the fastest s(t) there, [s].
+
+    No law is faster at any place than the fastest one. With ramps of length d, between two of its breaks, this bounds
+    v² at the breaks of the coast, and v² m/d at those of the ramps.
+    """
+    s, speeds, _ = fastest.coefficients[:, :3, 0].T
+    length = float(fastest.at(fastest.breaks[-1:])[0, 0] - s[0])
+    distance = np.minimum(s[1:] - s[0], s[0] + length - s[1:])
+    order = np.argsort(distance)
+    d, squares = distance[order], speeds[1:][order] ** 2
+    on_coast = np.append(np.minimum.accumulate(squares[::-1])[::-1], np.inf)
+    on_ramp = np.append(np.inf, np.minimum.accumulate(squares / d)) * np.append(d, 0.5 * length)
+    durations = (length + 2.0 * np.append(0.0, d)) / np.sqrt(np.minimum(on_coast, on_ramp))
+    return float(durations.min())
+
+
 def bang_coast_bang(geometry: LimitedPath, ramp: float, speed: float) -> PiecewisePolynomial:
     """Return s(t) with ramps of a given length at both ends, and a given cruise speed between them."""
     begin, end = geometry.ends

@@ -30,7 +30,7 @@ from gelenk.trajectory.motion.time_laws import rest_to_rest
 from gelenk.trajectory.paths.path_geometry import LimitedPath
 from gelenk.trajectory.problem.parts import standing
 from gelenk.trajectory.timing.averages import averaged
-from gelenk.trajectory.timing.path_laws import s_curve, trapezoid
+from gelenk.trajectory.timing.path_laws import least_trapezoidal, s_curve, trapezoid
 from gelenk.trajectory.timing.path_peaks import peaks_of
 from gelenk.trajectory.timing.tip_constraints import tip_rows
 from gelenk.trajectory.timing.torque_constraints import optimal_within
@@ -39,6 +39,8 @@ _IN_PLACE: Final = "to be slow only where the path bends, the time-optimal law i
 _AVERAGED: Final = "to be slow only where the path bends, `{}` is a moving average of the time-optimal law"
 _ROUNDING = 1e-9
 """Relative tolerance for a requested duration that falls short of the shortest one, and then means it."""
+_SLOWER = 1.1
+"""Ratio to the time-optimal duration, itself within 1.5 % of the optimum, from which a lower bound is conclusive."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,7 +213,9 @@ def _time_optimal(geometry: LimitedPath) -> Timed:
         timing = _scaled(timing, max(1.0, peaks.factor))
     if limits.torque is not None and limits.torque.is_limited:
         return timing
-    # Along a straight path the trapezoidal law is the exact optimum, with only three pieces.
+    # Along a straight path the trapezoidal law is the exact optimum, with only three pieces; here it would be slower.
+    if least_trapezoidal(timing.law) > _SLOWER * timing.motion.duration:
+        return timing
     simple = _fastest(geometry, "trapezoidal", False)
     return simple if simple.motion.duration <= timing.motion.duration * (1.0 + _ROUNDING) else timing
 
