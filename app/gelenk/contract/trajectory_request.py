@@ -304,8 +304,8 @@ class Motion(ChainOptions, MotionOptions, WithSteps):
         default="trapezoidal",
         description="Of time along each segment: polynomials from rest to rest (`cubic`; `quintic`, acceleration zero "
         "at both ends; `septic`, jerk too), `trapezoidal` velocity, `jerk_limited`, or `time_optimal`: as fast as the "
-        "limits of velocity, acceleration and torque allow at each place. Along blended lines and splines of poses the motion "
-        "is slow only where the path bends, and as smooth as the law: `time_optimal` in place of `cubic` and "
+        "limits of velocity, acceleration and torque allow at each place. Along blended lines and splines of poses the "
+        "motion is slow only where the path bends, and as smooth as the law: `time_optimal` in place of `cubic` and "
         "`trapezoidal`, else its moving average; `notes` say so.",
     )
     law_fallback: bool = Field(
