@@ -40,14 +40,20 @@ def guides(field: RateField, start: Array) -> Iterator[PiecewisePolynomial]:
     """Yield smooth joint paths near exact ones from a configuration, (n,), to the end; none if no way is found."""
     extent = field.path.extent
     count = int(np.clip(np.ceil(extent / _APART), _LEAST_RUNGS, _MOST_RUNGS))
-    places = np.linspace(0.0, extent, count + 1)
-    rungs = _rungs(field, places, start)
-    if len(rungs) < len(places):
-        return
+    # Where steps between rungs are long, the front may shrink to nothing: then once more with twice as many.
+    for places in (np.linspace(0.0, extent, count + 1), np.linspace(0.0, extent, 2 * count + 1)):
+        rungs = _rungs(field, places, start)
+        if len(rungs) == len(places):
+            yield from _ways(field, places, rungs)
+            return
+
+
+def _ways(field: RateField, places: Array, rungs: list[Array]) -> Iterator[PiecewisePolynomial]:
+    """Yield smooth ways up the ladder, those far from joint limits first."""
     qs, owners = np.concatenate(rungs), np.repeat(np.arange(len(rungs)), [len(rung) for rung in rungs])
     rooms = np.minimum(qs - field.chain.lower, field.chain.upper - qs)
     turning = _turning(field)
-    metric = Metric(np.ones(len(start)), np.full(len(start), _LONGEST), turning)
+    metric = Metric(np.ones(len(turning)), np.full(len(turning), _LONGEST), turning)
     for care, rounds in _CARES:
         kept = (rooms >= np.minimum(care, rooms[0] + _OPENING * owners[:, None])).all(axis=1)
         firsts = np.searchsorted(owners[kept], np.arange(len(places) + 1))
