@@ -19,7 +19,7 @@ EXACT = 1e-12
 """Relative accuracy of a peak."""
 MOST = 16
 """Largest number of sample triples of one function that are refined."""
-_ROUNDS = 12
+ROUNDS = 12
 _BEYOND = 0.125
 """Share of an interval by which a parabola's vertex may lie outside the interval that contains the peak."""
 _OFFSETS = (np.arange(5) + 0.5) / 5.0
@@ -42,38 +42,36 @@ def highest(values_at: Values, places: Array, values: Array, exact: Array) -> tu
     best, where = values[rows, start], places[rows, start]
     if len(rows):
         places, values = places.copy(), values.copy()
-        for _ in range(_ROUNDS):
-            tried = _tried(places, values)
-            found = np.ascontiguousarray(values_at(tried))
-            if _narrowed(places, values, tried, found, best, where, exact):
+        for _ in range(ROUNDS):
+            at = tried(places, values)
+            found = np.ascontiguousarray(values_at(at))
+            if narrowed(places, values, at, found, best, where, exact):
                 break
     return best, where
 
 
 @compiled
-def _tried(places: Array, values: Array) -> Array:
+def tried(places: Array, values: Array) -> Array:
     """Return the places to try next between each three: the vertex of the parabola, beside it, and evenly spread."""
-    tried = np.empty((len(places), len(_OFFSETS) + 3))
+    found = np.empty((len(places), len(_OFFSETS) + 3))
     for c in range(len(places)):
         low, high = places[c, 0], places[c, 2]
         vertex = _vertex(places[c], values[c])[0]
         for k in range(3):
-            tried[c, k] = min(max(vertex + (k - 1.0) * _BESIDE * (high - low), low), high)
+            found[c, k] = min(max(vertex + (k - 1.0) * _BESIDE * (high - low), low), high)
         for k in range(len(_OFFSETS)):
-            tried[c, 3 + k] = low + _OFFSETS[k] * (high - low)
-    return tried
+            found[c, 3 + k] = low + _OFFSETS[k] * (high - low)
+    return found
 
 
 @compiled
-def _narrowed(
-    places: Array, values: Array, tried: Array, found: Array, best: Array, where: Array, exact: Array
-) -> bool:
+def narrowed(places: Array, values: Array, at: Array, found: Array, best: Array, where: Array, exact: Array) -> bool:
     """Replace each three places by the best that was tried and its neighbours; return whether all peaks are exact."""
-    done, count = True, tried.shape[1]
+    done, count = True, at.shape[1]
     x, f = np.empty(count + 3), np.empty(count + 3)
     for c in range(len(places)):
         expected = _vertex(places[c], values[c])[1]
-        x[:count], x[count:], f[:count], f[count:] = tried[c], places[c], found[c], values[c]
+        x[:count], x[count:], f[:count], f[count:] = at[c], places[c], found[c], values[c]
         order = np.argsort(x)
         peak = 0
         for k in range(len(order)):
@@ -108,6 +106,18 @@ def _parabola(x0: float, x1: float, x2: float, f0: float, f1: float, f2: float) 
     bend = (second - first) / (x2 - x0)
     vertex = 0.5 * (x0 + x1 - first / bend)
     return vertex, f0 + (vertex - x0) * (first + bend * (vertex - x1)), bend
+
+
+@compiled
+def triples(places: Array, values: Array, rows: Indices, columns: Indices) -> tuple[Array, Array, Array, Array]:
+    """Return three places and values around samples of functions, (C, 3) each, and the best of each, (C,) twice."""
+    near, found = np.empty((len(rows), 3)), np.empty((len(rows), 3))
+    best, where = np.empty(len(rows)), np.empty(len(rows))
+    for c in range(len(rows)):
+        for k in range(3):
+            near[c, k], found[c, k] = places[rows[c] - 1 + k], values[rows[c] - 1 + k, columns[c]]
+        best[c], where[c] = found[c].max(), near[c, found[c].argmax()]
+    return near, found, best, where
 
 
 @compiled

@@ -122,11 +122,11 @@ def rate_bounds(pieces: Pieces) -> tuple[float, float]:
 
 def extremes(pieces: Pieces, order: int, *, absolute: bool = False) -> tuple[Array, Array]:
     """Find each joint's highest value of a derivative, or largest magnitude, and its time [s]; shape (n,) each."""
-    return _extremes(pieces, order, absolute, *_nodes(max(pieces.scaled.shape[1] - 1 - order, 0)))
+    return extremes_at(pieces, order, absolute, *nodes_of(max(pieces.scaled.shape[1] - 1 - order, 0)))
 
 
 @lru_cache
-def _nodes(degree: int) -> tuple[Array, float]:
+def nodes_of(degree: int) -> tuple[Array, float]:
     """Return where polynomials of a degree are sampled, and the factor of [Ehlich1964]; 0 where samples are enough."""
     count = max(_MIN_INTERVALS, 2 * degree + 2)
     nodes = 0.5 - 0.5 * np.cos(np.arange(count + 1) * math.pi / count)
@@ -135,8 +135,8 @@ def _nodes(degree: int) -> tuple[Array, float]:
 
 
 @compiled
-def _extremes(pieces: Pieces, order: int, absolute: bool, nodes: Array, factor: float) -> tuple[Array, Array]:
-    """Find the extremes from `_nodes` and their factor."""
+def extremes_at(pieces: Pieces, order: int, absolute: bool, nodes: Array, factor: float) -> tuple[Array, Array]:
+    """Find the extremes from `nodes_of` and their factor."""
     count, n = len(pieces.widths), pieces.scaled.shape[2]
     values, times, samples = np.empty(n), np.empty(n), np.empty(len(nodes))
     bounds = np.empty(count)

@@ -13,11 +13,11 @@ import numpy as np
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array, Indices
-from gelenk.robot.chain import Chain
+from gelenk.robot.chain import Chain, FlatChain
 from gelenk.robot.compilation import compiled
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.kernels import smallest_singular_values, tip_rates
-from gelenk.trajectory.audit.peaks import highest, promising
+from gelenk.trajectory.audit.peaks import ROUNDS, highest, narrowed, promising, tried, triples
 from gelenk.trajectory.audit.pieces import Pieces, positions_at, rate_bounds, values_at
 from gelenk.trajectory.audit.result import SmallestSingularValue
 
@@ -63,11 +63,33 @@ def grid(pieces: Pieces, least: int, intervals: int) -> tuple[Indices, Array, In
 
 def tip_peaks(pieces: Pieces, chain: Chain, least: int = MIN_SAMPLES) -> dict[str, Largest]:
     """Find the largest value of each of `RATES`, [m/s, rad/s, m/s², rad/s²]; at least `least` samples are examined."""
+    values, times = rate_peaks(chain.flat, pieces, least)
+    return {name: Largest(*found) for name, *found in zip(RATES, values.tolist(), times.tolist(), strict=True)}
 
-    def rates(piece: Indices, tau: Array) -> Array:
-        return tip_rates(chain.flat, pieces, piece, tau)
 
-    return _named(RATES, pieces, grid(pieces, least, 2), rates, _rounding(pieces))
+@compiled
+def rate_peaks(flat: FlatChain, pieces: Pieces, least: int) -> tuple[Array, Array]:
+    """Return the largest value of each of `RATES` and its time, [s]; shape (4,) each."""
+    piece, tau, inner = grid(pieces, least, 2)
+    rates = tip_rates(flat, pieces, piece, tau)
+    rows, columns, tops, exact = promising(tau, rates, inner, _rounding(pieces))
+    places, values, best, where = triples(tau, rates, rows, columns)
+    for _ in range(ROUNDS if len(rows) else 0):
+        at = tried(places, values)
+        found = tip_rates(flat, pieces, np.repeat(piece[rows], at.shape[1]), at.ravel())
+        of_each = np.empty(at.shape)
+        for c in range(len(rows)):
+            of_each[c] = found[c * at.shape[1] : (c + 1) * at.shape[1], columns[c]]
+        if narrowed(places, values, at, of_each, best, where, exact[columns]):
+            break
+    peaks, times = np.empty(len(tops)), np.empty(len(tops))
+    for q in range(len(tops)):
+        peaks[q], row, place = rates[tops[q], q], tops[q], tau[tops[q]]
+        for c in range(len(rows)):
+            if columns[c] == q and best[c] > peaks[q]:
+                peaks[q], row, place = best[c], rows[c], where[c]
+        times[q] = pieces.starts[piece[row]] + place * pieces.widths[piece[row]]
+    return peaks, times
 
 
 def path_peaks(pieces: Pieces, chain: Chain, path: PathOfTime, task: Task = FULL_POSE) -> dict[str, Largest]:
@@ -79,8 +101,12 @@ def path_peaks(pieces: Pieces, chain: Chain, path: PathOfTime, task: Task = FULL
         # Where the path has no pose, the deviation is infinite.
         return np.nan_to_num(np.column_stack(columns), nan=np.inf)
 
-    rounding = np.full(2, _ROUNDING)
-    return _named(("position", "orientation"), pieces, grid(pieces, MIN_SAMPLES, 2), deviations, rounding)
+    piece, tau, inner = grid(pieces, MIN_SAMPLES, 2)
+    found = between(tau, piece, inner, deviations, np.full(2, _ROUNDING))
+    return {
+        name: Largest(value, float(pieces.starts[piece[row]] + at * pieces.widths[piece[row]]))
+        for name, (value, row, at) in zip(("position", "orientation"), found, strict=True)
+    }
 
 
 def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE) -> SmallestSingularValue:
@@ -88,19 +114,36 @@ def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE
 
     It is the last of min(m, n), with m rows.
     """
-    rows = np.flatnonzero(task.weights)
+    # The task's rotations are about the tip's axes.
+    value, time = least_singular_value(
+        chain.flat, pieces, np.flatnonzero(task.weights), task != FULL_POSE, _SIGMA_SAMPLES
+    )
+    return SmallestSingularValue(value, time)
 
-    def negative(_: Indices, times: Array) -> Array:
-        # The task's rotations are about the tip's axes.
-        qs = positions_at(pieces, times)
-        return -smallest_singular_values(chain.flat, qs, rows, task != FULL_POSE)[:, None]
 
-    # Like the joints, σ is continuous: it is one function from start to end.
-    piece, tau, _ = grid(pieces, _SIGMA_SAMPLES, 1)
-    times = pieces.times(piece, tau)[np.append(tau[:-1] < 1.0, True)]
-    inner = np.arange(1, len(times) - 1)
-    value, _, time = between(times, np.zeros(len(times), np.int64), inner, negative, np.zeros(1))[0]
-    return SmallestSingularValue(-value, time)
+@compiled
+def least_singular_value(
+    flat: FlatChain, pieces: Pieces, rows: Indices, about_tip: bool, least: int
+) -> tuple[float, float]:
+    """Return the smallest σ of these rows, and its time [s]; like the joints, σ is continuous: one function."""
+    piece, tau, _ = grid(pieces, least, 1)
+    times = pieces.starts[piece] + tau * pieces.widths[piece]
+    is_new = np.append(tau[:-1] < 1.0, True)
+    times = times[is_new]
+    negative = np.empty((len(times), 1))
+    negative[:, 0] = -smallest_singular_values(flat, positions_at(pieces, times), rows, about_tip)
+    near, columns, tops, exact = promising(times, negative, np.arange(1, len(times) - 1), np.zeros(1))
+    places, values, best, where = triples(times, negative, near, columns)
+    for _ in range(ROUNDS if len(near) else 0):
+        at = tried(places, values)
+        found = smallest_singular_values(flat, positions_at(pieces, at.ravel()), rows, about_tip)
+        if narrowed(places, values, at, -found.reshape(at.shape), best, where, exact[columns]):
+            break
+    value, time = negative[tops[0], 0], times[tops[0]]
+    for c in range(len(near)):
+        if best[c] > value:
+            value, time = best[c], where[c]
+    return -value, time
 
 
 def poses_at(pieces: Pieces, chain: Chain, count: int) -> tuple[Array, Poses]:
@@ -109,10 +152,12 @@ def poses_at(pieces: Pieces, chain: Chain, count: int) -> tuple[Array, Poses]:
     return qs, Poses(*chain_poses(chain.flat, qs))
 
 
+@compiled
 def _rounding(pieces: Pieces) -> Array:
     """Return the rounding of each of `RATES`, for a tip that hardly moves while the joints do."""
     velocity, acceleration = rate_bounds(pieces)
-    return _ROUNDING * np.repeat([velocity, max(acceleration, velocity**2)], 2)
+    later = max(acceleration, velocity**2)
+    return _ROUNDING * np.array([velocity, velocity, later, later])
 
 
 def _deviations(poses: Poses, wanted: Poses, task: Task) -> list[Array]:
@@ -122,22 +167,6 @@ def _deviations(poses: Poses, wanted: Poses, task: Task) -> list[Array]:
     distances = np.linalg.norm(poses.positions - wanted.positions, axis=1)
     chords = np.sqrt(np.sum((poses.rotations - wanted.rotations) ** 2, axis=(1, 2)) / 8.0)
     return [distances, 2.0 * np.arcsin(np.minimum(chords, 1.0))]
-
-
-def _named(
-    names: tuple[str, ...],
-    pieces: Pieces,
-    samples: tuple[Indices, Array, Indices],
-    quantities: Callable[[Indices, Array], Array],
-    least: Array,
-) -> dict[str, Largest]:
-    """Find the largest value of each quantity by name, from samples of each piece."""
-    piece, tau, inner = samples
-    found = between(tau, piece, inner, quantities, least)
-    return {
-        name: Largest(value, float(pieces.starts[piece[row]] + at * pieces.widths[piece[row]]))
-        for name, (value, row, at) in zip(names, found, strict=True)
-    }
 
 
 def between(

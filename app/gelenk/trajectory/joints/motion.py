@@ -3,8 +3,8 @@
 The polynomials lead along the straight line in joint space: q = q_i + s(t) Δq, with one s from 0 to 1 for all joints.
 The limits of s are the smallest of the joints' limits over |Δq_j|. In the trapezoid each joint has its own profile, and
 all are slowed down to the slowest one, as in the course: T = max_j T_j. No motion of any shape takes less time, so it
-is also the time-optimal one. Jerk-limited joints also have profiles of their own if the line would take longer, as when
-their limits are not in one proportion.
+is also the time-optimal one. Jerk-limited joints are slowed down likewise, each with its own profile, if the line would
+take longer, as when their limits are not in one proportion.
 """
 
 from collections.abc import Sequence
@@ -14,31 +14,23 @@ import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
+from gelenk.trajectory.audit.torques import TorqueLimits
 from gelenk.trajectory.audit.words import Law
-from gelenk.trajectory.laws.jerk_limited import at_rest, jerk_limited
-from gelenk.trajectory.laws.laws import LAWS, POLYNOMIALS
+from gelenk.trajectory.joints.fastest import NO_LENGTH, fastest_motion, shape_of
+from gelenk.trajectory.laws.laws import LAWS
 from gelenk.trajectory.laws.time_scaling import LARGEST, ScalingLimits, check_limits, uniform_scaling
-from gelenk.trajectory.laws.trapezoid import JointMove, fastest, point_to_point
+from gelenk.trajectory.laws.trapezoid import JointMove, point_to_point
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
-from gelenk.trajectory.motion.time_laws import rest_to_rest
 from gelenk.trajectory.problem.parts import standing
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.timing import Timings
 from gelenk.trajectory.timing.torque_constraints import optimal_within, torque_factor
 
-NO_LENGTH = 1e-12
-"""Largest displacement that counts as standing still, [rad or m]."""
 ROUNDING = 2e-10
 """Allowed relative shortfall of a duration below the least one, because answers are rounded to ten digits."""
 
 _SHORTEST_RAMP = 1e-5
 """Least acceleration time of a trapezoid, as a share of a given duration."""
-_LEAST_RAMP = 2e-6
-"""Least acceleration time, as a share of its least duration: doubles do not resolve less."""
-_WORTH = 1e-6
-"""Share of the duration that must be saved for leaving the straight line."""
-_MOST = 1e6
-"""Cap on the limits of s, in units of the time that the tightest limit alone takes; larger ones have no effect."""
 
 
 def point_to_point_motion(
@@ -78,21 +70,21 @@ def point_to_point_motion(
     steps = target - start
     if np.abs(steps).max(initial=0.0) <= NO_LENGTH:
         return standing(start, duration or 0.0)
+    motion = PiecewisePolynomial(*fastest_motion(start, target, limits.joints, shape_of(law)))
+    if law == "time_optimal" and limits.torque is not None:
+        motion = _within_torques(start, steps, limits, limits.torque, motion)
+    if duration is None:
+        return motion
     if law == "trapezoidal":
-        return _trapezoid(start, steps, limits, duration)
-    if law == "time_optimal":
-        motion = _optimal(start, steps, limits)
-    else:
-        motion = _along_line(start, steps, law, limits)
-        if law == "jerk_limited" and not _is_one_slowest(steps, limits):
-            motion = _beside_line(start, target, limits, motion)
-    return motion if duration is None else lasting(motion, duration, law, limits)
+        return _in_time(start, steps, limits, motion, duration)
+    return lasting(motion, duration, law, limits)
 
 
-def _optimal(start: Array, steps: Array, limits: SegmentLimits) -> PiecewisePolynomial:
-    """Return the fastest motion; where its torques exceed their limits, it or the one on the straight line, slower."""
-    motion = _trapezoid(start, steps, limits, None)
-    factor = 1.0 if limits.torque is None else torque_factor(motion, limits.torque)
+def _within_torques(
+    start: Array, steps: Array, limits: SegmentLimits, torque: TorqueLimits, motion: PiecewisePolynomial
+) -> PiecewisePolynomial:
+    """Return the motion; where its torques exceed their limits, it or the one on the straight line, slower."""
+    factor = torque_factor(motion, torque)
     if factor == 1.0:
         return motion
     line = PiecewisePolynomial(np.array([0.0, 1.0]), np.stack((start, steps))[None])
@@ -142,58 +134,18 @@ def check_duration(duration: float | None) -> None:
         raise InvalidField("duration", f"must be greater than 0 s and at most {LARGEST:g} s")
 
 
-def _beside_line(
-    start: Array, target: Array, limits: SegmentLimits, on_line: PiecewisePolynomial
+def _in_time(
+    start: Array, steps: Array, limits: SegmentLimits, motion: PiecewisePolynomial, duration: float
 ) -> PiecewisePolynomial:
-    """Return the jerk-limited motion off the line, whose joints only start and end together, if it takes less time."""
-    try:
-        found = jerk_limited(at_rest(start), at_rest(target), limits.joints)
-    except InvalidField:
-        # The numbers are too many powers of ten apart; along the line they are scaled.
-        return on_line
-    return found if found.duration < on_line.duration * (1.0 - _WORTH) else on_line
-
-
-def _is_one_slowest(steps: Array, limits: SegmentLimits) -> bool:
-    """Check whether one joint alone sets all limits along the line: no motion of it takes less time than the line."""
-    shares = np.abs(steps) / limits.joints
-    return bool((shares == shares.max(axis=1, keepdims=True)).all(axis=0).any())
-
-
-def _along_line(start: Array, steps: Array, law: Law, limits: SegmentLimits) -> PiecewisePolynomial:
-    moves = steps != 0.0
-    bounds = (limits.joints[:, moves] / np.abs(steps[moves])).min(axis=1).tolist()
-    s = _jerk_limited(bounds) if law == "jerk_limited" else _polynomial(law, bounds)
-    coefficients = s.coefficients * steps
-    coefficients[:, 0] += start
-    return PiecewisePolynomial(s.breaks, coefficients)
-
-
-def _polynomial(law: Law, bounds: Sequence[float]) -> PiecewisePolynomial:
-    peaks = zip(LAWS[law].peaks, bounds, strict=False)
-    duration = max((peak / bound) ** (1.0 / k) for k, (peak, bound) in enumerate(peaks, 1))
-    c = rest_to_rest(0.0, 1.0, POLYNOMIALS[law]).coefficients
-    return PiecewisePolynomial(np.array([0.0, duration]), c / duration ** np.arange(c.shape[1])[:, None])
-
-
-def _jerk_limited(bounds: Sequence[float]) -> PiecewisePolynomial:
-    """Plan in units of the time that the tightest limit alone takes, so that all numbers have a similar magnitude."""
-    unit = max(bound ** (-1.0 / k) for k, bound in enumerate(bounds, 1))
-    units = np.array([[min(bound * unit**k, _MOST)] for k, bound in enumerate(bounds, 1)])
-    return jerk_limited(at_rest(np.zeros(1)), at_rest(np.ones(1)), units).scaled(unit)
-
-
-def _trapezoid(start: Array, steps: Array, limits: SegmentLimits, duration: float | None) -> PiecewisePolynomial:
-    most = (1.0 / _LEAST_RAMP - 1.0) * limits.velocity**2
+    """Return the trapezoid of a given duration, [s], with the accelerations of the limits; `motion` is the fastest."""
+    if not duration > motion.duration * (1.0 + ROUNDING):
+        return lasting(motion, duration, "trapezoidal", limits)
     tasks = [
-        JointMove(float(L), 0.0, 0.0, float(v), min(float(a), float(high) / abs(float(L))) if L else float(a))
-        for L, v, a, high in zip(steps, limits.velocity, limits.acceleration, most, strict=True)
+        JointMove(float(L), 0.0, 0.0, float(v), float(a))
+        for L, v, a in zip(steps, limits.velocity, limits.acceleration, strict=True)
     ]
-    if duration is not None and duration > max(fastest(task).duration for task in tasks) * (1.0 + ROUNDING):
-        motion = point_to_point(start, _in_long_time(tasks, duration), duration).motion
-        return PiecewisePolynomial(np.append(motion.breaks[:-1], duration), motion.coefficients)
-    motion = point_to_point(start, tasks).motion
-    return motion if duration is None else lasting(motion, duration, "trapezoidal", limits)
+    found = point_to_point(start, _in_long_time(tasks, duration), duration).motion
+    return PiecewisePolynomial(np.append(found.breaks[:-1], duration), found.coefficients)
 
 
 def _in_long_time(tasks: Sequence[JointMove], duration: float) -> list[JointMove]:

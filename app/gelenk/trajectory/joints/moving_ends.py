@@ -13,7 +13,8 @@ from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.trajectory.joints.excess import first_limit_excess
-from gelenk.trajectory.joints.motion import NO_LENGTH, check_duration
+from gelenk.trajectory.joints.fastest import NO_LENGTH
+from gelenk.trajectory.joints.motion import check_duration
 from gelenk.trajectory.joints.waypoints import check_within, knots
 from gelenk.trajectory.laws.jerk_limited import check_rates, jerk_limited
 from gelenk.trajectory.laws.laws import LAWS

@@ -11,7 +11,7 @@ import numpy as np
 from gelenk.errors import InvalidField, counted
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
-from gelenk.trajectory.joints.motion import NO_LENGTH
+from gelenk.trajectory.joints.fastest import NO_LENGTH
 from gelenk.trajectory.laws.time_scaling import LARGEST
 from gelenk.trajectory.motion.splines import CLOSED, NEAREST, Boundary, checked_times
 

@@ -25,6 +25,8 @@ _ROUNDING = 1e-9
 """Error of distances and times, in the units in which the largest number of the states is 1."""
 _FLAT = 1e-13
 """Value of a polynomial that counts as zero where its slope is, in fractions of its largest term."""
+_CANCELLED = 1e-12
+"""Share of two numbers below which their difference is rounding."""
 _STEPS = 200
 
 
@@ -106,6 +108,12 @@ def _ramp(rise: float, most: float) -> tuple[float, float]:
 
 
 @compiled
+def _root_of_difference(a: float, b: float) -> float:
+    """Return √(a - b); 0 where rounding alone makes it negative, as of a state on the way to rest, else NaN."""
+    return 0.0 if 0.0 > a - b > -_CANCELLED * (abs(a) + abs(b)) else math.sqrt(a - b)
+
+
+@compiled
 def _in_time(total: float, rise: float, most: float) -> tuple[float, float, float, float]:
     """Return x, h, y, k of the profile from w_0 to w_1 = w_0 + rise without a coast; y is NaN if there is none."""
     half = 0.5 * total
@@ -114,11 +122,11 @@ def _in_time(total: float, rise: float, most: float) -> tuple[float, float, floa
     if x <= most and y <= most:
         return x, 0.0, y, 0.0
     if x > y:
-        y = math.sqrt(most * total - rise) - most
+        y = _root_of_difference(most * total, rise) - most
         if not y > most:
             return most, (rise + y * y) / most - most, y, 0.0
     else:
-        x = math.sqrt(most * total + rise) - most
+        x = _root_of_difference(most * total, -rise) - most
         if not x > most:
             return x, 0.0, most, (x * x - rise) / most - most
     rest = 0.5 * total - 2.0 * most
