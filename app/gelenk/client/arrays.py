@@ -18,6 +18,7 @@ from gelenk.contract.jacobian import JacobianOptions
 from gelenk.contract.manipulability import ManipulabilityOptions
 from gelenk.contract.singularities import SingularityOptions
 from gelenk.contract.statics import StaticsOptions
+from gelenk.contract.trajectories import MotionsOptions
 from gelenk.contract.trajectory_request import TrajectoryRequest
 from gelenk.contract.velocity import VelocityOptions
 from gelenk.robot.arrays import Array
@@ -108,6 +109,7 @@ class ArrayOperations:
     dynamics = _batch("dynamics", DynamicsOptions, unpacked)
     manipulability = _batch("manipulability", ManipulabilityOptions, unpacked)
     singularities = _batch("singularities", SingularityOptions, unpacked)
+    trajectories = _batch("trajectories", MotionsOptions, unpacked)
     trajectory = _trajectory(TrajectoryRequest)
     job_result = Sent(_result)
 

@@ -177,6 +177,7 @@ class JobOperations:
 
     ik = Started(_later(Operations.ik.describe), Operations.ik_result.describe)
     trajectory = Started(_later(Operations.trajectory.describe), Operations.trajectory_result.describe)
+    trajectories = Started(_later(Operations.trajectories.describe), Operations.trajectories_result.describe)
     workspace = Started(Operations.workspace.describe, Operations.workspace_result.describe)
 
 

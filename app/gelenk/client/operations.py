@@ -40,6 +40,7 @@ from gelenk.contract import (
     statics,
     time_law,
     time_scaling,
+    trajectories,
     trajectory,
     triangle,
     velocity,
@@ -59,6 +60,7 @@ from gelenk.contract.jobs import JobInfo
 from gelenk.contract.pose import pose_fields
 from gelenk.contract.robots import NewRobot, RobotInfo, RobotReplacement
 from gelenk.contract.sheets import SheetsGradeRequest, SheetsRequest
+from gelenk.contract.trajectories import MotionsAnswer
 from gelenk.contract.trajectory_answer import TrajectoryAnswer
 from gelenk.contract.workspace import WorkspaceAnswer, WorkspaceRequest
 
@@ -86,7 +88,7 @@ def _operation(endpoint: RobotEndpoint[P, A]) -> Sent[Concatenate[str, P], A]:
         array, rest = fields.get(batch), {field: value for field, value in fields.items() if field != batch}
         if isinstance(array, np.ndarray) and not endpoint.npy_holds_more and fits_query(rest):
             return Call("POST", path, reader(endpoint.answer), query_of(rest), packed(array), NPY)
-        if isinstance(array, np.ndarray) and batch == "targets":
+        if isinstance(array, np.ndarray) and endpoint is ik.ENDPOINT:
             return json_call("POST", path, {**rest, batch: pose_fields(array)}, endpoint.answer)
         return json_call("POST", path, fields, endpoint.answer)
 
@@ -143,11 +145,13 @@ class Operations:
     manipulability = _operation(manipulability.ENDPOINT)
     singularities = _operation(singularities.ENDPOINT)
     trajectory = _operation(trajectory.ENDPOINT)
+    trajectories = _operation(trajectories.ENDPOINT)
 
     workspace = _about_robot("v1/robots/{robot}/workspace", WorkspaceRequest, JobInfo)
     workspace_result = Sent(stored.result(WorkspaceAnswer))
     ik_result = Sent(stored.result(InverseAnswer))
     trajectory_result = Sent(stored.result(TrajectoryAnswer))
+    trajectories_result = Sent(stored.result(MotionsAnswer))
     job = Sent(stored.job)
     cancel_job = Sent(stored.cancel)
     picture = Sent(stored.picture)

@@ -34,6 +34,7 @@ from gelenk.robot.notations import (
     vectors_from_rotations,
 )
 from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.batch import plan_batch
 from gelenk.trajectory.follow.ladder import Metric, Rungs, way_up
 from gelenk.trajectory.follow.nearest import nearest
 from gelenk.trajectory.plan import plan
@@ -114,6 +115,7 @@ def _motions() -> None:
     points = start + np.array([[0.2], [0.3]])
     way = Segment("spline", "time_optimal", limits, configurations=points, stated_jerk=limits.jerk)
     plan(robot, chain, TrajectoryProblem(start, (move, way))).motion.rates_at(np.zeros(1))
+    plan_batch(robot, chain, qs, qs + 0.5, move)
     nearest(_six_joints()[1].flat, np.zeros(3), np.eye(3), *np.zeros((3, 6)))
     metric = Metric(np.ones(3), np.ones(3), np.zeros(3, dtype=bool))
     way_up(Rungs(np.zeros((2, 3)), np.arange(3)), metric, np.zeros(1))

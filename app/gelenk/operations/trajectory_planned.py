@@ -195,7 +195,7 @@ class PlannedTrajectory:
             "tip_poses": sampled.get("tip_poses"),
             "segments": self._segments_json(),
             "audit": found.audit,
-            "limits": _limits_json(bounds.limits),
+            "limits": limits_json(bounds.limits),
             "limit_sources": bounds.sources,
             "notes": self._notes(),
             "certificate": certificate,
@@ -215,7 +215,7 @@ class PlannedTrajectory:
 
     def _segments_json(self) -> list[dict[str, Any]]:
         motion, reports, bounds = self.found.motion, self.found.segments, self.question.segment_bounds
-        entries = [{**asdict(report), "limits": _limits_json(bounds[report.index].limits)} for report in reports]
+        entries = [{**asdict(report), "limits": limits_json(bounds[report.index].limits)} for report in reports]
         if not self.call.coefficients:
             return entries
         starts = np.array([report.start_time for report in reports])
@@ -250,7 +250,7 @@ class PlannedTrajectory:
         return profiles_picture(title, found.motion, lines, kind)
 
 
-def _limits_json(limits: SegmentLimits) -> dict[str, Any]:
+def limits_json(limits: SegmentLimits) -> dict[str, Any]:
     """Return limits as JSON content; orjson writes the infinite one of an unlimited tip as null."""
     return {
         "joint_velocity": limits.velocity.tolist(),

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator
 from functools import lru_cache
-from io import BytesIO
 from pathlib import Path
 from typing import IO, TypeAlias
 
@@ -11,7 +10,7 @@ import orjson
 
 from gelenk.contract.ik import MAX_JOB_STEPWISE, MAX_JOB_TARGETS, MAX_TRACE, InverseRequest
 from gelenk.errors import InvalidField
-from gelenk.http.jobs.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file
+from gelenk.http.jobs.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file, npy_file
 from gelenk.http.messages.payloads import JSON, NPY, read_json
 from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.solve import solve
@@ -54,7 +53,7 @@ def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[
     ends = {"base_frame": problem.chain.base_frame, "tip_frame": problem.chain.tip_frame}
     rest = call.model_copy(update={"targets": [], "seeds": None, **ends})
     rows = np.column_stack((problem.targets.positions, problem.targets.rotations.reshape(-1, 9)))
-    return {_CALL: rest.model_dump_json().encode(), _TARGETS: _npy(rows), _SEEDS: _npy(problem.seeds)}
+    return {_CALL: rest.model_dump_json().encode(), _TARGETS: npy_file(rows), _SEEDS: npy_file(problem.seeds)}
 
 
 def _check_room(most_bytes: int, problem: TargetProblem, call: InverseRequest) -> None:
@@ -82,12 +81,6 @@ def _bytes_each(problem: TargetProblem, call: InverseRequest, count: int) -> flo
     """Return the mean size, in bytes, of the result of one of the first `count` targets, from some of them."""
     some = np.unique(np.linspace(0, count - 1, _TRIED).astype(np.int64))
     return len(_solved(problem.taken(some), call)) / len(some)
-
-
-def _npy(array: Array) -> bytes:
-    target = BytesIO()
-    np.lib.format.write_array(target, np.ascontiguousarray(array), allow_pickle=False)
-    return target.getvalue()
 
 
 def _work(_: Limits, folder: Path) -> Work:

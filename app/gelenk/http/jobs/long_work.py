@@ -4,6 +4,7 @@ import asyncio
 import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from typing import Generic, TypeVar
 
@@ -53,6 +54,13 @@ class LongWork(Generic[_Request]):
 def as_bytes(content: bytes) -> NDArray[np.uint8]:
     """Return bytes as an array, to be packed with others."""
     return np.frombuffer(content, np.uint8)
+
+
+def npy_file(array: NDArray[np.float64]) -> bytes:
+    """Return an array as the content of an npy file."""
+    target = BytesIO()
+    np.lib.format.write_array(target, np.ascontiguousarray(array), allow_pickle=False)
+    return target.getvalue()
 
 
 async def submitted(runner: Runner, kind: str, request: Request, planned: bytes, headers: dict[str, str]) -> Response:

@@ -1,0 +1,103 @@
+"""Batches of joint motions as a job: several motions per part."""
+
+from functools import lru_cache
+from pathlib import Path
+from typing import IO, TypeAlias
+
+import numpy as np
+import orjson
+
+from gelenk.contract.trajectories import COLUMNS, MAX_JOB_MOTIONS, MotionsRequest
+from gelenk.http.jobs.long_work import CALL, RESULTS, LongWork, as_bytes, npy_file
+from gelenk.http.messages.payloads import JSON, NPY, read_json
+from gelenk.jobs.parts import packed, unpacked
+from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
+from gelenk.jobs.run import Files, Run
+from gelenk.jobs.runner import Work
+from gelenk.kinematics.judge.words import PoseCertificate
+from gelenk.operations.outcome import Limits
+from gelenk.operations.trajectories import parse, results_json
+from gelenk.robot.arrays import Array
+from gelenk.store.folders import read_plain
+from gelenk.store.records import LoadedRobot
+
+_ENDS = "ends.npy"
+_PART, _STAGE, _PLANNED = 8192, "motions", 0.95
+"""Motions per part; the stage's name; progress when only the files are left to write."""
+
+_Part: TypeAlias = tuple[RobotText, bytes, Array]
+"""The robot, the call, and starts and targets, shape (N, 2, n)."""
+
+
+def _request(loaded: LoadedRobot, call: MotionsRequest, _: Limits) -> dict[str, bytes]:
+    """Check a call and return its files; starts and targets are one array from here on."""
+    batch = parse(loaded.robot, call, MAX_JOB_MOTIONS)
+    ends = {"base_frame": batch.chain.base_frame, "tip_frame": batch.chain.tip_frame}
+    rest = call.model_copy(update={"starts": None, "targets": [], **ends})
+    rows = np.stack((np.broadcast_to(batch.starts, batch.targets.shape), batch.targets), axis=1)
+    return {CALL: rest.model_dump_json(exclude_none=True).encode(), _ENDS: npy_file(rows)}
+
+
+def _work(_: Limits, folder: Path) -> Work:
+    text, content = robot_text(folder), read_plain(folder / CALL)
+    rows = np.load(folder / _ENDS, mmap_mode="r")
+    count = max(1, -(-len(rows) // _PART))
+
+    def part(k: int) -> _Part:
+        return text, content, np.array(rows[k * _PART : (k + 1) * _PART])
+
+    def work(run: Run) -> Files:
+        run.map(_STAGE, planned_part, part, count, (0.0, _PLANNED), _PART)
+
+        def write_npy(target: IO[bytes]) -> None:
+            shape = len(rows), len(COLUMNS)
+            np.lib.format.write_array_header_1_0(target, {"descr": "<f8", "fortran_order": False, "shape": shape})
+            target.writelines(unpacked(one)["rows"].tobytes() for one in run.parts.of(_STAGE, count))
+
+        def write_json(target: IO[bytes]) -> None:
+            certificates = [unpacked(one)["certificate"].tobytes() for one in run.parts.of(_STAGE, count)]
+            batch = parse(robot_of(text), _call(content, np.array(rows[:1])), MAX_JOB_MOTIONS)
+            answer = batch.to_json([], _merged([PoseCertificate(**orjson.loads(one)) for one in certificates]))
+            before, after = orjson.dumps(answer, option=orjson.OPT_SERIALIZE_NUMPY).split(b'"results":[]', 1)
+            target.write(before + b'"results":[')
+            for i, one in enumerate(run.parts.of(_STAGE, count)):
+                target.write((b"," if i else b"") + unpacked(one)["results"].tobytes()[1:-1])
+            target.write(b"]" + after)
+
+        return {RESULTS[JSON]: write_json, RESULTS[NPY]: write_npy}
+
+    return work
+
+
+def planned_part(job: _Part) -> bytes:
+    """Plan some of the motions, in a separate process."""
+    text, content, ends = job
+    robot = robot_of(text)
+    found = parse(robot, _call(content, ends), MAX_JOB_MOTIONS).planned(robot)
+    return packed(
+        rows=found.rows,
+        results=as_bytes(orjson.dumps(results_json(found))),
+        certificate=as_bytes(orjson.dumps(found.certificate)),
+    )
+
+
+def _call(content: bytes, ends: Array) -> MotionsRequest:
+    """Return the call with the starts and targets of an npy body."""
+    return _options(content).model_copy(update={"targets": ends})
+
+
+@lru_cache(maxsize=2)
+def _options(content: bytes) -> MotionsRequest:
+    return read_json(MotionsRequest, content)
+
+
+def _merged(certificates: list[PoseCertificate]) -> PoseCertificate:
+    return PoseCertificate(
+        sum(one.samples for one in certificates),
+        max(one.max_position_error for one in certificates),
+        max(one.max_orientation_error for one in certificates),
+        certificates[0].seed,
+    )
+
+
+WORK = LongWork(_request, _work)
