@@ -14,7 +14,9 @@ import statistics
 import time
 from collections.abc import Callable
 from functools import cache
+from io import BytesIO
 from typing import Any
+from urllib.parse import urlencode
 
 import numpy as np
 import ruckig
@@ -36,6 +38,7 @@ from tests.test_serve import HOST
 
 ROUNDS = 15
 SAMPLES, PERIOD = 1000, 1e-3
+MOTIONS, LAWS = 1000, ("jerk_limited", "time_optimal")
 START = [0.11600954, 0.10720322, -0.70387343, -1.52109506, 0.06933766, 1.60287448, -0.58725217]
 TARGET = [-0.4, -0.5, 0.3, -2.2, 0.5, 2.0, 0.9]
 POINTS = np.array([[0.5, -0.3, 0.5], [0.5, 0.3, 0.5], [0.5, 0.3, 0.1]])
@@ -65,7 +68,7 @@ def measure() -> list[Row]:
     """Point to point, and the corner."""
     with running("service", "/readyz") as server:
         connection = http.client.HTTPConnection(HOST, server.port, timeout=60)
-        rows = [*point_to_point(connection), *corner(connection)]
+        rows = [*point_to_point(connection), *many(connection), *corner(connection)]
         connection.close()
     return [*rows, way(), seam()]
 
@@ -96,6 +99,31 @@ def point_to_point(connection: http.client.HTTPConnection) -> list[Row]:
         row("the same as npy", times, "npy", "sampled", "ruckig, sampled", wanted="≤ 1.5 ms"),
         row(f"quintic, {what}, JSON", times, "quintic", "jtraj", "jtraj, no limits"),
     ]
+
+
+def many(connection: http.client.HTTPConnection) -> list[Row]:
+    """1,000 motions of 7 joints in one call, audited, against one calculation of each after the other."""
+    ends, body = np.random.default_rng(0).uniform(-0.4, 0.4, (MOTIONS, 2, 7)) + np.array(START), BytesIO()
+    np.save(body, ends)
+
+    def rows(law: str) -> None:
+        query = urlencode({"law": law, "limits": json.dumps(limits())})
+        headers = {"Content-Type": NPY, "Accept": NPY}
+        connection.request("POST", f"/v1/robots/panda/trajectories?{query}", body.getvalue(), headers)
+        answer = connection.getresponse()
+        content = answer.read()
+        assert answer.status == 200, content[:500]
+
+    times = medians(
+        {
+            "jerk_limited": lambda: rows("jerk_limited"),
+            "time_optimal": lambda: rows("time_optimal"),
+            "ruckig": lambda: [ruckig_alone() for _ in range(MOTIONS)],
+        }
+    )
+    named, wanted = "ruckig alone, one by one", "≤ 200 ms"
+    what = f"{MOTIONS:,} motions of 7 joints, npy"
+    return [row(f"{law.replace('_', '-')}, {what}", times, law, "ruckig", named, wanted=wanted) for law in LAWS]
 
 
 def corner(connection: http.client.HTTPConnection) -> list[Row]:

@@ -64,8 +64,9 @@ def test_the_tip_s_limits_slow_each_motion_down() -> None:
 
 def test_stated_limits_of_jerk_slow_a_cubic_down() -> None:
     one, rng = arm("panda"), np.random.default_rng(5)
-    limits = one.limits(rng)
-    agree("panda", *ends(one, rng, 2), Segment("joint", "cubic", limits, stated_jerk=0.1 * limits.jerk))
+    found = one.limits(rng)
+    limits = replace(found, jerk=0.1 * found.jerk)
+    agree("panda", *ends(one, rng, 2), Segment("joint", "cubic", limits, stated_jerk=limits.jerk))
 
 
 def test_what_cannot_be_done_says_why_and_leaves_the_others() -> None:
@@ -92,4 +93,4 @@ def test_a_motion_that_the_kernel_does_not_pass_is_planned_by_itself(monkeypatch
     expected = plan_batch(machine, one.chain, starts, targets, move).rows
     monkeypatch.setattr("gelenk.trajectory.batch._fill", lambda *_: None)
     found = plan_batch(machine, one.chain, starts, targets, move)
-    np.testing.assert_allclose(found.rows[:, :10], expected[:, :10], rtol=1e-10)
+    np.testing.assert_allclose(found.rows[:, :10], expected[:, :10], rtol=1e-7)

@@ -19,16 +19,25 @@ from gelenk.robot.compilation import compiled
 from gelenk.robot.configuration import check_limits
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
-from gelenk.trajectory.audit.motions import MotionLimits, Sampling, figures, sampling_of, slowdown
+from gelenk.trajectory.audit.motions import (
+    SIGMA_SAMPLES,
+    TIP_SAMPLES,
+    MotionLimits,
+    Sampling,
+    figures,
+    sampling_of,
+    slowdown,
+)
 from gelenk.trajectory.audit.pieces import Pieces
 from gelenk.trajectory.audit.result import Audit
-from gelenk.trajectory.audit.tip import RATES
+from gelenk.trajectory.audit.tip import RATES, least_singular_value, rate_peaks
 from gelenk.trajectory.joints.fastest import Shape, fastest_motion, shape_of
 from gelenk.trajectory.laws import time_scaling
 from gelenk.trajectory.laws.laws import LAWS
 from gelenk.trajectory.plan import plan
 from gelenk.trajectory.problem.problem import Segment, TrajectoryProblem
 
+_ROWS = np.arange(6)
 _MOMENT = 1e-9
 """Duration that stands for zero in an audit, [s]."""
 _MARGIN = 1e-9
@@ -107,31 +116,31 @@ def _fill(
     for i in range(len(targets)):
         if possible[i]:
             start, target = starts[min(i, len(starts) - 1)], targets[i]
-            pieces = _pieces(flat, start, target, law, limits)
-            found = figures(flat, pieces, start, target, limits, sampling)
+            pieces = _pieces(*fastest_motion(start, target, limits.joints, law))
+            tip, _ = rate_peaks(flat, pieces, TIP_SAMPLES)
+            factor = slowdown(tip, limits.tip)
+            if factor > 1.0:
+                factor *= 1.0 + _MARGIN
+                pieces = Pieces(factor * pieces.starts, factor * pieces.widths, pieces.scaled)
+                tip, _ = rate_peaks(flat, pieces, TIP_SAMPLES)
+            found = figures(pieces, start, target, tip, limits, sampling)
+            sigma, _ = least_singular_value(flat, pieces, _ROWS, False, SIGMA_SAMPLES)
             row = rows[i]
-            row[0], row[5], row[10] = found.passed, found.margin, found.sigma
+            row[0], row[5], row[10] = found.passed, found.margin, sigma
             row[1] = pieces.starts[-1] + pieces.widths[-1] if (start != target).any() else 0.0
-            row[2:5], row[6:10] = found.ratios, found.tip
+            row[2:5], row[6:10] = found.ratios, tip
 
 
 @compiled
-def _pieces(flat: FlatChain, start: Array, target: Array, law: Shape, limits: MotionLimits) -> Pieces:
-    """Plan a motion, slowed down to the tip's limits."""
-    breaks, coefficients = fastest_motion(start, target, limits.joints, law)
+def _pieces(breaks: Array, coefficients: Array) -> Pieces:
+    """Return the pieces of a motion; one that takes no time gets a moment, because an audit needs pieces that do."""
     widths = np.diff(breaks)
     if breaks[-1] == 0.0:
         widths[0] = _MOMENT
     for i in range(len(widths)):
         for k in range(1, coefficients.shape[1]):
             coefficients[i, k] *= widths[i] ** k
-    pieces = Pieces(breaks[:-1], widths, coefficients)
-    if np.isfinite(limits.tip).any():
-        factor = slowdown(flat, pieces, limits.tip)
-        if factor > 1.0:
-            factor *= 1.0 + _MARGIN
-            return Pieces(factor * breaks[:-1], factor * widths, coefficients)
-    return pieces
+    return Pieces(breaks[:-1], widths, coefficients)
 
 
 def _again(
