@@ -233,6 +233,10 @@ def test_the_pictures_of_the_course_and_of_the_robots_table(studio: Studio) -> N
     shown = "[...document.querySelectorAll('figure img')].filter((image) => image.naturalWidth > 0)"
     studio.until(f"{shown}.length === {len(listed) + 2}", 200)
     assert [one["title"] for one in listed] == studio.run(f"{shown}.slice(2).map(({{alt}}) => alt)")
+    (triangle,) = (one["title"] for one in listed if one["name"] == "triangle")
+    with studio.page.expect_download() as download:
+        studio.button(f"Als SVG speichern: {triangle}").click()
+    assert download.value.suggested_filename == "triangle.svg"
     studio.page.get_by_role("tab", name="Robot").click()
     studio.button("Frames drawn").click()
     studio.until(f"{shown}.length === 1")
@@ -242,6 +246,16 @@ def test_the_pictures_of_the_course_and_of_the_robots_table(studio: Studio) -> N
     studio.page.get_by_role("tab", name="Jacobian").click()
     studio.button("Ellipses drawn").click()
     studio.until(f"{shown}.length === 1")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("width", [390, 1440])
+def test_a_page_of_exercises_has_one_title(another: Callable[..., Studio], width: int) -> None:
+    """On a narrow page the robot's name is not there."""
+    studio = another(width=width, height=844)
+    studio.open("exercises", robot="planar_2r", **{"exercises.language": "de"})
+    title = studio.page.get_by_role("heading", level=1)
+    expect(title).to_have_text(["Aufgaben" if width < 1024 else "planar_2r"])
 
 
 @pytest.mark.slow

@@ -194,3 +194,20 @@ def test_every_form_of_the_matrix_and_a_reload(studio: Studio, refusals: set[int
     assert len(told(studio, "semi-axes")) == 2
     studio.button("Base axes").click()
     problem.wait_for(state="hidden")
+
+
+@pytest.mark.slow
+def test_the_lever_arms_of_a_planar_arm_alone(studio: Studio, refusals: set[int]) -> None:
+    image = "document.querySelector('figure img[alt=\"Lever arms of the force\"]')"
+    studio.open("jacobian", robot="planar_2r", q="0.3,0.8")
+    studio.type("Force along y", "-5")
+    with studio.page.expect_request("**/statics") as sent:
+        studio.button("Levers drawn").click()
+    assert sent.value.post_data_json["wrenches"] == [[10, -5, 0]]
+    assert sent.value.post_data_json["joint_positions"] == [[0.3, 0.8]]
+    studio.until(f"{image}?.naturalWidth > 0")
+    refusals.add(422)
+    studio.type("Force along z", "2")
+    studio.button("Levers drawn").click()
+    studio.page.get_by_text("a force in the plane of the arm").wait_for()
+    assert studio.run(image) is None

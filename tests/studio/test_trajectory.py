@@ -506,3 +506,34 @@ def test_task_blends_and_the_shortest_time(studio: Studio) -> None:
     studio.page.reload()
     studio.wait_for_robot("panda")
     assert studio.state("motion") == motion
+
+
+@pytest.mark.slow
+def test_pictures_of_a_plan(studio: Studio) -> None:
+    corner, end = ({"position": position, "rpy": [0, 0, 0]} for position in ([0.9, 1.1, 0.0], [0.5, 1.1, 0.0]))
+    lines = [{"type": "line", "target": corner, "blend_radius": 0.05}, {"type": "line", "target": end}]
+    motion = {
+        "robot": "planar_2r",
+        "base_frame": "base",
+        "tip_frame": "tool",
+        "start": [0.3, 0.8],
+        "segments": lines,
+        "task": ["x", "y"],
+        "limits": {"tip_velocity": 0.2},
+    }
+    studio.open("trajectory", robot="planar_2r", motion=json.dumps(motion))
+    studio.until("studio.store.value.plan", COLD)
+    for name, button, title in (
+        ("trajectory", "Profiles drawn", "Profiles of the joints"),
+        ("manipulability", "Ellipses drawn", "Velocity ellipses along the motion"),
+        ("fly-over", "Corner 1 drawn", "Fly-over from line 1 to line 2"),
+    ):
+        with studio.page.expect_request(f"**/{name}") as sent:
+            studio.button(button).click()
+        studio.until(f"document.querySelector('figure img[alt=\"{title}\"]')?.naturalWidth > 0")
+        assert studio.page.locator("figure").count() == 1
+    asked_for = sent.value.post_data_json
+    assert asked_for["corner"] == corner["position"]
+    assert asked_for["end"] == pytest.approx(end["position"], abs=1e-6)
+    assert asked_for["radius"] == pytest.approx(0.05)
+    assert asked_for["speed_before"] == asked_for["speed_after"] == 0.2

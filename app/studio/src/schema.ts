@@ -14,6 +14,7 @@ export type Audit = {
   limit_margin: LimitMargin | null;
   ends: Record<string, number>;
   tip: TipPeaks;
+  joint_torque: Peak | null;
   certificate: PoseCertificate;
   way_error: PathError | null;
   reasons: Reason[];
@@ -462,7 +463,10 @@ export type Motion = {
   start_accelerations?: Configuration | null;
   end_velocities?: Configuration | null;
   end_accelerations?: Configuration | null;
-  segments: (JointSegment | LineSegment | CircleSegment | SplineSegment)[];
+  segments?: (JointSegment | LineSegment | CircleSegment | SplineSegment)[] | null;
+  path?: ToolPath | null;
+  payload?: PayloadInfo | null;
+  gravity?: boolean | number[];
   law?: "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal";
   law_fallback?: boolean;
   duration?: number | null;
@@ -475,6 +479,7 @@ export type Motion = {
   compare_timing?: boolean;
   coefficients?: boolean;
   tip_poses?: boolean;
+  torques?: boolean;
   pose_format?: "quaternion_xyzw" | "quaternion_wxyz" | "rpy" | "zyz" | "rotation_vector" | "rotation" | "matrix";
 };
 
@@ -482,6 +487,7 @@ export type MotionLimitsInfo = {
   joint_velocity: number[];
   joint_acceleration: number[];
   joint_jerk: number[];
+  joint_torque?: (number | null)[] | null;
   tip_velocity: number | null;
   tip_acceleration: number | null;
   tip_angular_velocity: number | null;
@@ -550,6 +556,8 @@ export type PartInfo = {
 
 export type PathError = { velocity: number | null; acceleration: number | null; jerk: number | null };
 
+export type PayloadInfo = { mass: number; center_of_mass?: number[]; inertia?: number[] | null };
+
 export type Peak = { ratio: number | null; value: number; joint: string | null; time: number };
 
 export type PlaneInfo = { origin: number[]; normal: number[]; thickness: number };
@@ -586,7 +594,7 @@ export type PoseCertificate = {
 export type ReachInfo = { min: number; max: number };
 
 export type Reason = {
-  check: "velocity" | "acceleration" | "jerk" | "joint_limit" | "continuity" | "path" | "tip" | "boundary";
+  check: "velocity" | "acceleration" | "jerk" | "joint_limit" | "continuity" | "path" | "tip" | "boundary" | "torque";
   detail: string;
   joint: string | null;
   time: number;
@@ -773,6 +781,15 @@ export type ToUrdfAnswer = {
   warnings: string[];
 };
 
+export type ToolChoice = {
+  joint_travel: number;
+  turns: number[];
+  branches: Record<string, string | number>[];
+  joint_positions: number[][];
+};
+
+export type ToolPath = { poses: Pose[]; free: ("rx" | "ry" | "rz")[]; steps?: number };
+
 export type TrajectoryAnswer = {
   joint_names: string[];
   base_frame: string;
@@ -784,9 +801,11 @@ export type TrajectoryAnswer = {
   joint_positions: number[][];
   joint_velocities: number[][];
   joint_accelerations: number[][];
+  joint_torques?: number[][] | null;
   tip_poses: Pose[] | null;
   segments: TrajectorySegmentInfo[];
   audit: Audit;
+  path?: ToolChoice | null;
   timing?: TimingComparison[] | null;
   limits: MotionLimitsInfo;
   limit_sources: LimitSourcesInfo;
@@ -799,6 +818,7 @@ export type TrajectoryLimits = {
   joint_velocity?: number | number[] | Record<string, number> | null;
   joint_acceleration?: number | number[] | Record<string, number> | null;
   joint_jerk?: number | number[] | Record<string, number> | null;
+  joint_torque?: "effort" | number | number[] | Record<string, number> | null;
   tip_velocity?: number | null;
   tip_acceleration?: number | null;
   tip_angular_velocity?: number | null;
@@ -818,7 +838,10 @@ export type TrajectoryRequest = {
   start_accelerations?: Configuration | null;
   end_velocities?: Configuration | null;
   end_accelerations?: Configuration | null;
-  segments: (JointSegment | LineSegment | CircleSegment | SplineSegment)[];
+  segments?: (JointSegment | LineSegment | CircleSegment | SplineSegment)[] | null;
+  path?: ToolPath | null;
+  payload?: PayloadInfo | null;
+  gravity?: boolean | number[];
   law?: "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal";
   law_fallback?: boolean;
   duration?: number | null;
@@ -831,6 +854,7 @@ export type TrajectoryRequest = {
   compare_timing?: boolean;
   coefficients?: boolean;
   tip_poses?: boolean;
+  torques?: boolean;
   pose_format?: "quaternion_xyzw" | "quaternion_wxyz" | "rpy" | "zyz" | "rotation_vector" | "rotation" | "matrix";
   at?: RunningMotion | null;
 };

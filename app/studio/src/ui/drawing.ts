@@ -25,13 +25,19 @@ export function figureOf(svg: string, title: string, file: string, saveTitle: st
 }
 
 /** A button that has the service draw a figure, and the place where it then is. */
-export function drawing(text: string, title: string, problem: ProblemView, draw: () => Promise<HTMLElement>) {
-  const place = element("div");
+export function drawing(
+  text: string,
+  title: string,
+  problem: ProblemView,
+  draw: () => Promise<HTMLElement>,
+  place = element("div"),
+) {
   const ask = async () => {
     problem.show(null);
     try {
       place.replaceChildren(await draw());
     } catch (error) {
+      place.replaceChildren();
       problem.show(asProblem(error));
     }
   };

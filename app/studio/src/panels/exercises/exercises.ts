@@ -31,6 +31,8 @@ class Parts {
   readonly host: HTMLElement;
   #head: HTMLElement;
   #languages: Choice<Language>;
+  /** On a narrow page, which has no picture of the robot with its name. */
+  #title = element("h1");
   #names: Choice<Place["part"]> | null = null;
   #part: Part | null = null;
   #place: Place | null = null;
@@ -43,7 +45,7 @@ class Parts {
     this.#languages = new Choice("Language", LANGUAGES, (language) => this.#go({ language }));
     const spring = element("span", { class: "spring" });
     this.#head = element("div", { class: "section bar" }, spring, this.#languages.host);
-    this.host = element("div", { class: "exercises" }, this.#head);
+    this.host = element("div", { class: "exercises" }, this.#title, this.#head);
   }
 
   show(place: Place): void {
@@ -67,6 +69,7 @@ class Parts {
   #speak(language: Language): void {
     const { parts, what } = TEXTS[language];
     const options = (["tasks", "pictures"] as const).map((value) => ({ value, text: parts[value] }));
+    this.#title.textContent = parts.tasks;
     this.#names?.host.remove();
     this.#names = new Choice(what, options, (part) => this.#go({ part }));
     this.#head.prepend(this.#names.host);

@@ -20,6 +20,7 @@ import { type Answers, type Apis, Inquiry, type Listener } from "./calls.ts";
 import { type Form, FORMS, formOf, type PartChoice, PARTS, partOf } from "./choices.ts";
 import { MatrixView } from "./matrix.ts";
 import { EllipsoidControls } from "./drawing.ts";
+import { levers } from "./levers.ts";
 import { SingularityView } from "./singularity.ts";
 
 export const jacobianPanel: Panel = {
@@ -69,8 +70,10 @@ class Views implements Listener {
     const { store, api } = studio;
     const set = (option: string, usual: string) => (value: string) =>
       store.set(choosing(store.value, option, value === usual ? null : value));
-    const requests = ["the matrix", "the ellipsoids", "the singularity"].map((what) => new RequestView(api, what));
-    const [matrix, axes, singularity] = requests.map((request) => request.api) as [Api, Api, Api];
+    const requests = ["the matrix", "the ellipsoids", "the levers", "the singularity"].map(
+      (what) => new RequestView(api, what),
+    );
+    const [matrix, axes, statics, singularity] = requests.map((request) => request.api) as [Api, Api, Api, Api];
     this.apis = { matrix, axes, singularity, other: api };
     this.joints = new JointList(store);
     this.joints.host.classList.add("compact");
@@ -93,6 +96,7 @@ class Views implements Listener {
         element("div", { class: "bar" }, picture.ask),
         picture.place,
       ),
+      levers(statics, store),
       section("Singularity", this.#singularity.host, this.#problems.all.host),
       ...requests.map((request) => request.host),
     ];

@@ -5,7 +5,7 @@ import { asPose, isPose } from "../../robot/pose.ts";
 import type { Direction, Pose, TrajectoryRequest } from "../../types.ts";
 import { poseAt } from "./configurations.ts";
 
-type SegmentRequest = TrajectoryRequest["segments"][number];
+type SegmentRequest = NonNullable<TrajectoryRequest["segments"]>[number];
 export type SegmentType = SegmentRequest["type"];
 export type Boundary = NonNullable<Extract<SegmentRequest, { type: "spline" }>["boundary"]>;
 export type OrientationLaw = NonNullable<Extract<SegmentRequest, { type: "line" }>["orientation"]>;

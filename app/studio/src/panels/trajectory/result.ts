@@ -7,6 +7,7 @@ import { ProblemView } from "../../ui/problem.ts";
 import type { Plan } from "./answer.ts";
 import { Curve } from "./curve.ts";
 import type { Draft } from "./draft.ts";
+import { drawings } from "./drawings.ts";
 import { belongs, request } from "./motion.ts";
 import { Player } from "./player.ts";
 import { Profiles } from "./profiles.ts";
@@ -27,6 +28,7 @@ export class Result {
   });
   #problem = new ProblemView();
   #ended = element("div");
+  #drawings = element("div");
   #body = element("div", { class: "part" });
 
   constructor(
@@ -43,6 +45,7 @@ export class Result {
       this.#ended,
       this.#player.host,
       this.#profiles.host,
+      this.#drawings,
       this.#body,
     );
   }
@@ -61,7 +64,9 @@ export class Result {
     }
     if (isOther || store.value.degrees !== this.#degrees) this.#tell();
     this.#degrees = store.value.degrees;
-    if (isOther) this.drawWay();
+    if (!isOther) return;
+    this.drawWay();
+    this.#drawings.replaceChildren(...(shown && this.#curve ? [drawings(this.api, chain, shown, this.#curve)] : []));
   }
 
   /** The way of the tip, in the colours of the page and the size of the robot. */
