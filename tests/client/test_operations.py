@@ -23,7 +23,15 @@ from tests.test_serve import get
 
 IN_OTHER_WORDS = {"watch_job", "get_job_result"}
 """What `watch` does, and a method for each kind of job."""
-OF_ITS_OWN = {"add_archive", "replace_archive", "workspace_result", "ik_result", "trajectory_result", "picture"}
+OF_ITS_OWN = {
+    "add_archive",
+    "replace_archive",
+    "workspace_result",
+    "ik_result",
+    "trajectories_result",
+    "trajectory_result",
+    "picture",
+}
 """Methods that share an operation with another one."""
 NAMES = {
     "list_robots": "robots",
