@@ -234,6 +234,7 @@ def test_what_cannot_be_reached_ends_with_one(shell: Shell) -> None:
         (["ask", "velocity", "{}"], "is needed by this operation"),
         (["--format", "npy", "robots"], "these columns hold others: name"),
         (["trajectory", "planar_2r", *MOTION, "--plot", "motion.gif"], "must end in .svg or .png"),
+        (["trajectory", "planar_2r", *MOTION, "--program", "motion.src"], "must end in .yaml, .json or .script"),
         (["--arg", "length", "fk", "arm.xacro", "-q", "1"], "is not NAME=VALUE"),
         (["--package", "my_arm=", "fk", "arm.xacro", "-q", "1"], "'my_arm=' names no folder: it must be NAME=FOLDER"),
         (["--package", "my_arm=no/where", "fk", "arm.xacro", "-q", "1"], "'my_arm=no/where' names no folder"),

@@ -118,6 +118,22 @@ def test_progress_is_told_as_it_goes_on(own: InProcess) -> None:
     assert moments[-1] - moments[0] > 0.1
 
 
+@pytest.mark.parametrize(
+    ("name", "head"), [("m.yaml", "# Robot ur5"), ("m.json", '{"header"'), ("m.script", "# Robot ur5")]
+)
+def test_programs_into_files(shell: Shell, tmp_path: Path, name: str, head: str) -> None:
+    motion = ["trajectory", "ur5", "--start", "0 -1.2 1.6 -0.4 1.2 0", "--joint", "0.1 -1.2 1.6 -0.4 1.2 0"]
+    shell(*motion, "--program", tmp_path / name)
+    assert (tmp_path / name).read_text("utf-8").startswith(head)
+
+
+def test_a_motion_out_of_another_needs_no_start(shell: Shell) -> None:
+    running = {"start": [0.3, 0.8], "segments": [{"type": "joint", "target": [0.9, 0.2]}], "law": "jerk_limited"}
+    call = {"at": {"trajectory": running, "time": 0.1}, "segments": [{"type": "joint", "target": [0.5, 0.5]}]}
+    shell("trajectory", "planar_2r", "--motion", json.dumps({**call, "law": "jerk_limited"}))
+    assert "start" in shell("trajectory", "planar_2r", "--joint", "0.5 0.2", code=2)[1]
+
+
 @pytest.mark.parametrize("kind", ["svg", "png"])
 def test_pictures_into_files(shell: Shell, tmp_path: Path, kind: str) -> None:
     head = {"svg": b"<?xml", "png": b"\x89PNG"}[kind]

@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 from itertools import chain
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
 from gelenk.cli.arms import UNREACHED
 from gelenk.cli.completion import LAWS, WORKSPACES
 from gelenk.cli.files.inputs import fields_of
-from gelenk.cli.files.outputs import AnswerRows, Format
+from gelenk.cli.files.outputs import AnswerRows, Format, check_place
 from gelenk.cli.files.rows import numbers_of, target_of
 from gelenk.cli.session import (
     BaseOption,
@@ -29,7 +29,9 @@ from gelenk.errors import InvalidField
 def trajectory(
     context: typer.Context,
     robot: RobotArgument,
-    start: Annotated[str, typer.Option("--start", help="Start configuration.")],
+    start: Annotated[
+        str | None, typer.Option("--start", help="Start configuration; not with a motion out of a running one.")
+    ] = None,
     joint: Annotated[list[str] | None, typer.Option("--joint", help="Move the joints to a configuration.")] = None,
     line: Annotated[list[str] | None, typer.Option("--line", help="Go there straight: a pose.")] = None,
     motion: Annotated[
@@ -41,6 +43,7 @@ def trajectory(
     law: Annotated[str, word_option(LAWS)] = LAWS[0],
     period: Annotated[float, typer.Option(help="Between samples, [s].")] = 0.01,
     plot: Annotated[Path | None, plot_option("profiles")] = None,
+    program: Annotated[Path | None, typer.Option(help="Write it for ROS (.yaml, .json) or a UR (.script).")] = None,
     later: LaterOption = False,
 ) -> None:
     """A motion through configurations and poses, joints first; exit code 1 if it cannot be completed."""
@@ -53,6 +56,8 @@ def trajectory(
         with shared.bar("trajectory", is_measured=False):
             answer = client.trajectory(name, **fields)
             draw(client, plot, f"v1/robots/{name}/trajectory", fields)
+            if program is not None:
+                program.write_bytes(client.picture(f"v1/robots/{name}/trajectory", _program_kind(program), fields))
     names = answer.joint_names
     columns = ("t", *names, *(f"d {name}" for name in names), *(f"dd {name}" for name in names))
     table = zip(
@@ -67,17 +72,32 @@ def trajectory(
         raise typer.Exit(UNREACHED)
 
 
-def _motion(start: str, joint: list[str], line: list[str], motion: str | None) -> dict[str, Any]:
-    q = numbers_of(start, "start")
+def _program_kind(file: Path) -> Literal["joint_trajectory", "yaml", "urscript"]:
+    """Return the format that a file's suffix asks for; raises OSError as `check_place` does."""
+    check_place(file)
+    match file.suffix.lower():
+        case ".yaml":
+            return "yaml"
+        case ".json":
+            return "joint_trajectory"
+        case ".script":
+            return "urscript"
+    raise InvalidField("program", f"{file.name!r} must end in .yaml, .json or .script")
+
+
+def _motion(start: str | None, joint: list[str], line: list[str], motion: str | None) -> dict[str, Any]:
+    first = {} if start is None else {"start": numbers_of(start, "start")}
     if motion is not None:
         if joint or line:
             raise InvalidField("motion", "has the segments: give no --joint and no --line beside it")
-        return {"start": q, **fields_of(motion)}
+        return first | fields_of(motion)
     segments: list[dict[str, Any]] = [{"type": "joint", "target": numbers_of(text, "joint")} for text in joint]
     segments += [{"type": "line", "target": target_of(numbers_of(text, "line"), False)} for text in line]
     if not segments:
         raise InvalidField("segments", "none are given: --joint, --line, or --motion with all of them")
-    return {"start": q, "segments": segments}
+    if start is None:
+        raise InvalidField("start", "where the motion begins: --start, or `start` or `at` in --motion")
+    return {**first, "segments": segments}
 
 
 def workspace(

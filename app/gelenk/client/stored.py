@@ -17,6 +17,7 @@ from gelenk.contract.health import Health
 from gelenk.contract.jobs import Finished, JobInfo
 from gelenk.contract.pictures import CoursePictures
 from gelenk.contract.robots import RobotInfo, RobotList
+from gelenk.contract.trajectory import JOINT_TRAJECTORY, URSCRIPT, YAML
 from gelenk.language import Language
 
 A = TypeVar("A", bound=Answer)
@@ -129,7 +130,9 @@ def result(answer: type[A]) -> Callable[[str], Call[A]]:
 
 
 def picture(
-    path: str, kind: Literal["svg", "png", "pdf", "zip", "xml", "html", "csv"], fields: Mapping[str, Any] | None = None
+    path: str,
+    kind: Literal["svg", "png", "pdf", "zip", "xml", "html", "csv", "joint_trajectory", "yaml", "urscript"],
+    fields: Mapping[str, Any] | None = None,
 ) -> Call[bytes]:
     """An answer as a picture, or as a file of another kind, if the operation makes one.
 
@@ -199,4 +202,7 @@ _PICTURES = {
     "xml": "application/xml",
     "csv": "text/csv",
     "html": "text/html",
+    "joint_trajectory": JOINT_TRAJECTORY,
+    "yaml": YAML,
+    "urscript": URSCRIPT,
 }

@@ -107,6 +107,7 @@ class Endpoint(Route, Generic[P, A]):
         npy_body: Content of an npy body.
         npy_holds_more: Whether an npy body holds more than the batch.
         table: Content of the CSV answer; "" if it has none.
+        programs: Content of each further form of the answer, by media type; the query's `format` names them too.
         job: What a job may do beyond a direct answer; "" if there is no choice between the two.
         is_job: Whether it always runs as a job.
     """
@@ -123,6 +124,7 @@ class Endpoint(Route, Generic[P, A]):
     npy_body: str = ""
     npy_holds_more: bool = False
     table: str = ""
+    programs: Mapping[str, str] = field(default_factory=dict)
     job: str = ""
     is_job: bool = False
 

@@ -4,6 +4,10 @@ from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.trajectory_answer import TrajectoryAnswer
 from gelenk.contract.trajectory_request import MAX_JOB_SAMPLES, TrajectoryRequest
 
+JOINT_TRAJECTORY = "application/x-joint-trajectory+json"
+YAML = "application/yaml"
+URSCRIPT = "text/x-urscript"
+
 ENDPOINT = RobotEndpoint(
     name="trajectory",
     request=TrajectoryRequest,
@@ -29,6 +33,10 @@ ENDPOINT = RobotEndpoint(
 
     With `Accept: text/csv` or `application/x-npy` the samples come as a table, with `image/svg+xml` or `image/png`
     as profiles of position, velocity, acceleration and jerk.
+
+    `format=joint_trajectory` answers with ROS 2's message `trajectory_msgs/msg/JointTrajectory`, as JSON, or as YAML
+    with `Accept: application/yaml`; `format=urscript` with a program for an arm of Universal Robots. Neither was run
+    on a robot.
     """,
     batch="",
     npy_answer="The samples as one array of shape (N, 1 + 3n): time, joint positions, velocities, accelerations. "
@@ -38,6 +46,12 @@ ENDPOINT = RobotEndpoint(
     "are marked.",
     table="A row of names, `time`, `q_…`, `qd_…` and `qdd_…` of each joint, then one row per sample: [s], "
     "[rad or m], [rad/s or m/s], [rad/s² or m/s²]. The headers are those of the npy answer.",
+    programs={
+        JOINT_TRAJECTORY: "A JointTrajectory of ROS 2: a point for each sample, its time in whole nanoseconds.",
+        YAML: "The same as YAML, with robot, frames and units in comments.",
+        URSCRIPT: "A program that streams the samples by `servoj`, for six turning joints. If all segments are joint "
+        "moves and lines with the law `trapezoidal` or `time_optimal`, it has them as `movej` and `movel` too.",
+    },
     example={
         "start": [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785],
         "segments": [

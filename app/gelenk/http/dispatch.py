@@ -8,14 +8,16 @@ import asyncio
 import pickle
 from collections.abc import Callable
 from inspect import Parameter, Signature
-from typing import Any, cast
+from typing import Annotated, Any, Literal, cast
 
+from fastapi import Query
 from starlette.datastructures import QueryParams
 from starlette.responses import Response
 
 from gelenk.contract.endpoint import Endpoint, RobotEndpoint
 from gelenk.contract.endpoints import BY_NAME
-from gelenk.errors import InvalidArray, InvalidField
+from gelenk.contract.trajectory import JOINT_TRAJECTORY, URSCRIPT, YAML
+from gelenk.errors import InvalidArray, InvalidField, quoted
 from gelenk.http.jobs.long_work import submitted
 from gelenk.http.jobs.long_works import LONG_WORK
 from gelenk.http.messages.npy import npy_response, read_npy
@@ -47,6 +49,13 @@ from gelenk.store.library import Library
 from gelenk.store.records import LoadedRobot
 
 _PICTURES: dict[str, PictureFormat] = {SVG: "svg", PNG: "png"}
+_FORMATS = {"json": JSON, "csv": CSV, "npy": NPY, "joint_trajectory": JOINT_TRAJECTORY, "urscript": URSCRIPT}
+"""Media types by their names in a query, which goes before `Accept`."""
+_OPTIONAL = {"prefer", "format"}
+FormatQuery = Annotated[
+    Literal["json", "csv", "npy", "joint_trajectory", "urscript"] | None,
+    Query(description="Form of the answer; without it `Accept` counts."),
+]
 
 
 def answer(context: Context, task_request: TaskRequest) -> Response:
@@ -72,7 +81,7 @@ def find(context: Context, task_request: TaskRequest) -> Response:
 def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runner, limits: Limits) -> Handler:
     """Return the handler of an endpoint's requests."""
     further = {NPY: endpoint.npy_answer, CSV: endpoint.table, SVG: endpoint.picture, PNG: endpoint.picture}
-    offered = (JSON, *(media_type for media_type, content in further.items() if content))
+    offered = (JSON, *(media_type for media_type, content in further.items() if content), *endpoint.programs)
     if endpoint.is_picture:
         offered = (SVG, PNG, JSON)
     accepted = (JSON,) if endpoint.options is None else (JSON, NPY)
@@ -83,12 +92,16 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
             raise UnsupportedMediaType(request.media_type, accepted)
         wanted, pieces = request.preferred(offered), await request.pieces()
         query, is_npy = request.scope["query_string"].decode("latin-1"), request.media_type == NPY
+        if query and endpoint.programs:
+            wanted, query = _format(query, wanted), ""
 
         def task_request() -> TaskRequest:
             robot = request.path_params.get("robot", "")
             return TaskRequest(buffers(pieces), robot, query, is_npy, wanted, endpoint.name)
 
         if is_job or (endpoint.job and wants_answer_later(request.scope["headers"])):
+            if wanted in endpoint.programs:
+                raise InvalidField("format", "a job's result is fetched as JSON, CSV, npy or a picture")
             planned = await pool_client.content(request, plan_job, task_request())
             return await submitted(runner, endpoint.name, request, planned, {} if is_job else PREFERENCE_APPLIED)
         if request.length <= INLINE_BYTES and pool_client.may_compute_here:
@@ -104,6 +117,16 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
         return await pool_client.answer(request, answer, task_request())
 
     return handle
+
+
+def _format(query: str, wanted: str) -> str:
+    """Return the media type that a query names, and nothing else; raises InvalidField."""
+    given = QueryParams(query).multi_items()
+    if [name for name, _ in given] != ["format"]:
+        raise InvalidField("query", "this call has its parameters as fields of the body; only `format` may stand here")
+    if (name := given[0][1]) not in _FORMATS:
+        raise InvalidField("format", f"{quoted(name)} is none of {', '.join(_FORMATS)}")
+    return YAML if name == "joint_trajectory" and wanted == YAML else _FORMATS[name]
 
 
 async def _prepared(
@@ -129,13 +152,14 @@ def route(endpoint: Endpoint[Any, Any], handle: Handler, max_body_bytes: int) ->
     types: dict[str, Any] = {"call": endpoint.request}
     if isinstance(endpoint, RobotEndpoint):
         types = {"robot": RobotPath, **types, **({"prefer": PreferHeader} if endpoint.job else {})}
+    types |= {"format": FormatQuery} if endpoint.programs else {}
 
     def described(**_: Any) -> Any: ...
 
     described.__signature__ = Signature(  # type: ignore[attr-defined]
         [
             Parameter(
-                name, Parameter.KEYWORD_ONLY, annotation=kind, default=None if name == "prefer" else Parameter.empty
+                name, Parameter.KEYWORD_ONLY, annotation=kind, default=None if name in _OPTIONAL else Parameter.empty
             )
             for name, kind in types.items()
         ]
@@ -177,6 +201,8 @@ def _answered(endpoint: Endpoint[Any, Any], call: Any, outcome: Outcome, wanted:
         if outcome.picture is None:
             raise InvalidField("Accept", "this answer cannot be drawn: leave the header out for JSON")
         return Response(outcome.picture(_PICTURES[wanted]), media_type=wanted)
+    if wanted in outcome.programs:
+        return Response(outcome.programs[wanted](), media_type=wanted)
     if outcome.array is None:
         raise InvalidArray(NO_ARRAY)
     if wanted == CSV and outcome.columns is not None:

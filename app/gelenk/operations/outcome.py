@@ -1,7 +1,7 @@
 """The outcome of an operation, and the limits of its computation."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import partial, wraps
 from typing import Any, Literal, TypeAlias, TypeVar
 
@@ -40,6 +40,7 @@ class Outcome:
         array: Returns the array for npy, and headers for what it cannot say; None if one array cannot hold the answer.
         picture: Draws the image, as `svg` or `png`.
         columns: Names of the array's columns, for CSV.
+        programs: What makes the bytes of each further form, by media type.
         solved: Returns what the metrics count of inverse kinematics, by the number of targets.
     """
 
@@ -48,6 +49,7 @@ class Outcome:
     picture: Callable[[PictureFormat], bytes] | None = None
     columns: Sequence[str] | None = None
     solved: Callable[[int], RequestCounts] | None = None
+    programs: Mapping[str, Callable[[], bytes]] = field(default_factory=dict)
 
     def spoken(self, code: Language) -> "Outcome":
         """Return the outcome with the texts of content and picture in a language."""

@@ -6,6 +6,7 @@ from gelenk.contract.pose import Pose
 from gelenk.contract.trajectory_request import MAX_SAMPLES, JointSegment, TrajectoryRequest
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.trajectory_planned import PlannedTrajectory, TrajectorySizeLimits
+from gelenk.operations.trajectory_programs import programs
 from gelenk.operations.trajectory_torques import has_torques
 from gelenk.robot.arrays import Array
 from gelenk.robot.compilation import is_awaited
@@ -53,4 +54,6 @@ def _outcome(loaded: LoadedRobot, call: TrajectoryRequest, planned: PlannedTraje
     def array() -> tuple[Array, dict[str, str]]:
         return planned.table(planned.times()), planned.headers
 
-    return Outcome(content, array, lambda kind: planned.picture(loaded.record.name, kind), planned.columns)
+    name = loaded.record.name
+    further = programs(planned, name)
+    return Outcome(content, array, lambda kind: planned.picture(name, kind), planned.columns, programs=further)

@@ -102,6 +102,7 @@ def endpoint_documentation(endpoint: Endpoint[Any, Any]) -> dict[str, Any]:
     """Return the arguments of FastAPI's route that document one of the `ENDPOINTS`."""
     problems, responses, notes = [400, 413, 415, 422, *_BY_WORKER], {}, ""
     contents = _contents({NPY: endpoint.npy_answer, CSV: endpoint.table, SVG: endpoint.picture, PNG: endpoint.picture})
+    contents |= _contents(endpoint.programs)
     body: dict[str, Any] = {JSON: {"example": endpoint.example}}
     if isinstance(endpoint, RobotEndpoint) or endpoint.robot_field or endpoint.tag == "DH tables":
         problems.append(404)
@@ -156,7 +157,7 @@ def _form(fields: type[BaseModel] | None) -> dict[str, Any]:
     return {MULTIPART: {"schema": schema}}
 
 
-def _contents(descriptions: dict[str, str]) -> dict[str, Any]:
+def _contents(descriptions: Mapping[str, str]) -> dict[str, Any]:
     """Return further media types of a body by their descriptions; those without one are left out."""
     return {
         kind: {
