@@ -203,8 +203,9 @@ def test_the_lever_arms_of_a_planar_arm_alone(studio: Studio, refusals: set[int]
     studio.type("Force along y", "-5")
     with studio.page.expect_request("**/statics") as sent:
         studio.button("Levers drawn").click()
-    assert sent.value.post_data_json["wrenches"] == [[10, -5, 0]]
-    assert sent.value.post_data_json["joint_positions"] == [[0.3, 0.8]]
+    call: Any = sent.value.post_data_json
+    assert call["wrenches"] == [[10, -5, 0]]
+    assert call["joint_positions"] == [[0.3, 0.8]]
     studio.until(f"{image}?.naturalWidth > 0")
     refusals.add(422)
     studio.type("Force along z", "2")

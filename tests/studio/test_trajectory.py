@@ -532,7 +532,7 @@ def test_pictures_of_a_plan(studio: Studio) -> None:
             studio.button(button).click()
         studio.until(f"document.querySelector('figure img[alt=\"{title}\"]')?.naturalWidth > 0")
         assert studio.page.locator("figure").count() == 1
-    asked_for = sent.value.post_data_json
+    asked_for: Any = sent.value.post_data_json
     assert asked_for["corner"] == corner["position"]
     assert asked_for["end"] == pytest.approx(end["position"], abs=1e-6)
     assert asked_for["radius"] == pytest.approx(0.05)
