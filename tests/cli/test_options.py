@@ -93,7 +93,7 @@ CASES: list[tuple[Asked, list[str], dict[str, Any]]] = [
     (DERIVE, ["--values"], {"symbolic": False}),
 ]
 ELSEWHERE = {
-    **dict.fromkeys(("from", "fields", "output", "plot"), "test_files, test_every_operation, test_ends"),
+    **dict.fromkeys(("from", "fields", "output", "plot", "program"), "test_files, test_every_operation, test_ends"),
     **dict.fromkeys(("job", "motion", "description", "replace", "robot", "urdf"), "test_every_operation"),
     **dict.fromkeys(("batch", "seconds"), "test_ends"),
     "latex": "test_commands: only what people see",

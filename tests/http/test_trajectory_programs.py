@@ -89,9 +89,10 @@ def test_moves_are_those_that_were_asked_for(client: TestClient) -> None:
     segments: list[dict[str, Any]] = call["segments"]
     assert [name for name, *_ in moves] == ["movej", "movej", "movel", "movel"]
     np.testing.assert_allclose(moves[1][1], TARGET, rtol=0.0, atol=1e-9)
+    half = Rotation.from_euler("z", np.pi)  # of the controller's base, as the description has it
     for (_, place, _), segment in zip(moves[2:], segments[1:], strict=True):
-        np.testing.assert_allclose(place[:3], segment["target"]["position"], rtol=0.0, atol=1e-9)
-        turn = Rotation.from_rotvec(place[3:]).inv() * Rotation.from_quat(segment["target"]["quaternion_xyzw"])
+        np.testing.assert_allclose(place[:3], half.apply(segment["target"]["position"]), rtol=0.0, atol=1e-9)
+        turn = Rotation.from_rotvec(place[3:]).inv() * half * Rotation.from_quat(segment["target"]["quaternion_xyzw"])
         assert turn.magnitude() < 1e-9
     assert [move[2]["r"] for move in moves[2:]] == pytest.approx([answer["segments"][1]["blend"]["radius"], 0.0])
     first = answer["segments"][0]

@@ -2,7 +2,7 @@
 
 `python -m tests.trajectory.figures_redundancy [LINES [ARM …]]` prints a row for each arm: lines of 10 to 40 cm from
 configurations at random, how many are followed, how many of the others are feasible by the walk over the whole
-self-motion in `tests.oracles.self_motion` (a pose out of reach needs no walk), and the slowest answer.
+self-motion in `tests.trajectory.self_motion` (a pose out of reach needs no walk), and the slowest answer.
 """
 
 import sys
@@ -17,7 +17,7 @@ from gelenk.robot.arrays import Array
 from gelenk.trajectory.follow.follow import FollowedPath, follow
 from gelenk.trajectory.paths.paths import Path, line
 from gelenk.trajectory.problem.problem import Following
-from tests.oracles.self_motion import SelfMotion
+from tests.trajectory.self_motion import SelfMotion
 from tests.robots import robot
 from tests.trajectory.test_follow import moved, pose, starts
 

@@ -54,7 +54,7 @@ _FORMATS = {"json": JSON, "csv": CSV, "npy": NPY, "joint_trajectory": JOINT_TRAJ
 _OPTIONAL = {"prefer", "format"}
 FormatQuery = Annotated[
     Literal["json", "csv", "npy", "joint_trajectory", "urscript"] | None,
-    Query(description="Form of the answer; without it `Accept` counts."),
+    Query(description="Form of the answer; without it `Accept` counts.", openapi_examples={"JSON": {"value": "json"}}),
 ]
 
 

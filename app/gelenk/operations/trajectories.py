@@ -17,7 +17,7 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import configurations
 from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot
-from gelenk.trajectory.batch import Motions, plan_batch
+from gelenk.trajectory.batch import BatchMotions, plan_batch
 from gelenk.trajectory.problem.problem import Segment
 
 is_heavy = always
@@ -34,7 +34,7 @@ class MotionBatch:
     bounds: SourcedLimits
     move: Segment
 
-    def planned(self, robot: RobotModel, rows: slice = slice(None)) -> Motions:
+    def planned(self, robot: RobotModel, rows: slice = slice(None)) -> BatchMotions:
         """Plan and audit some of the motions."""
         starts = self.starts if len(self.starts) == 1 else self.starts[rows]
         return plan_batch(robot, self.chain, starts, self.targets[rows], self.move)
@@ -92,7 +92,7 @@ def _ends(chain: Chain, call: MotionsRequest) -> tuple[Array, Array]:
     return starts, targets
 
 
-def results_json(found: Motions) -> list[dict[str, Any]]:
+def results_json(found: BatchMotions) -> list[dict[str, Any]]:
     """Return the results as JSON content; NaN becomes null."""
     return [
         {**dict(zip(COLUMNS, row, strict=True)), "passed": i not in found.reasons, "reason": found.reasons.get(i)}

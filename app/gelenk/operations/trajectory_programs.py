@@ -12,17 +12,20 @@ import numpy as np
 import orjson
 
 from gelenk.contract.trajectory import JOINT_TRAJECTORY, URSCRIPT, YAML
-from gelenk.errors import InvalidField
-from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
+from gelenk.errors import InvalidField, counted
+from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians, chain_poses
 from gelenk.operations.trajectory_planned import PlannedTrajectory
 from gelenk.robot.arrays import Array
 from gelenk.robot.notations import vectors_from_rotations
+from gelenk.robot.poses import Poses
 
 _NANOSECONDS = 1_000_000_000
 _EXPONENT = re.compile(rb"(?<![\d.])(\d+)(\.\d+)?[eE]([+-]?)(\d+)")
 _JOINTS, _MOVES, _LAWS = 6, {"joint", "line"}, {"trapezoidal", "time_optimal"}
 _POINTS = 401
 """Instants of a segment at which its peaks are looked for; speeds and accelerations in constant phases are exact."""
+_BASE = "base"
+"""The link at the controller's base, as the descriptions of these arms call it."""
 _TO_START = "a=0.5, v=0.5"
 _LOOKAHEAD, _GAIN = 0.1, 300
 """Of `servoj`: the manual's own, [s] and no unit."""
@@ -88,7 +91,9 @@ def _urscript(planned: PlannedTrajectory, name: str) -> bytes:
     """Write a program that streams the samples; where the motion is one of `movej` and `movel`, these too."""
     slides = [planned.robot.description.joint[name].type == "prismatic" for name in planned.chain.joint_names]
     if len(slides) != _JOINTS or any(slides):
-        raise InvalidField("format", f"urscript is for arms of {_JOINTS} turning joints; here are {len(slides)} joints")
+        raise InvalidField(
+            "format", f"urscript is for arms of 6 turning joints; here are {counted(len(slides), 'joint')}"
+        )
     times = planned.times()
     qs = planned.found.motion.rates_at(times)[0]
     lines = [f"# {line}" for line in _about(planned, name)]
@@ -103,7 +108,7 @@ def _urscript(planned: PlannedTrajectory, name: str) -> bytes:
     if moves := _moves(planned):
         lines += [
             "# gelenk_moves() is the same way as moves: the controller times them, and rounds corners, as it does.",
-            "# Its poses are those of the tip in the base frame, named above: set TCP and base so.",
+            f"# Poses are of {_plain(planned.chain.tip_frame)} in the controller's own base: set the TCP so.",
             "def gelenk_moves():",
             f"  movej({_row(qs[0])}, {_TO_START})",
             *(f"  {move}" for move in moves),
@@ -116,21 +121,38 @@ def _moves(planned: PlannedTrajectory) -> list[str]:
     """Return the moves of which the motion consists, one a segment; none if it has other segments, laws or ends."""
     found, call, problem = planned.found, planned.call, planned.question.problem
     is_plain = all(report.type in _MOVES and report.law in _LAWS for report in found.segments)
-    if found.failure is not None or call.at is not None or len(problem.following.task) < _JOINTS or not is_plain:
+    is_moving = any(getattr(call, name) is not None for name in ("at", "start_velocities", "end_velocities"))
+    T = _in_base(planned)
+    if found.failure is not None or is_moving or len(problem.following.task) < _JOINTS or not is_plain or T is None:
         return []
     moves = []
     for report in found.segments:
         inside = np.linspace(report.start_time, report.end_time, _POINTS)[1:-1]
         pose, end = problem.segments[report.index].pose, np.array([report.end_time])
+        if report.end_time == report.start_time:
+            continue
         if report.type == "line" and pose is not None:
             speed, acceleration = _tip_peaks(planned, *found.motion.rates_at(inside))
-            radius = 0.0 if report.blend is None else report.blend.radius
-            place = np.concatenate((pose[:3, 3], vectors_from_rotations(np.ascontiguousarray(pose[None, :3, :3]))[0]))
-            moves.append(f"movel(p{_row(place)}, a={acceleration!r}, v={speed!r}, r={radius!r})")
+            radius, target = 0.0 if report.blend is None else report.blend.radius, T @ pose
+            turn = vectors_from_rotations(np.ascontiguousarray(target[None, :3, :3]))[0]
+            place = _row(np.concatenate((target[:3, 3], turn)))
+            moves.append(f"movel(p{place}, a={acceleration!r}, v={speed!r}, r={radius!r})")
         else:
             speed, acceleration = (float(np.abs(rate).max()) for rate in found.motion.rates_at(inside)[1:])
             moves.append(f"movej({_row(found.motion.rates_at(end)[0][0])}, a={acceleration!r}, v={speed!r})")
     return moves
+
+
+def _in_base(planned: PlannedTrajectory) -> Array | None:
+    """Return T_base_chain, from the chain's base to the controller's, the link `base`; None if the robot has none."""
+    robot, chain = planned.robot, planned.chain
+    if _BASE not in robot.description.frames:
+        return None
+    other = robot.chain(_BASE, chain.tip_frame)
+    if other.joint_names != chain.joint_names:
+        return None
+    here, there = (Poses(*chain_poses(one.flat, np.zeros((1, len(one))))).matrices()[0] for one in (chain, other))
+    return np.asarray(there @ np.linalg.inv(here))
 
 
 def _tip_peaks(planned: PlannedTrajectory, q: Array, qd: Array, qdd: Array) -> tuple[float, float]:

@@ -22,8 +22,8 @@ from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.motions import (
     SIGMA_SAMPLES,
     TIP_SAMPLES,
-    MotionLimits,
-    Sampling,
+    BatchLimits,
+    BatchSampling,
     figures,
     sampling_of,
     slowdown,
@@ -31,7 +31,7 @@ from gelenk.trajectory.audit.motions import (
 from gelenk.trajectory.audit.pieces import Pieces
 from gelenk.trajectory.audit.result import Audit
 from gelenk.trajectory.audit.tip import RATES, least_singular_value, rate_peaks
-from gelenk.trajectory.joints.fastest import Shape, fastest_motion, shape_of
+from gelenk.trajectory.joints.fastest import LawShape, fastest_motion, shape_of
 from gelenk.trajectory.laws import time_scaling
 from gelenk.trajectory.laws.laws import LAWS
 from gelenk.trajectory.plan import plan
@@ -45,14 +45,14 @@ _MARGIN = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Motions:
+class BatchMotions:
     """Planned and audited motions.
 
     Attributes:
         rows: Of each motion: 1 if it passed its audit, else 0; its duration, [s]; the largest ratio of a joint to its
             limit of velocity, acceleration and jerk; the least distance of a joint from its limits, [rad or m], NaN
             without limits; the peaks of the tip's `RATES`, [m/s, rad/s, m/s², rad/s²]; the least singular value of
-            the Jacobian. NaN from the duration on where there is no motion. Shape (N, 11).
+            the Jacobian. NaN from the duration on where there is no motion. LawShape (N, 11).
         reasons: Why there is none, by row.
         certificate: Of poses midway between starts and targets.
     """
@@ -62,12 +62,12 @@ class Motions:
     certificate: PoseCertificate
 
 
-def plan_batch(robot: RobotModel, chain: Chain, starts: Array, targets: Array, move: Segment) -> Motions:
+def plan_batch(robot: RobotModel, chain: Chain, starts: Array, targets: Array, move: Segment) -> BatchMotions:
     """Plan and audit the fastest motion from each start to its target, from rest to rest.
 
     Args:
-        starts: Shape (N, n), or (1, n) for one start of all, [rad or m].
-        targets: Shape (N, n).
+        starts: LawShape (N, n), or (1, n) for one start of all, [rad or m].
+        targets: LawShape (N, n).
         move: Law and limits of all; its target does not count.
 
     Raises:
@@ -86,7 +86,7 @@ def plan_batch(robot: RobotModel, chain: Chain, starts: Array, targets: Array, m
     reasons = dict(_again(robot, chain, starts, targets, move, rows))
     middles = 0.5 * (starts + targets)
     certificate = certify_poses(robot, chain, middles, {chain.tip_frame: Poses(*chain_poses(chain.flat, middles))})
-    return Motions(rows, reasons, certificate)
+    return BatchMotions(rows, reasons, certificate)
 
 
 def _within(chain: Chain, qs: Array) -> Flags:
@@ -94,11 +94,11 @@ def _within(chain: Chain, qs: Array) -> Flags:
     return within
 
 
-def _limits(chain: Chain, move: Segment) -> MotionLimits:
+def _limits(chain: Chain, move: Segment) -> BatchLimits:
     law, tip = LAWS[move.law], move.limits.tip
     enforced = np.array([True, True, law.keeps_jerk or move.stated_jerk is not None])
     bounds = np.array([getattr(tip, name) for name in RATES])
-    return MotionLimits(move.limits.joints, enforced, chain.lower, chain.upper, bounds, law.continuous)
+    return BatchLimits(move.limits.joints, enforced, chain.lower, chain.upper, bounds, law.continuous)
 
 
 @compiled
@@ -107,9 +107,9 @@ def _fill(
     starts: Array,
     targets: Array,
     possible: Flags,
-    law: Shape,
-    limits: MotionLimits,
-    sampling: Sampling,
+    law: LawShape,
+    limits: BatchLimits,
+    sampling: BatchSampling,
     rows: Array,
 ) -> None:
     """Plan and audit each possible motion, and write its row."""

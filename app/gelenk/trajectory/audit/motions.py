@@ -19,7 +19,7 @@ TIP_SAMPLES, SIGMA_SAMPLES = 300, 120
 _DIGIT = 10.0
 
 
-class MotionLimits(NamedTuple):
+class BatchLimits(NamedTuple):
     """Limits of a joint motion, ∞ for none.
 
     Attributes:
@@ -38,17 +38,17 @@ class MotionLimits(NamedTuple):
     continuous: int
 
 
-class Sampling(NamedTuple):
+class BatchSampling(NamedTuple):
     """Where polynomials are sampled, and the factor from samples to a bound, for the position and three derivatives."""
 
     nodes: tuple[Array, Array, Array, Array]
     factors: tuple[float, float, float, float]
 
 
-def sampling_of(degree: int) -> Sampling:
+def sampling_of(degree: int) -> BatchSampling:
     """Return how a motion of a degree is sampled."""
     nodes, factors = zip(*(nodes_of(max(degree - order, 0)) for order in range(4)), strict=True)
-    return Sampling(nodes, factors)
+    return BatchSampling(nodes, factors)
 
 
 class Figures(NamedTuple):
@@ -67,7 +67,7 @@ class Figures(NamedTuple):
 
 @compiled
 def figures(
-    pieces: Pieces, start: Array, target: Array, tip: Array, limits: MotionLimits, sampling: Sampling
+    pieces: Pieces, start: Array, target: Array, tip: Array, limits: BatchLimits, sampling: BatchSampling
 ) -> Figures:
     """Audit a motion that rests at its start and its target, (n,) each, [rad or m], from the peaks of the tip, (4,)."""
     ratios, scales = np.zeros(3), np.ones(4)
@@ -94,7 +94,7 @@ def slowdown(tip: Array, limits: Array) -> float:
 
 
 @compiled
-def _margin(pieces: Pieces, limits: MotionLimits, sampling: Sampling) -> float:
+def _margin(pieces: Pieces, limits: BatchLimits, sampling: BatchSampling) -> float:
     nodes, factor = sampling.nodes[0], sampling.factors[0]
     highest, _ = extremes_at(pieces, 0, False, nodes, factor)
     lowest, _ = extremes_at(Pieces(pieces.starts, pieces.widths, -pieces.scaled), 0, False, nodes, factor)

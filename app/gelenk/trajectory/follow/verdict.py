@@ -151,7 +151,7 @@ def _at_threshold(ended: _Ended, s: float) -> Stop:
         if ahead.ending != "complete" and ahead.crossing is not None:
             return _at_end_of_branch(ended, ahead.crossing.bad)
     except InvalidField:
-        onward = f"the next {ended.most} pieces do not show whether the branch continues beyond"
+        onward = f"the next {counted(ended.most, 'piece')} do not show whether the branch continues beyond"
     detail = (
         f"the smallest singular value falls to {threshold:.6g}, the threshold min_singular_value, "
         f"{ended.place(s)}; {onward}"

@@ -29,7 +29,7 @@ _ACCELERATES = np.array([1.0, 1.0, 1.0, 0.0, -1.0, -1.0, -1.0])
 _JERKS = np.array([1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.0])
 
 
-class Shape(NamedTuple):
+class LawShape(NamedTuple):
     """A law as the kernel takes it.
 
     Attributes:
@@ -44,15 +44,15 @@ class Shape(NamedTuple):
 
 
 @cache
-def shape_of(law: Law) -> Shape:
+def shape_of(law: Law) -> LawShape:
     """Return the shape of a law."""
     one = LAWS[law]
     polynomial = np.empty(0) if one.conditions is None else rest_to_rest(0.0, 1.0, one.conditions).coefficients.ravel()
-    return Shape(one.keeps_jerk, np.array(one.peaks), polynomial)
+    return LawShape(one.keeps_jerk, np.array(one.peaks), polynomial)
 
 
 @compiled
-def fastest_motion(start: Array, target: Array, limits: Array, law: Shape) -> tuple[Array, Array]:
+def fastest_motion(start: Array, target: Array, limits: Array, law: LawShape) -> tuple[Array, Array]:
     """Return breaks (M + 1,), [s], and coefficients (M, degree + 1, n), lowest power first.
 
     If nothing moves it is one piece whose two breaks are equal.
@@ -72,7 +72,7 @@ def fastest_motion(start: Array, target: Array, limits: Array, law: Shape) -> tu
 
 
 @compiled
-def _polynomial(start: Array, steps: Array, limits: Array, law: Shape) -> tuple[Array, Array]:
+def _polynomial(start: Array, steps: Array, limits: Array, law: LawShape) -> tuple[Array, Array]:
     duration, shape = 0.0, law.coefficients
     for k in range(len(law.peaks)):
         for j in range(len(steps)):
