@@ -17,8 +17,8 @@ from gelenk.robot.arrays import Array
 from gelenk.trajectory.follow.follow import FollowedPath, follow
 from gelenk.trajectory.paths.paths import Path, line
 from gelenk.trajectory.problem.problem import Following
-from tests.trajectory.self_motion import SelfMotion
 from tests.robots import robot
+from tests.trajectory.self_motion import SelfMotion
 from tests.trajectory.test_follow import moved, pose, starts
 
 ARMS = ("panda", "xarm7", "baxter", "pr2", "talos", "tiago_pro", "g1", "icub", "simple_humanoid", "tiago_dual")
