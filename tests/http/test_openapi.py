@@ -102,6 +102,8 @@ def query_examples(field: dict[str, Any]) -> list[Any]:
             found.append([inner] * kind.get("minItems", 1))
         elif kind.get("type") == "object":
             found.append('{"panda_joint7": 0.5}')
+        elif "$ref" in kind:
+            found.append('{"joint_velocity": 1.0}')  # the only model among these fields has the limits of a motion
         else:
             found.append(words[0] if words else simple[kind["type"]])
     return found
@@ -112,7 +114,7 @@ def test_what_the_schema_has_for_a_query_beside_an_array_can_stand_there(client:
     schemas = document()["components"]["schemas"]
     ready = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
     pose = [0.4, 0.1, 0.5, 1.0, 0.0, 0.0, 0.0]
-    arrays = {"inverse_kinematics": [pose], "velocity": [[ready, [0.1] * 7]]}
+    arrays = {"inverse_kinematics": [pose], "velocity": [[ready, [0.1] * 7]], "trajectories": [[ready, ready]]}
     asked = 0
     for path, _, operation in OPERATIONS:
         content = operation.get("requestBody", {}).get("content", {})

@@ -228,9 +228,13 @@ def _object(text: str) -> Any:
 
 @cache
 def _json_types(model: type[BaseModel]) -> dict[str, set[Any]]:
-    fields = model.model_json_schema()["properties"]
+    schema = model.model_json_schema()
+    fields, models = schema["properties"], schema.get("$defs", {})
     choices = {name: field.get("anyOf") or field.get("oneOf") or [field] for name, field in fields.items()}
-    return {name: {choice.get("type") for choice in these} for name, these in choices.items()}
+    return {
+        name: {models.get(choice.get("$ref", "").rpartition("/")[2], choice).get("type") for choice in these}
+        for name, these in choices.items()
+    }
 
 
 def read_query(model: type[_Model], query: QueryParams) -> _Model:
