@@ -49,7 +49,9 @@ class Question:
 
     @property
     def fields(self) -> dict[str, Any]:
-        return {**self.query, **self.body}
+        """What the client's method takes; other forms of an answer are those of its `picture`."""
+        query = {name: value for name, value in self.query.items() if self.method == "GET" or name != "format"}
+        return {**query, **self.body}
 
     @property
     def name(self) -> str:

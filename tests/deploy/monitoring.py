@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import yaml  # type: ignore[import-untyped]
+import yaml
 
 PROMETHEUS = Path("deploy/prometheus")
 DASHBOARD = Path("deploy/grafana/dashboards/gelenk.json")

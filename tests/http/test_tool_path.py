@@ -23,13 +23,13 @@ def poses(client: TestClient, count: int = 4, step: float = 0.05) -> list[dict[s
     return [{**first, "position": [x + a, y + b, z]} for a, b in offsets]
 
 
-def asked(client: TestClient, **call: Any) -> Any:
+def post_motion(client: TestClient, **call: Any) -> Any:
     return client.post(f"/v1/robots/{ROBOT}/trajectory", json=call)
 
 
 def test_the_answer_has_the_turns_the_branches_and_a_passed_audit(client: TestClient) -> None:
     seam = poses(client)
-    answer = asked(client, start=AT, path={"poses": seam, **FREE}, law="quintic", steps=True, language="de")
+    answer = post_motion(client, start=AT, path={"poses": seam, **FREE}, law="quintic", steps=True, language="de")
     assert answer.status_code == 200, answer.text[:500]
     found = TrajectoryAnswer.model_validate_json(answer.content)
     assert found.audit.passed
@@ -46,14 +46,14 @@ def test_the_answer_has_the_turns_the_branches_and_a_passed_audit(client: TestCl
 
 
 def test_without_a_start_the_motion_begins_at_the_first_pose(client: TestClient) -> None:
-    found = asked(client, path={"poses": poses(client), "free": []}).json()
+    found = post_motion(client, path={"poses": poses(client), "free": []}).json()
     assert found["completed_fraction"] == 1.0
     assert found["path"]["turns"] == [0.0] * 4
     assert found["joint_positions"][0] == pytest.approx(found["path"]["joint_positions"][0], abs=1e-9)
 
 
 def test_a_seam_that_leaves_the_workspace_ends_where_it_does(client: TestClient) -> None:
-    found = asked(client, path={"poses": poses(client, 8, 0.2), **FREE}).json()
+    found = post_motion(client, path={"poses": poses(client, 8, 0.2), **FREE}).json()
     assert found["failure"]["reason"] == "out_of_reach"
     assert "way-point" in found["failure"]["detail"]
     assert 0.0 < found["completed_fraction"] < 1.0
@@ -76,7 +76,7 @@ def test_a_seam_that_leaves_the_workspace_ends_where_it_does(client: TestClient)
     ],
 )
 def test_a_path_that_cannot_be_is_refused(client: TestClient, changes: Any, pointer: str, reason: str) -> None:
-    refused(asked(client, path={"poses": poses(client), **FREE, **changes}), pointer, reason)
+    refused(post_motion(client, path={"poses": poses(client), **FREE, **changes}), pointer, reason)
 
 
 @pytest.mark.parametrize(
@@ -90,7 +90,7 @@ def test_a_path_that_cannot_be_is_refused(client: TestClient, changes: Any, poin
     ],
 )
 def test_what_is_not_allowed_beside_a_path_is_refused(client: TestClient, name: str, value: Any) -> None:
-    refused(asked(client, start=AT, path={"poses": poses(client), **FREE}, **{name: value}), f"/{name}", "path")
+    refused(post_motion(client, start=AT, path={"poses": poses(client), **FREE}, **{name: value}), f"/{name}", "path")
 
 
 def test_numbers_that_are_none_and_other_arms_are_refused(client: TestClient) -> None:
@@ -99,7 +99,7 @@ def test_numbers_that_are_none_and_other_arms_are_refused(client: TestClient) ->
     assert client.post(f"/v1/robots/{ROBOT}/trajectory", content=body, headers=headers).status_code in {400, 422}
     answer = client.post("/v1/robots/panda/trajectory", json={"path": {"poses": poses(client), **FREE}})
     refused(answer, "/path", "7 joints")
-    refused(asked(client, start=AT), "/segments", "path")
+    refused(post_motion(client, start=AT), "/segments", "path")
 
 
 def refused(answer: Any, pointer: str, reason: str) -> None:

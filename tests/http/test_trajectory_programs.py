@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-import yaml  # type: ignore[import-untyped]
+import yaml
 from scipy.interpolate import BPoly
 from scipy.spatial.transform import Rotation
 from starlette.testclient import TestClient

@@ -10,7 +10,9 @@ from gelenk.robot.arrays import Array
 
 START = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 TARGET = [0.8, 0.2, 0.3, -1.6, 0.2, 1.9, 0.3]
-LOAD = {"mass": 2.0, "center_of_mass": [0.0, 0.0, 0.1], "inertia": [0.01, 0.0, 0.0, 0.01, 0.0, 0.005]}
+LOAD = {"mass": 2.0, "center": [0.0, 0.0, 0.1], "inertia": [0.01, 0.0, 0.0, 0.01, 0.0, 0.005]}
+RENAMED = {"center": "center_of_mass"}
+"""Fields of a motion's payload that `dynamics` has another name for."""
 EFFORTS = np.array([87.0] * 4 + [12.0] * 3)
 MOVE = {"type": "joint", "target": TARGET}
 
@@ -38,6 +40,8 @@ def refused(client: TestClient, field: str, name: str = "panda", **options: Any)
 def by_dynamics(client: TestClient, motion: dict[str, Any], **options: Any) -> Array:
     """Torques of the samples by the operation for dynamics."""
     rows = {name: motion[name] for name in ("joint_positions", "joint_velocities", "joint_accelerations")}
+    if "payload" in options:
+        options["payload"] = {RENAMED.get(name, name): value for name, value in options["payload"].items()}
     answer = client.post("/v1/robots/panda/dynamics", json={**rows, "terms": [], **options})
     return np.array(answer.json()["torques"])
 
@@ -114,7 +118,7 @@ def test_moving_ends_take_longer_or_are_refused(client: TestClient) -> None:
 @pytest.mark.parametrize(
     ("field", "options"),
     [
-        ("payload.mass", {"payload": {"center_of_mass": [0, 0, 0]}}),
+        ("payload.mass", {"payload": {"center": [0, 0, 0]}}),
         ("payload.mass", {"payload": {"mass": -1.0}}),
         ("payload", {"payload": {"mass": 1.0, "inertia": [1.0, 0, 0, 1.0, 0, 3.0]}}),
         ("payload", {"payload": {"mass": 1.0, "inertia": [1.0, 2.0, 0, 1.0, 0, 1.0]}}),

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-import yaml  # type: ignore[import-untyped]
+import yaml
 
 from supply import advisories, audit
 from tests.test_serve import free_port

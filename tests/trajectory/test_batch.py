@@ -14,6 +14,8 @@ from gelenk.trajectory.problem.problem import Segment, SegmentLimits, Trajectory
 from tests.robots import robot
 from tests.trajectory.arms import LAWS, Arm, arm
 
+PEAK = 1e-7
+"""Relative accuracy of a peak between samples."""
 LOOSE = 1e-6
 """Accuracy of a singular value with a kink where two branches of it meet."""
 
@@ -40,7 +42,7 @@ def agree(name: str, starts: Array, targets: Array, move: Segment) -> None:
     assert not found.reasons
     singles = np.array([alone(name, *ends, move) for ends in zip(starts, targets, strict=True)])
     np.testing.assert_allclose(found.rows[:, :6], singles[:, :6], rtol=1e-12, atol=1e-12)
-    np.testing.assert_allclose(found.rows[:, 6:10], singles[:, 6:10], rtol=1e-8)
+    np.testing.assert_allclose(found.rows[:, 6:10], singles[:, 6:10], rtol=PEAK)
     np.testing.assert_allclose(found.rows[:, 10], singles[:, 10], atol=LOOSE)
 
 

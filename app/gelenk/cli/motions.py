@@ -49,6 +49,7 @@ def trajectory(
     """A motion through configurations and poses, joints first; exit code 1 if it cannot be completed."""
     shared, fields = session(context), _motion(start, joint or [], line or [], motion)
     fields = {"base_frame": base, "tip_frame": tip, "law": law, "sample_period": period, **fields}
+    kind = None if program is None else _program_kind(program)
     with shared.robot(robot) as (client, name):
         if later:
             shared.tell_job(client.jobs.trajectory(name, **fields).info)
@@ -56,8 +57,8 @@ def trajectory(
         with shared.bar("trajectory", is_measured=False):
             answer = client.trajectory(name, **fields)
             draw(client, plot, f"v1/robots/{name}/trajectory", fields)
-            if program is not None:
-                program.write_bytes(client.picture(f"v1/robots/{name}/trajectory", _program_kind(program), fields))
+            if program is not None and kind is not None:
+                program.write_bytes(client.picture(f"v1/robots/{name}/trajectory", kind, fields))
     names = answer.joint_names
     columns = ("t", *names, *(f"d {name}" for name in names), *(f"dd {name}" for name in names))
     table = zip(

@@ -152,7 +152,7 @@ def dh_parameters(convention: Literal["standard", "modified"] = "standard", lang
 
 
 def course_pictures(language: Language = "en") -> Call[CoursePictures]:
-    """The course's pictures that need no request, with their titles."""
+    """The course's pictures, with their titles."""
     return Call("GET", "v1/course/pictures", reader(CoursePictures), query_of({"language": language}))
 
 

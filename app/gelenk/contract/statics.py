@@ -47,17 +47,34 @@ _Vectors = Annotated[
 ]
 
 
-class PayloadInfo(Payload):
-    """A rigid body on the tip."""
+_Center = Annotated[list[_Length], Field(min_length=3, max_length=3)]
+
+
+class LoadInfo(Payload):
+    """A rigid body on the tip, without the place of its centre of mass."""
 
     mass: float = Field(gt=0, le=1e6, description="Of the load, [kg].")
-    center_of_mass: Annotated[list[_Length], Field(min_length=3, max_length=3)] = Field(
-        default=[0.0, 0.0, 0.0], description="In the tip frame, [m]."
-    )
     inertia: Annotated[list[_Moment], Field(min_length=6, max_length=6)] | None = optional(
         "ixx, ixy, ixz, iyy, iyz, izz about the centre of mass in the tip's axes, [kg m²]; left out, the mass is a "
         "point."
     )
+
+
+class PayloadInfo(LoadInfo):
+    """A rigid body on the tip."""
+
+    center_of_mass: _Center = Field(default=[0.0, 0.0, 0.0], description="In the tip frame, [m].")
+
+    @property
+    def center(self) -> list[float]:
+        """The name that a motion has for it."""
+        return self.center_of_mass
+
+
+class CarriedLoad(LoadInfo):
+    """A rigid body on the tip during a motion."""
+
+    center: _Center = Field(default=[0.0, 0.0, 0.0], description="Of mass, in the tip frame, [m].")
 
 
 class WrenchOptions(ChainOptions):

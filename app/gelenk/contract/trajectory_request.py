@@ -10,7 +10,7 @@ from gelenk.contract.course_motion import Duration
 from gelenk.contract.kinematics import ByName, ByOrder, Configuration
 from gelenk.contract.options import Directions, WithSteps
 from gelenk.contract.pose import ORIENTATIONS, AnswerFormat, Pose, pose_fields
-from gelenk.contract.statics import Gravity, PayloadInfo
+from gelenk.contract.statics import CarriedLoad, Gravity
 from gelenk.robot.arrays import Array
 from gelenk.robot.arrays import Configuration as GivenConfiguration
 from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw
@@ -293,7 +293,7 @@ class Motion(ChainOptions, MotionOptions, WithSteps):
         "Instead of `segments`, the path of a tool that may turn about one of its axes; of arms with six joints whose "
         "inverse kinematics has a closed form. From rest to rest, and in all directions (no `task`)."
     )
-    payload: PayloadInfo | None = optional("A load carried by the tip during the whole motion; it counts for torques.")
+    payload: CarriedLoad | None = optional("A load carried by the tip during the whole motion; it counts for torques.")
     gravity: Gravity = Field(
         default=True,
         description="For torques: true for 9.81 m/s² along -z of the root link, false for none, or the gravity in the "

@@ -111,7 +111,7 @@ def _plain_results(problem: TargetProblem, call: InverseRequest, result: Inverse
         if i < len(result):
             failure = result.failures[i]
             entry = {"status": failure.status, "solutions": [], **_failure(problem.chain, call.pose_format, failure)}
-            pieces.append(orjson.dumps([entry]))
+            pieces.append(orjson.dumps([entry], option=orjson.OPT_SERIALIZE_NUMPY))
         start = i + 1
     return json_list(piece for piece in pieces if piece != b"[]")
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from gelenk.contract.common import Vectors
 from gelenk.contract.dynamics import DynamicsRequest
-from gelenk.contract.statics import PayloadInfo, StaticsRequest, WrenchOptions, WrenchRequest
+from gelenk.contract.statics import CarriedLoad, PayloadInfo, StaticsRequest, WrenchOptions, WrenchRequest
 from gelenk.errors import InvalidField, UnknownFrame, counted, quoted
 from gelenk.kinematics.dynamics.bodies import Load, tensor
 from gelenk.kinematics.dynamics.mechanism import STANDARD_GRAVITY, ChainMechanism, known_mechanism, mechanism
@@ -60,7 +60,7 @@ def gravity_of(value: bool | Sequence[float]) -> Array | None:
     return np.array(value, dtype=float)
 
 
-def load_of(payload: PayloadInfo | None) -> Load | None:
+def load_of(payload: PayloadInfo | CarriedLoad | None) -> Load | None:
     """Return the payload in the core's form; raises InvalidField if no body has this inertia."""
     if payload is None:
         return None
@@ -74,7 +74,7 @@ def load_of(payload: PayloadInfo | None) -> Load | None:
             "no body has this inertia: its principal moments must not be negative, and none larger than the sum "
             "of the two others",
         )
-    return Load(payload.mass, np.array(payload.center_of_mass, dtype=float), inertia)
+    return Load(payload.mass, np.array(payload.center, dtype=float), inertia)
 
 
 def wrench_frame(call: WrenchRequest) -> WrenchFrame:

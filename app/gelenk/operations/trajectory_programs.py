@@ -98,7 +98,8 @@ def _urscript(planned: PlannedTrajectory, name: str) -> bytes:
     qs = planned.found.motion.rates_at(times)[0]
     lines = [f"# {line}" for line in _about(planned, name)]
     lines += [
-        "# gelenk() goes to the start, slowly, and streams the audited motion. Angles count from this model's zero."
+        "# For an arm of Universal Robots that this description is of; no other arm understands it.",
+        "# gelenk() goes to the start, slowly, and streams the audited motion. Angles count from this model's zero.",
     ]
     lines += ["def gelenk():", f"  movej({_row(qs[0])}, {_TO_START})"]
     gaps = np.diff(times)

@@ -52,7 +52,7 @@ class BatchMotions:
         rows: Of each motion: 1 if it passed its audit, else 0; its duration, [s]; the largest ratio of a joint to its
             limit of velocity, acceleration and jerk; the least distance of a joint from its limits, [rad or m], NaN
             without limits; the peaks of the tip's `RATES`, [m/s, rad/s, m/s², rad/s²]; the least singular value of
-            the Jacobian. NaN from the duration on where there is no motion. LawShape (N, 11).
+            the Jacobian. NaN from the duration on where there is no motion. Shape (N, 11).
         reasons: Why there is none, by row.
         certificate: Of poses midway between starts and targets.
     """
@@ -66,8 +66,8 @@ def plan_batch(robot: RobotModel, chain: Chain, starts: Array, targets: Array, m
     """Plan and audit the fastest motion from each start to its target, from rest to rest.
 
     Args:
-        starts: LawShape (N, n), or (1, n) for one start of all, [rad or m].
-        targets: LawShape (N, n).
+        starts: Shape (N, n), or (1, n) for one start of all, [rad or m].
+        targets: Shape (N, n).
         move: Law and limits of all; its target does not count.
 
     Raises:

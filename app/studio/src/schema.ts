@@ -26,6 +26,8 @@ export type BoxInfo = { lower: number[]; upper: number[] };
 
 export type BoxShape = { type: "box"; size: number[] };
 
+export type CarriedLoad = { mass: number; inertia?: number[] | null; center?: number[] };
+
 export type ChainEnds = { base_frame: string; tip_frame: string };
 
 export type ChristoffelSymbol = { i: number; j: number; k: number; latex: string; plain: string };
@@ -465,7 +467,7 @@ export type Motion = {
   end_accelerations?: Configuration | null;
   segments?: (JointSegment | LineSegment | CircleSegment | SplineSegment)[] | null;
   path?: ToolPath | null;
-  payload?: PayloadInfo | null;
+  payload?: CarriedLoad | null;
   gravity?: boolean | number[];
   law?: "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal";
   law_fallback?: boolean;
@@ -555,8 +557,6 @@ export type PartInfo = {
 };
 
 export type PathError = { velocity: number | null; acceleration: number | null; jerk: number | null };
-
-export type PayloadInfo = { mass: number; center_of_mass?: number[]; inertia?: number[] | null };
 
 export type Peak = { ratio: number | null; value: number; joint: string | null; time: number };
 
@@ -840,7 +840,7 @@ export type TrajectoryRequest = {
   end_accelerations?: Configuration | null;
   segments?: (JointSegment | LineSegment | CircleSegment | SplineSegment)[] | null;
   path?: ToolPath | null;
-  payload?: PayloadInfo | null;
+  payload?: CarriedLoad | null;
   gravity?: boolean | number[];
   law?: "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal";
   law_fallback?: boolean;

@@ -55,9 +55,10 @@ def _work(_: Limits, folder: Path) -> Work:
             target.writelines(unpacked(one)["rows"].tobytes() for one in run.parts.of(_STAGE, count))
 
         def write_json(target: IO[bytes]) -> None:
-            certificates = [unpacked(one)["certificate"].tobytes() for one in run.parts.of(_STAGE, count)]
+            each = (unpacked(one)["certificate"].tobytes() for one in run.parts.of(_STAGE, count))
+            certificates = [PoseCertificate(**orjson.loads(one)) for one in each]
             batch = parse(robot_of(text), _call(content, np.array(rows[:1])), MAX_JOB_MOTIONS)
-            answer = batch.to_json([], _merged([PoseCertificate(**orjson.loads(one)) for one in certificates]))
+            answer = batch.to_json([], PoseCertificate.of_all(certificates))
             before, after = orjson.dumps(answer, option=orjson.OPT_SERIALIZE_NUMPY).split(b'"results":[]', 1)
             target.write(before + b'"results":[')
             for i, one in enumerate(run.parts.of(_STAGE, count)):
@@ -89,15 +90,6 @@ def _call(content: bytes, ends: Array) -> MotionsRequest:
 @lru_cache(maxsize=2)
 def _options(content: bytes) -> MotionsRequest:
     return read_json(MotionsRequest, content)
-
-
-def _merged(certificates: list[PoseCertificate]) -> PoseCertificate:
-    return PoseCertificate(
-        sum(one.samples for one in certificates),
-        max(one.max_position_error for one in certificates),
-        max(one.max_orientation_error for one in certificates),
-        certificates[0].seed,
-    )
 
 
 WORK = LongWork(_request, _work)

@@ -9,12 +9,12 @@ from typing import TypeAlias
 
 import numpy as np
 
+from gelenk.kinematics.simd.vectors import Vector, cross, dot, plus
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import FlatChain
 from gelenk.robot.compilation import compiled, inlined
 
-_Vector: TypeAlias = tuple[float, float, float]
-_Matrix: TypeAlias = tuple[_Vector, _Vector, _Vector]
+_Matrix: TypeAlias = tuple[Vector, Vector, Vector]
 
 
 @compiled
@@ -42,23 +42,23 @@ def add_torques(
     for k in range(len(inertial)):
         R, p, omega, alpha, acceleration = _motion(flat, columns, states, k, axes, origins)
         lever = _turned(R, center)
-        p = _sum(p, lever, 1.0)
-        acceleration = _sum(acceleration, _of_lever(omega, alpha, lever), 1.0)
+        p = plus(p, 1.0, lever)
+        acceleration = plus(acceleration, 1.0, _of_lever(omega, alpha, lever))
         about = _product(_product(R, inertia), _transposed(R))
-        moment = _sum(_turned(about, alpha), _cross(omega, _turned(about, omega)), 1.0)
+        moment = plus(_turned(about, alpha), 1.0, cross(omega, _turned(about, omega)))
         for i in range(m):
             j, axis, slides = columns[flat.joints[i, 1]], _vector(axes[i], 0), flat.joints[i, 0] == 1
             # What a unit of the joint's motion does to the centre of mass.
-            moved = axis if slides else _cross(axis, _sum(p, _vector(origins[i], 0), -1.0))
-            turned = 0.0 if slides else _dot(axis, moment)
-            inertial[k, j] += flat.drives[i, 0] * (mass * _dot(moved, acceleration) + turned)
-            weight[k, j] -= flat.drives[i, 0] * mass * _dot(moved, down)
+            moved = axis if slides else cross(axis, plus(p, -1.0, _vector(origins[i], 0)))
+            turned = 0.0 if slides else dot(axis, moment)
+            inertial[k, j] += flat.drives[i, 0] * (mass * dot(moved, acceleration) + turned)
+            weight[k, j] -= flat.drives[i, 0] * mass * dot(moved, down)
 
 
 @inlined
 def _motion(
     flat: FlatChain, columns: Indices, states: tuple[Array, Array, Array], k: int, axes: Array, origins: Array
-) -> tuple[_Matrix, _Vector, _Vector, _Vector, _Vector]:
+) -> tuple[_Matrix, Vector, Vector, Vector, Vector]:
     """Return pose, ω, α and the acceleration of the end of a chain in a state; write the joints' axes and origins."""
     qs, vs, accelerations = states
     R, p = _placement(flat, 0)
@@ -70,48 +70,32 @@ def _motion(
         axes[i], origins[i] = axis, p
         turn, offset = _placement(flat, i + 1)
         if flat.joints[i, 0] == 1:
-            lever = _sum(_turned(R, offset), axis, value)
-            acceleration = _sum(_sum(acceleration, axis, change), _cross(omega, axis), 2.0 * rate)
+            lever = plus(_turned(R, offset), value, axis)
+            acceleration = plus(plus(acceleration, change, axis), 2.0 * rate, cross(omega, axis))
         else:
             R = _about_z(R, value)
             lever = _turned(R, offset)
-            alpha = _sum(_sum(alpha, axis, change), _cross(omega, axis), rate)
-            omega = _sum(omega, axis, rate)
-        acceleration = _sum(acceleration, _of_lever(omega, alpha, lever), 1.0)
-        p, R = _sum(p, lever, 1.0), _product(R, turn)
+            alpha = plus(plus(alpha, change, axis), rate, cross(omega, axis))
+            omega = plus(omega, rate, axis)
+        acceleration = plus(acceleration, 1.0, _of_lever(omega, alpha, lever))
+        p, R = plus(p, 1.0, lever), _product(R, turn)
     return R, p, omega, alpha, acceleration
 
 
 @inlined
-def _vector(values: Array, first: int) -> _Vector:
+def _vector(values: Array, first: int) -> Vector:
     return values[first], values[first + 1], values[first + 2]
 
 
 @inlined
-def _placement(flat: FlatChain, i: int) -> tuple[_Matrix, _Vector]:
+def _placement(flat: FlatChain, i: int) -> tuple[_Matrix, Vector]:
     row = flat.placements[i]
     return (_vector(row, 0), _vector(row, 3), _vector(row, 6)), _vector(row, 9)
 
 
 @inlined
-def _dot(a: _Vector, b: _Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-@inlined
-def _cross(a: _Vector, b: _Vector) -> _Vector:
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
-@inlined
-def _sum(a: _Vector, b: _Vector, factor: float) -> _Vector:
-    """Return a + factor b."""
-    return a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]
-
-
-@inlined
-def _turned(R: _Matrix, a: _Vector) -> _Vector:
-    return _dot(R[0], a), _dot(R[1], a), _dot(R[2], a)
+def _turned(R: _Matrix, a: Vector) -> Vector:
+    return dot(R[0], a), dot(R[1], a), dot(R[2], a)
 
 
 @inlined
@@ -132,6 +116,6 @@ def _about_z(R: _Matrix, angle: float) -> _Matrix:
 
 
 @inlined
-def _of_lever(omega: _Vector, alpha: _Vector, lever: _Vector) -> _Vector:
+def _of_lever(omega: Vector, alpha: Vector, lever: Vector) -> Vector:
     """Return the acceleration of the end of a lever against its beginning, α × r + ω × (ω × r)."""
-    return _sum(_cross(alpha, lever), _cross(omega, _cross(omega, lever)), 1.0)
+    return plus(cross(alpha, lever), 1.0, cross(omega, cross(omega, lever)))

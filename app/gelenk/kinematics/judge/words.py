@@ -1,5 +1,6 @@
 """Names of reference frames, and the certificates of answers; without the code that computes these."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -29,6 +30,16 @@ class PoseCertificate(Result):
     max_position_error: float
     max_orientation_error: float
     seed: int
+
+    @classmethod
+    def of_all(cls, parts: Sequence["PoseCertificate"]) -> "PoseCertificate":
+        """Return the certificate of several batches together, at least one."""
+        return PoseCertificate(
+            sum(one.samples for one in parts),
+            max(one.max_position_error for one in parts),
+            max(one.max_orientation_error for one in parts),
+            parts[0].seed,
+        )
 
 
 @dataclass(frozen=True, slots=True)

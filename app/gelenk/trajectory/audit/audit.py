@@ -112,12 +112,7 @@ def whole_audit(chain: Chain, motion: PiecewisePolynomial, audits: Sequence[Audi
         _of(audits[0], "start") | _of(audits[-1], "end"),
         TipPeaks(*(_worst_tip([_moved(getattr(one.tip, name), at) for one, at in timed]) for name in _TIP_UNITS)),
         _worst_part(moved("joint_torque")),
-        PoseCertificate(
-            sum(one.samples for one in certificates),
-            max(one.max_position_error for one in certificates),
-            max(one.max_orientation_error for one in certificates),
-            certificates[0].seed,
-        ),
+        PoseCertificate.of_all(certificates),
         _largest_error(errors) if errors else None,
         reasons,
     )
