@@ -418,6 +418,39 @@ def test_what_cannot_be_done_says_why_and_where(studio: Studio, refusals: set[in
 
 
 @pytest.mark.slow
+def test_a_motion_begins_and_ends_moving(studio: Studio, refusals: set[int]) -> None:
+    """The rates of its ends are in the call and the link; one that is refused says so at its field."""
+    studio.open("trajectory", robot="planar_2r", q="0,0.5")
+    add(studio, "Joint target", [0.9, 0.1])
+    studio.page.locator("summary", has_text="Law and limits").click()
+    studio.field("Law of time").select_option("Jerk-limited")
+    studio.page.locator("summary", has_text="Moving ends").click()
+    studio.type("joint_1, start velocity", "0.3")
+    studio.type("joint_2, end velocity", "-9")
+    studio.button("Plan").click()
+    error = studio.page.locator(".folded .segment-error:visible")
+    error.wait_for(timeout=COLD * 1000)
+    refusals.add(422)
+    assert "'end_velocities': that of joint 2 is -9, beyond its limit 1" in (error.text_content() or "")
+    assert studio.field("joint_2, end velocity").get_attribute("aria-invalid") == "true"
+    assert studio.field("joint_2, start velocity").get_attribute("aria-invalid") == "false"
+    studio.type("joint_2, end velocity", "-0.2")
+    answer = plan(studio)
+    assert answer["joint_velocities"][0] == pytest.approx([0.3, 0.0], abs=TOLERANCE)
+    assert answer["joint_velocities"][-1] == pytest.approx([0.0, -0.2], abs=TOLERANCE)
+    assert error.count() == 0
+    motion = studio.state("motion")
+    assert (motion["start_velocities"], motion["end_velocities"]) == ([0.3, 0], [0, -0.2])
+    studio.page.wait_for_timeout(600)
+    studio.page.reload()
+    studio.wait_for_robot("planar_2r")
+    assert studio.state("motion") == motion
+    studio.page.locator("summary", has_text="at its start and end").click()
+    studio.type("joint_1, start velocity", "")
+    assert "start_velocities" not in studio.state("motion")
+
+
+@pytest.mark.slow
 def test_a_plan_is_cancelled(studio: Studio) -> None:
     studio.open("trajectory", robot="planar_2r", q="0,0.5")
     add(studio, "Joint target", [0.4, 0.7])

@@ -56,6 +56,36 @@ export function optional(
   return { host: titled(title, field.input, unit), show: (value) => field.set(value ?? null) };
 }
 
+/** A row for each joint, and in each column a control of it. */
+export function jointTable(
+  title: string,
+  joints: readonly Joint[],
+  columns: readonly { title: string; unit: string; control: (joint: Joint, index: number) => HTMLElement }[],
+): HTMLElement {
+  const head = columns.map(({ title, unit }) =>
+    element("th", { scope: "col" }, title, element("span", { class: "unit" }, ` [${unit}]`)),
+  );
+  const rows = joints.map((joint, index) =>
+    element(
+      "tr",
+      {},
+      element("th", { scope: "row", title: joint.name }, joint.name),
+      ...columns.map(({ control }) => element("td", {}, control(joint, index))),
+    ),
+  );
+  return element(
+    "table",
+    { class: "joint-table" },
+    element("thead", {}, element("tr", {}, element("th", { scope: "col" }, title), ...head)),
+    element("tbody", {}, ...rows),
+  );
+}
+
+/** The units of some joints, per a power of the second. */
+export function unitsOf(joints: readonly Joint[], degrees: boolean, per: string): string {
+  return [...new Set(joints.map((joint) => unitOf(kindOf(joint), degrees) + per))].join(" or ");
+}
+
 export interface PlaceOptions {
   /** What a screen reader says in front of each field. */
   label: string;

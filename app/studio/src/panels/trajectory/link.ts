@@ -2,7 +2,7 @@
 
 import { isPose } from "../../robot/pose.ts";
 import { DIRECTIONS } from "../../types.ts";
-import { type Motion, type Place, type Segment, TYPES } from "./motion.ts";
+import { type Motion, type Place, RATES, type Segment, TYPES } from "./motion.ts";
 
 const NUMBERS = ["duration", "velocity_scale", "acceleration_scale"] as const;
 const TOLERANCES = ["path_tolerance", "orientation_tolerance", "min_singular_value"] as const;
@@ -19,6 +19,7 @@ export function asMotion(value: unknown): Motion | null {
     Array.isArray(motion.segments) &&
     motion.segments.every((segment) => isSegment(segment, motion.start.length)) &&
     hasNumbers(motion, OF_THE_WHOLE) &&
+    RATES.every((rate) => motion[rate] === undefined || areNumbers(motion[rate], motion.start.length)) &&
     (motion.task === undefined || isTask(motion.task)) &&
     isFlag(motion.compare_timing) &&
     areLimits(motion.limits);
@@ -42,7 +43,7 @@ function isSegment(value: unknown, joints: number): value is Segment {
         Array.isArray(waypoints) &&
         waypoints.length > 0 &&
         waypoints.every(isThere) &&
-        (times === undefined || (areNumbers(times) && times.length === waypoints.length))
+        (times === undefined || areNumbers(times, waypoints.length))
       );
     default:
       return false;
@@ -50,7 +51,7 @@ function isSegment(value: unknown, joints: number): value is Segment {
 }
 
 function isPlace(value: unknown, joints: number): value is Place {
-  return isPose(value) || (areNumbers(value) && value.length === joints);
+  return isPose(value) || areNumbers(value, joints);
 }
 
 /** Some of the directions, in their order. */
@@ -76,8 +77,9 @@ function hasNumbers(value: object, names: readonly string[]): boolean {
   return names.every((name) => fields[name] === undefined || isNumber(fields[name]));
 }
 
-function areNumbers(value: unknown): value is number[] {
-  return Array.isArray(value) && value.every(isNumber);
+/** @param count how many, where that is known. */
+function areNumbers(value: unknown, count?: number): value is number[] {
+  return Array.isArray(value) && value.every(isNumber) && (count === undefined || value.length === count);
 }
 
 function isNumber(value: unknown): value is number {

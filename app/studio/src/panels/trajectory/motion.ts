@@ -53,7 +53,11 @@ export interface Segment extends Pace {
   blends?: boolean;
 }
 
-export interface Motion extends Pace {
+/** How fast the joints are where the motion begins and ends. */
+export const RATES = ["start_velocities", "start_accelerations", "end_velocities", "end_accelerations"] as const;
+export type Rates = Record<(typeof RATES)[number], number[]>;
+
+export interface Motion extends Pace, Partial<Rates> {
   robot: string;
   base_frame: string;
   tip_frame: string;

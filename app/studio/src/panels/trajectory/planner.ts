@@ -6,8 +6,8 @@ import { ProblemView } from "../../ui/problem.ts";
 import type { RequestView } from "../../ui/request.ts";
 import type { TrajectoryAnswer } from "../../types.ts";
 import type { Draft } from "./draft.ts";
+import type { Refused } from "./folded.ts";
 import { missing, request } from "./motion.ts";
-import type { SegmentList } from "./segments.ts";
 
 export class Planner {
   readonly host: HTMLElement;
@@ -19,11 +19,14 @@ export class Planner {
   #plan: HTMLButtonElement;
   #cancel = button("Cancel", () => this.#latest.cancel(), { hidden: true });
 
-  /** @param planned is told when a plan that was pressed for is there. */
+  /**
+   * @param fail shows what the service has against fields of the motion, and returns what it has no field for.
+   * @param planned is told when a plan that was pressed for is there.
+   */
   constructor(
     private readonly draft: Draft,
     private readonly asked: RequestView,
-    private readonly list: SegmentList,
+    private readonly fail: (places: readonly Refused[]) => readonly Refused[],
     planned: () => void,
   ) {
     const press = async () => {
@@ -70,12 +73,13 @@ export class Planner {
       );
       if (!answer) return false;
       this.#problem.show(null);
-      this.list.fail([]);
+      this.fail([]);
       store.set({ plan: { motion, answer } });
       return true;
     } catch (error) {
       const problem = asProblem(error);
-      this.#problem.show(this.list.fail(problem.places) ? problem : null);
+      const elsewhere = this.fail(problem.places);
+      this.#problem.show(elsewhere.length || problem.places.length === 0 ? problem : null);
       return false;
     } finally {
       clearInterval(this.#timer);

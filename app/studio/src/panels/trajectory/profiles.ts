@@ -8,12 +8,11 @@ import type { Joint } from "../../robot/model.ts";
 import { chosen, choosing, type State } from "../../state.ts";
 import type { Store } from "../../store.ts";
 import { Choice, element, toggle } from "../../ui/dom.ts";
-import { unitOf } from "../../ui/quantity.ts";
 import { paint } from "../../view/colours.ts";
 import type { TrajectoryAnswer } from "../../types.ts";
 import type { JointLimits } from "./answer.ts";
 import type { Curve, Derivative, Samples } from "./curve.ts";
-import { kindOf } from "./fields.ts";
+import { kindOf, unitsOf } from "./fields.ts";
 import { hue, Legend } from "./legend.ts";
 
 type Quantity = "position" | "velocity" | "acceleration" | "jerk";
@@ -103,8 +102,7 @@ export class Profiles {
     const { curve, joints } = this.#drawn;
     const name = QUANTITIES[this.#quantity]!;
     const degrees = this.store.value.degrees;
-    const units = new Set(joints.map((joint) => unitOf(kindOf(joint), degrees) + name.per));
-    this.#unit.textContent = `[${[...units].join(" or ")}]`;
+    this.#unit.textContent = `[${unitsOf(joints, degrees, name.per)}]`;
     this.#canvas.setAttribute("role", "img");
     this.#canvas.setAttribute("aria-label", `${name.text} of each joint over time; its limits are dashed`);
     const samples = curve.sample(this.#quantity, LEAST_SAMPLES);

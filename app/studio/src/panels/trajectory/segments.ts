@@ -4,6 +4,7 @@ import { button, element } from "../../ui/dom.ts";
 import type { Draft } from "./draft.ts";
 import { Editor } from "./editor.ts";
 import { icon, placeFields, told } from "./fields.ts";
+import { isIn, type Refused } from "./folded.ts";
 import { added, isOpen, type Place, places, type Segment, type SegmentType, TYPES } from "./motion.ts";
 
 const START = -1;
@@ -83,17 +84,15 @@ export class SegmentList {
     }
   }
 
-  /** Show what the service has against segments; true where it speaks of something else. */
-  fail(places: readonly { pointer: string; detail: string }[]): boolean {
+  /** Show what the service has against the start and segments; returns the rest. */
+  fail(places: readonly Refused[]): Refused[] {
     for (const line of this.#lines) line.fail("");
-    let isElsewhere = places.length === 0;
-    for (const { pointer, detail } of places) {
+    return places.filter(({ pointer, detail }) => {
       const [, index] = /^#\/segments\/(\d+)/.exec(pointer) ?? [];
-      const line = pointer.startsWith("#/start") ? this.#lines[0] : index && this.#lines[Number(index) + 1];
+      const line = isIn(pointer, "start") ? this.#lines[0] : index && this.#lines[Number(index) + 1];
       if (line) line.fail(detail.replace(/^'?#?\/?(segments|start)[^:]*: /, ""));
-      else isElsewhere = true;
-    }
-    return isElsewhere;
+      return !line;
+    });
   }
 
   #append(type: SegmentType): void {

@@ -1,12 +1,13 @@
 /** Law and limits of the whole motion. */
 
+import type { Joint } from "../../robot/model.ts";
 import { DIRECTIONS } from "../../types.ts";
 import { element, toggle } from "../../ui/dom.ts";
 import { NumberField } from "../../ui/number.ts";
-import { format, type Kind, unitOf } from "../../ui/quantity.ts";
+import { format, type Kind } from "../../ui/quantity.ts";
 import type { JointLimits } from "./answer.ts";
 import type { Draft } from "./draft.ts";
-import { choice, type Field, kindOf, optional } from "./fields.ts";
+import { choice, type Field, jointTable, kindOf, optional, unitsOf } from "./fields.ts";
 import { defined, LAWS, type Limits, type Motion, type NearSingularity } from "./motion.ts";
 
 const NEAR: readonly { value: NearSingularity; text: string }[] = [
@@ -145,34 +146,15 @@ export class Settings {
     });
   }
 
-  /** A row a joint; the placeholders are what holds where nothing is written. */
+  /** The placeholders are what holds where nothing is written. */
   #joints(): HTMLElement {
-    const { chain, degrees } = this.draft;
-    const kinds = new Set(chain.joints.map(kindOf));
-    const unit = (per: string) => [...kinds].map((kind) => unitOf(kind, degrees) + per).join(" or ");
-    const head = OF_JOINTS.map(({ title, per }) =>
-      element("th", { scope: "col" }, title, element("span", { class: "unit" }, ` [${unit(per)}]`)),
-    );
-    const rows = chain.joints.map((joint, i) =>
-      element(
-        "tr",
-        {},
-        element("th", { scope: "row", title: joint.name }, joint.name),
-        ...OF_JOINTS.map(({ name, title }) =>
-          element(
-            "td",
-            {},
-            this.#jointLimit(name, `${joint.name}, ${title.toLowerCase()}`, joint.name, i, kindOf(joint)),
-          ),
-        ),
-      ),
-    );
-    return element(
-      "table",
-      { class: "joint-limits" },
-      element("thead", {}, element("tr", {}, element("th", { scope: "col" }, "Limits of joints"), ...head)),
-      element("tbody", {}, ...rows),
-    );
+    const { joints } = this.draft.chain;
+    const columns = OF_JOINTS.map(({ name, title, per }) => ({
+      ...{ title, unit: unitsOf(joints, this.draft.degrees, per) },
+      control: (joint: Joint, index: number) =>
+        this.#jointLimit(name, `${joint.name}, ${title.toLowerCase()}`, joint.name, index, kindOf(joint)),
+    }));
+    return jointTable("Limits of joints", joints, columns);
   }
 
   #jointLimit(name: keyof JointLimits, label: string, joint: string, index: number, kind: Kind): HTMLElement {
