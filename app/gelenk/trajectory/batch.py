@@ -23,9 +23,7 @@ from gelenk.trajectory.audit.motions import (
     SIGMA_SAMPLES,
     TIP_SAMPLES,
     BatchLimits,
-    BatchSampling,
     figures,
-    sampling_of,
     slowdown,
 )
 from gelenk.trajectory.audit.pieces import Pieces
@@ -80,8 +78,7 @@ def plan_batch(robot: RobotModel, chain: Chain, starts: Array, targets: Array, m
     rows[:, 0] = 0.0
     possible = _within(chain, starts) & _within(chain, targets)
     law, limits = shape_of(move.law), _limits(chain, move)
-    degree = len(law.coefficients) - 1 if len(law.coefficients) else 3
-    _fill(chain.flat, starts, targets, possible, law, limits, sampling_of(degree), rows)
+    _fill(chain.flat, starts, targets, possible, law, limits, rows)
     rows[np.isinf(rows)] = np.nan
     reasons = dict(_again(robot, chain, starts, targets, move, rows))
     middles = 0.5 * (starts + targets)
@@ -109,7 +106,6 @@ def _fill(
     possible: Flags,
     law: LawShape,
     limits: BatchLimits,
-    sampling: BatchSampling,
     rows: Array,
 ) -> None:
     """Plan and audit each possible motion, and write its row."""
@@ -123,7 +119,7 @@ def _fill(
                 factor *= 1.0 + _MARGIN
                 pieces = Pieces(factor * pieces.starts, factor * pieces.widths, pieces.scaled)
                 tip, _ = rate_peaks(flat, pieces, TIP_SAMPLES)
-            found = figures(pieces, start, target, tip, limits, sampling)
+            found = figures(pieces, start, target, tip, limits)
             sigma, _ = least_singular_value(flat, pieces, _ROWS, False, SIGMA_SAMPLES)
             row = rows[i]
             row[0], row[5], row[10] = found.passed, found.margin, sigma

@@ -10,7 +10,7 @@ import numpy as np
 
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.compilation import compiled
-from gelenk.trajectory.audit.pieces import Pieces, extremes_at, largest_jumps, nodes_of, value_at
+from gelenk.trajectory.audit.pieces import Pieces, extremes, largest_jumps, value_at
 
 TOLERANCE = 1e-9
 """Allowed relative excess over a limit, and the other tolerances of `Demands`."""
@@ -38,19 +38,6 @@ class BatchLimits(NamedTuple):
     continuous: int
 
 
-class BatchSampling(NamedTuple):
-    """Where polynomials are sampled, and the factor from samples to a bound, for the position and three derivatives."""
-
-    nodes: tuple[Array, Array, Array, Array]
-    factors: tuple[float, float, float, float]
-
-
-def sampling_of(degree: int) -> BatchSampling:
-    """Return how a motion of a degree is sampled."""
-    nodes, factors = zip(*(nodes_of(max(degree - order, 0)) for order in range(4)), strict=True)
-    return BatchSampling(nodes, factors)
-
-
 class Figures(NamedTuple):
     """What the audit finds.
 
@@ -66,14 +53,12 @@ class Figures(NamedTuple):
 
 
 @compiled
-def figures(
-    pieces: Pieces, start: Array, target: Array, tip: Array, limits: BatchLimits, sampling: BatchSampling
-) -> Figures:
+def figures(pieces: Pieces, start: Array, target: Array, tip: Array, limits: BatchLimits) -> Figures:
     """Audit a motion that rests at its start and its target, (n,) each, [rad or m], from the peaks of the tip, (4,)."""
     ratios, scales = np.zeros(3), np.ones(4)
     passed = bool((tip <= limits.tip * (1.0 + TOLERANCE)).all())
     for order in range(3):
-        values, _ = extremes_at(pieces, order + 1, True, sampling.nodes[order + 1], sampling.factors[order + 1])
+        values, _ = extremes(pieces, order + 1, True)
         shares = np.abs(values) / limits.joints[order]
         worst = shares.argmax()
         ratios[order], scales[order + 1] = shares[worst], max(1.0, abs(values[worst]))
@@ -81,7 +66,7 @@ def figures(
     for order in range(limits.continuous + 1):
         jumps, _ = largest_jumps(pieces, order)
         passed &= jumps.max() <= _DIGIT**order * TOLERANCE * scales[order]
-    margin = _margin(pieces, limits, sampling)
+    margin = _margin(pieces, limits)
     return Figures(passed and margin >= -TOLERANCE and _is_at(pieces, start, target, scales[1]), ratios, margin)
 
 
@@ -94,10 +79,9 @@ def slowdown(tip: Array, limits: Array) -> float:
 
 
 @compiled
-def _margin(pieces: Pieces, limits: BatchLimits, sampling: BatchSampling) -> float:
-    nodes, factor = sampling.nodes[0], sampling.factors[0]
-    highest, _ = extremes_at(pieces, 0, False, nodes, factor)
-    lowest, _ = extremes_at(Pieces(pieces.starts, pieces.widths, -pieces.scaled), 0, False, nodes, factor)
+def _margin(pieces: Pieces, limits: BatchLimits) -> float:
+    highest, _ = extremes(pieces, 0, False)
+    lowest, _ = extremes(Pieces(pieces.starts, pieces.widths, -pieces.scaled), 0, False)
     margin: float = min((limits.upper - highest).min(), (-lowest - limits.lower).min())
     return margin
 

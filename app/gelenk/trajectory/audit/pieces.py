@@ -6,7 +6,6 @@ sample over cos(m π / 2N) [Ehlich1964]. So the samples show which pieces could 
 """
 
 import math
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -53,9 +52,19 @@ class Pieces(NamedTuple):
 
 def pieces_of(motion: PiecewisePolynomial) -> Pieces:
     """The pieces of a motion."""
-    widths = np.diff(motion.breaks)
-    powers = widths[:, None, None] ** np.arange(motion.coefficients.shape[1])[:, None]
-    return Pieces(motion.breaks[:-1], widths, np.ascontiguousarray(motion.coefficients * powers))
+    return _scaled(np.ascontiguousarray(motion.breaks), np.ascontiguousarray(motion.coefficients))
+
+
+@compiled
+def _scaled(breaks: Array, coefficients: Array) -> Pieces:
+    starts, widths, scaled = breaks[:-1].copy(), np.diff(breaks), coefficients.copy()
+    for piece in range(len(widths)):
+        power = 1.0
+        for k in range(scaled.shape[1]):
+            for joint in range(scaled.shape[2]):
+                scaled[piece, k, joint] *= power
+            power *= widths[piece]
+    return Pieces(starts, widths, scaled)
 
 
 @inlined
@@ -120,52 +129,89 @@ def rate_bounds(pieces: Pieces) -> tuple[float, float]:
     return velocity, acceleration
 
 
-def extremes(pieces: Pieces, order: int, *, absolute: bool = False) -> tuple[Array, Array]:
+@compiled
+def extremes(pieces: Pieces, order: int, absolute: bool = False) -> tuple[Array, Array]:
     """Find each joint's highest value of a derivative, or largest magnitude, and its time [s]; shape (n,) each."""
-    return extremes_at(pieces, order, absolute, *nodes_of(max(pieces.scaled.shape[1] - 1 - order, 0)))
-
-
-@lru_cache
-def nodes_of(degree: int) -> tuple[Array, float]:
-    """Return where polynomials of a degree are sampled, and the factor of [Ehlich1964]; 0 where samples are enough."""
-    count = max(_MIN_INTERVALS, 2 * degree + 2)
-    nodes = 0.5 - 0.5 * np.cos(np.arange(count + 1) * math.pi / count)
-    # At degree 0 or 1 the extremes are at the ends, which are samples.
-    return nodes, 1.0 / math.cos(0.5 * math.pi * degree / count) if degree > 1 else 0.0
+    n = pieces.scaled.shape[2]
+    best, where, at = np.full(n, -np.inf), np.zeros(n, np.int64), np.zeros(n)
+    bounds = _at_ends(pieces, order, absolute, best, where, at)
+    if pieces.scaled.shape[1] > order + 2:  # At degree 0 or 1 the extremes are at the ends.
+        _between_ends(pieces, order, absolute, bounds, best, where, at)
+    values, times = np.empty(n), np.empty(n)
+    for joint in range(n):
+        values[joint] = value_at(pieces, where[joint], joint, at[joint], order)
+        times[joint] = pieces.starts[where[joint]] + at[joint] * pieces.widths[where[joint]]
+    return values, times
 
 
 @compiled
-def extremes_at(pieces: Pieces, order: int, absolute: bool, nodes: Array, factor: float) -> tuple[Array, Array]:
-    """Find the extremes from `nodes_of` and their factor."""
-    count, n = len(pieces.widths), pieces.scaled.shape[2]
-    values, times, samples = np.empty(n), np.empty(n), np.empty(len(nodes))
-    bounds = np.empty(count)
-    for joint in range(n):
-        best, where, at = -np.inf, 0, 0.0
-        for piece in range(count):
+def _at_ends(pieces: Pieces, order: int, absolute: bool, best: Array, where: Indices, at: Array) -> Array:
+    """Find the extremes at the pieces' ends, and return a bound of the values within each piece, (M, n).
+
+    From the chord between its ends, τᵏ is nowhere further than min((k - 1)/4, 1).
+    """
+    count, size, n = pieces.scaled.shape
+    bounds, factors = np.zeros((count, n)), np.array([_factor(k, order) for k in range(size)])
+    for piece in range(count):
+        scale = _reciprocal(pieces.widths[piece], order)
+        for joint in range(n):
+            start, end, bulge = 0.0, 0.0, 0.0
+            for k in range(order, size):
+                c = scale * factors[k] * pieces.scaled[piece, k, joint]
+                start = c if k == order else start
+                end += c
+                bulge += min(max(0.25 * (k - order - 1), 0.0), 1.0) * abs(c)
+            start, end = (abs(start), abs(end)) if absolute else (start, end)
+            bounds[piece, joint] = max(start, end) + bulge
+            if start > best[joint] + _ROUNDING * abs(best[joint]) or piece == 0:
+                best[joint], where[joint], at[joint] = start, piece, 0.0
+            if end > best[joint] + _ROUNDING * abs(best[joint]):
+                best[joint], where[joint], at[joint] = end, piece, 1.0
+    return bounds
+
+
+@compiled
+def _between_ends(
+    pieces: Pieces, order: int, absolute: bool, bounds: Array, best: Array, where: Indices, at: Array
+) -> None:
+    """Sample the pieces whose bound is above the extreme so far, and search those whose samples leave it possible."""
+    degree = pieces.scaled.shape[1] - 1 - order
+    nodes, factor = _nodes(degree)
+    samples = np.empty(len(nodes))
+    for piece in range(len(bounds)):
+        for joint in range(len(best)):
+            least = best[joint] + _SAME * abs(best[joint])
+            if bounds[piece, joint] <= least:
+                continue
             _sample(pieces, piece, joint, order, nodes, samples)
             low, high = samples.min(), samples.max()
-            middle = 0.5 * (low + high)
-            bounds[piece] = (abs(middle) if absolute else middle) + 0.5 * factor * (high - low)
-            for k in range(len(nodes)):
-                size = abs(samples[k]) if absolute else samples[k]
-                if best == -np.inf or size > best + _ROUNDING * abs(best):
-                    best, where, at = size, piece, nodes[k]
-        for piece in range(count):
-            if factor and bounds[piece] > best + _SAME * abs(best):
-                _sample(pieces, piece, joint, order, nodes, samples)
+            middle = abs(0.5 * (low + high)) if absolute else 0.5 * (low + high)
+            if middle + 0.5 * factor * (high - low) > least:
                 tau, size = _highest(pieces, piece, joint, order, absolute, nodes, samples)
-                if size > best + _ROUNDING * abs(best):
-                    best, where, at = size, piece, tau
-        values[joint] = value_at(pieces, where, joint, at, order)
-        times[joint] = pieces.starts[where] + at * pieces.widths[where]
-    return values, times
+                if size > best[joint] + _ROUNDING * abs(best[joint]):
+                    best[joint], where[joint], at[joint] = size, piece, tau
+
+
+@inlined
+def _reciprocal(width: float, order: int) -> float:
+    """Return width^-order."""
+    scale = 1.0
+    for _ in range(order):
+        scale /= width
+    return scale
+
+
+@compiled
+def _nodes(degree: int) -> tuple[Array, float]:
+    """Return where polynomials of a degree are sampled, and the factor of [Ehlich1964]."""
+    count = max(_MIN_INTERVALS, 2 * degree + 2)
+    return 0.5 - 0.5 * np.cos(np.arange(count + 1) * (math.pi / count)), 1.0 / math.cos(0.5 * math.pi * degree / count)
 
 
 @inlined
 def _sample(pieces: Pieces, piece: int, joint: int, order: int, nodes: Array, samples: Array) -> None:
     samples[:] = 0.0
-    scale = pieces.widths[piece] ** -order
+    scale = _reciprocal(pieces.widths[piece], order)
     for k in range(pieces.scaled.shape[1] - 1, order - 1, -1):
         c = scale * _factor(k, order) * pieces.scaled[piece, k, joint]
         for i in range(len(nodes)):
@@ -210,11 +256,18 @@ def _section(pieces: Pieces, piece: int, joint: int, order: int, sign: float, lo
 @compiled
 def largest_jumps(pieces: Pieces, order: int) -> tuple[Array, Array]:
     """Find the largest jump of a derivative of each joint where two pieces meet, and when; zero in a single piece."""
-    n = pieces.scaled.shape[2]
+    size, n = pieces.scaled.shape[1:]
     jumps, times = np.zeros(n), np.full(n, pieces.starts[min(1, len(pieces.starts) - 1)])
+    factors = np.array([_factor(k, order) for k in range(size)])
     for piece in range(1, len(pieces.starts)):
+        before, after = _reciprocal(pieces.widths[piece - 1], order), _reciprocal(pieces.widths[piece], order)
         for joint in range(n):
-            jump = abs(value_at(pieces, piece, joint, 0.0, order) - value_at(pieces, piece - 1, joint, 1.0, order))
-            if jump > jumps[joint]:
-                jumps[joint], times[joint] = jump, pieces.starts[piece]
+            jump = 0.0
+            for k in range(size - 1, order - 1, -1):
+                jump += factors[k] * pieces.scaled[piece - 1, k, joint]
+            jump *= before
+            if order < size:
+                jump -= after * factors[order] * pieces.scaled[piece, order, joint]
+            if abs(jump) > jumps[joint]:
+                jumps[joint], times[joint] = abs(jump), pieces.starts[piece]
     return jumps, times
