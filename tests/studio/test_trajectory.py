@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 from playwright.sync_api import Route
 
 from tests.studio.browser import Studio
@@ -448,6 +449,35 @@ def test_a_motion_begins_and_ends_moving(studio: Studio, refusals: set[int]) -> 
     studio.page.locator("summary", has_text="at its start and end").click()
     studio.type("joint_1, start velocity", "")
     assert "start_velocities" not in studio.state("motion")
+
+
+@pytest.mark.slow
+def test_a_plan_is_saved_for_a_controller(studio: Studio, refusals: set[int]) -> None:
+    """As the service's own answers; what an arm cannot be written as says why."""
+    studio.open("trajectory", robot="ur5", q="0,-1.2,1.6,-0.4,1.2,0")
+    add(studio, "Joint target", [0.05, -1.2, 1.6, -0.4, 1.2, 0.0])
+    answer = plan(studio)
+    texts = {name: saved(studio, *name) for name in (("ROS, JSON", "json"), ("ROS, YAML", "yaml"))}
+    for message in map(yaml.safe_load, texts.values()):
+        assert message["joint_names"] == answer["joint_names"]
+        assert [point["positions"] for point in message["points"]] == answer["joint_positions"]
+    assert json.loads(texts["ROS, JSON", "json"])["header"]["frame_id"] == "base_link"
+    program = saved(studio, "URScript", "script")
+    assert program.count("servoj([") == len(answer["times"]) - 1
+    panda(studio)
+    add(studio, "Joint target", ABOVE)
+    plan(studio)
+    studio.button("URScript").click()
+    studio.page.get_by_text("urscript is for arms of 6 turning joints; here are 7 joints").wait_for()
+    refusals.add(422)
+
+
+def saved(studio: Studio, name: str, ending: str) -> str:
+    """The text of a file that is saved."""
+    with studio.page.expect_download() as download:
+        studio.button(name).click()
+    assert download.value.suggested_filename == f"ur5.{ending}"
+    return download.value.path().read_text()
 
 
 @pytest.mark.slow

@@ -1,9 +1,7 @@
 /** What came of a plan: the player, the profiles, the audit, and the motion in the picture. */
 
-import { type Api, asProblem, type Call } from "../../api.ts";
-import { button, element } from "../../ui/dom.ts";
-import { save } from "../../ui/files.ts";
-import { ProblemView } from "../../ui/problem.ts";
+import type { Api } from "../../api.ts";
+import { element } from "../../ui/dom.ts";
 import type { Plan } from "./answer.ts";
 import { Curve } from "./curve.ts";
 import type { Draft } from "./draft.ts";
@@ -11,6 +9,7 @@ import { drawings } from "./drawings.ts";
 import { belongs, request } from "./motion.ts";
 import { Player } from "./player.ts";
 import { Profiles } from "./profiles.ts";
+import { Saving } from "./saving.ts";
 import { type MotionMarks, tipPath } from "./scene.ts";
 import { auditTable, failureBox, timingTable } from "./verdict.ts";
 
@@ -22,11 +21,7 @@ export class Result {
   #player = new Player((time) => this.#move(time));
   #profiles: Profiles;
   #title = element("h2");
-  #csv = button("CSV", () => void this.#download(), {
-    class: "button small",
-    title: "Times, positions, velocities and accelerations as a table, a row every sample period",
-  });
-  #problem = new ProblemView();
+  #saving: Saving;
   #ended = element("div");
   #drawings = element("div");
   #body = element("div", { class: "part" });
@@ -36,12 +31,16 @@ export class Result {
     private readonly api: Api,
     private readonly marks: MotionMarks | null,
   ) {
+    this.#saving = new Saving(api, () => {
+      const { motion } = this.#plan!;
+      return { name: motion.robot, path: `${draft.chain.path}/trajectory`, body: request(motion) };
+    });
     this.#profiles = new Profiles(draft.store, (time) => this.#player.seek(time));
     this.host = element(
       "section",
       { class: "section", hidden: true },
-      element("div", { class: "bar" }, this.#title, element("span", { class: "spring" }), this.#csv),
-      this.#problem.host,
+      element("div", { class: "bar" }, this.#title, element("span", { class: "spring" }), this.#saving.host),
+      this.#saving.problem.host,
       this.#ended,
       this.#player.host,
       this.#profiles.host,
@@ -65,6 +64,7 @@ export class Result {
     if (isOther || store.value.degrees !== this.#degrees) this.#tell();
     this.#degrees = store.value.degrees;
     if (!isOther) return;
+    this.#saving.problem.show(null);
     this.drawWay();
     this.#drawings.replaceChildren(...(shown && this.#curve ? [drawings(this.api, chain, shown, this.#curve)] : []));
   }
@@ -93,21 +93,6 @@ export class Result {
   stop(): void {
     this.#player.pause();
     this.#profiles.stop();
-  }
-
-  async #download(): Promise<void> {
-    const { motion } = this.#plan!;
-    const path = `${this.draft.chain.path}/trajectory`;
-    this.#csv.disabled = true;
-    try {
-      const call: Call = { method: "POST", path, body: request(motion), accept: "text/csv" };
-      save(`${motion.robot}.csv`, "text/csv", await this.api.textOf(call));
-      this.#problem.show(null);
-    } catch (error) {
-      this.#problem.show(asProblem(error));
-    } finally {
-      this.#csv.disabled = false;
-    }
   }
 
   #tell(): void {
