@@ -35,6 +35,7 @@ from gelenk.robot.notations import (
 )
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.batch import plan_batch
+from gelenk.trajectory.follow.elimination import beside, field_rates, walked
 from gelenk.trajectory.follow.ladder import Metric, Rungs, way_up
 from gelenk.trajectory.follow.nearest import nearest
 from gelenk.trajectory.plan import plan
@@ -116,7 +117,12 @@ def _motions() -> None:
     way = Segment("spline", "time_optimal", limits, configurations=points, stated_jerk=limits.jerk)
     plan(robot, chain, TrajectoryProblem(start, (move, way))).motion.rates_at(np.zeros(1))
     plan_batch(robot, chain, qs, qs + 0.5, move)
-    nearest(_six_joints()[1].flat, np.zeros(3), np.eye(3), *np.zeros((3, 6)))
+    flat, rates = _six_joints()[1].flat, np.zeros((3, 1, 6))
+    nearest(flat, np.zeros(3), np.eye(3), *np.zeros((3, 6)))
+    samples = np.zeros((1, 3)), np.eye(3)[None], *np.zeros((2, 1, 6))
+    walked(flat, np.zeros(1), *samples, np.zeros(6))
+    field_rates(flat, *rates[:2])
+    beside(flat, *samples, rates, 1)
     metric = Metric(np.ones(3), np.ones(3), np.zeros(3, dtype=bool))
     way_up(Rungs(np.zeros((2, 3)), np.arange(3)), metric, np.zeros(1))
     regular(chain.flat, qs, 0.0)

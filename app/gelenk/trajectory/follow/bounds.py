@@ -15,9 +15,9 @@ from gelenk.trajectory.follow.step import HULL, INNER, TO_POWERS, Piece, knot_wi
 
 SLACK = 1e-10
 """Distance beyond a limit at which a joint still counts as within, [rad or m]."""
-_CERTAIN = 1.5
+CERTAIN = 1.5
 """Safety factor on the change of σ that the derivatives at both knots give."""
-_FINEST = 0.05
+FINEST = 0.05
 """Depth of a dip of σ below the floor that may stay undetected, in fractions of the floor."""
 _MOST_PLACES = 4000
 _GROWING = 1.0 + 1e-9
@@ -103,12 +103,12 @@ def _floor(threshold: float, best: float) -> float:
 def _resolved(field: RateField, piece: Piece, floor: float, stretch: tuple[float, float]) -> tuple[Array, Array]:
     """Return places from 0 to 1 and σ there, so dense that σ cannot fall below the floor between them unnoticed."""
     taus, sigmas = np.linspace(0.0, 1.0, len(piece.sigmas)), piece.sigmas
-    change = _CERTAIN * piece.width * max(piece.a.change, piece.b.change)
+    change = CERTAIN * piece.width * max(piece.a.change, piece.b.change)
     while len(taus) < _MOST_PLACES:
         widths = np.diff(taus)
         lowest = 0.5 * (sigmas[:-1] + sigmas[1:] - change * widths)
         seen = np.minimum(sigmas[:-1], sigmas[1:])
-        open_ = (lowest < (1.0 - _FINEST) * floor) & (seen >= floor) & (change * widths > _FINEST * floor)
+        open_ = (lowest < (1.0 - FINEST) * floor) & (seen >= floor) & (change * widths > FINEST * floor)
         if not open_.any():
             break
         places = (taus[:-1] + 0.5 * widths)[open_]

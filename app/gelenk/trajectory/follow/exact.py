@@ -10,10 +10,12 @@ from typing import cast
 
 import numpy as np
 
+from gelenk.ik.search.task import FULL_POSE
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.trajectory.audit.result import PathError
 from gelenk.trajectory.follow.bounds import SLACK
-from gelenk.trajectory.follow.rate_field import RateField
+from gelenk.trajectory.follow.elimination import beside
+from gelenk.trajectory.follow.rate_field import RateField, sampled
 from gelenk.trajectory.follow.rows import row_derivatives, task_rows
 from gelenk.trajectory.motion.composition import RATES_KNOWN
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut, derivatives, divided
@@ -116,6 +118,11 @@ def with_exact_knots(field: RateField, positions: PiecewisePolynomial, parts: In
 def exact_next_to(field: RateField, at: PathSamples, q: Array, first: Array, second: Array) -> tuple[Array, Flags]:
     """Return q, q', q'' of the exact path next to given ones, (3, N, n), and whether found; if not, the given ones."""
     chain, task = field.chain, field.task
+    if len(task) == len(FULL_POSE) <= len(chain):
+        given = np.array((q, first, second))
+        found, lasts = beside(chain.flat, *sampled(at), given, _STEPS)
+        near = lasts <= _SETTLED * (1.0 + np.abs(q).max(axis=1))
+        return np.where(near[:, None], found, given), near
     rows, exact = task_rows(chain, task, at, q), q
     inverses = _inverses(rows.jacobians)
     for _ in range(_STEPS):

@@ -21,6 +21,7 @@ from gelenk.trajectory.follow.exact import refined
 from gelenk.trajectory.follow.guided import guided
 from gelenk.trajectory.follow.integrate import Trace, traced
 from gelenk.trajectory.follow.rate_field import RateField
+from gelenk.trajectory.follow.swept import swept
 from gelenk.trajectory.follow.verdict import Stop, never_back, verdict
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.time_laws import hermite_pieces
@@ -74,6 +75,9 @@ def follow(robot: RobotModel, chain: Chain, path: Path, start: Array, following:
     tolerances = following.position_tolerance, following.orientation_tolerance
     threshold = 0.0 if following.near_singularity == "slow_down" else following.min_singular_value
     field = RateField(chain, path, following.task, tolerances, threshold)
+    whole = swept(field, start)
+    if whole is not None:
+        return _exactly(field, FollowedPath(whole[0], path.extent, None, *whole[1].tolist()))
     trace = traced(field, start)
     if trace.ending != "complete" and field.is_redundant:
         trace = _ahead(field, trace)

@@ -187,6 +187,13 @@ def taken(at: PathSamples, rows: slice) -> PathSamples:
     return PathSamples(Poses(at.poses.positions[rows], at.poses.rotations[rows]), at.first[rows], at.second[rows])
 
 
+def sampled(at: PathSamples) -> tuple[Array, Array, Array, Array]:
+    """Return positions, rotations, ξ and ξ' as kernels take them."""
+    parts = (at.poses.positions, at.poses.rotations, at.first, at.second)
+    position, rotation, first, second = (np.ascontiguousarray(part) for part in parts)
+    return position, rotation, first, second
+
+
 def derivative_along(velocities: Velocities, at: PathSamples, q: Array, dq: Array, sigma: float) -> Array:
     """Return the derivative of a field by s along its own path, by a difference of fourth order; shape (n,)."""
     step = min(_DIFFERENCE, 0.05 * max(sigma, 1e-6)) / max(

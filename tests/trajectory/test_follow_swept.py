@@ -1,0 +1,90 @@
+"""The joint path found all at once is the one traced from knot to knot, and there is none where that has an end."""
+
+import numpy as np
+import pytest
+
+from gelenk.ik.search.task import FULL_POSE
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.follow.elimination import beside, factored, weights
+from gelenk.trajectory.follow.exact import refined
+from gelenk.trajectory.follow.follow import _joint_path
+from gelenk.trajectory.follow.integrate import traced
+from gelenk.trajectory.follow.rate_field import RateField
+from gelenk.trajectory.follow.swept import swept
+from gelenk.trajectory.problem.problem import Following
+from tests.robots import robot
+from tests.trajectory.test_follow import KINDS, pose, random_path, starts
+from tests.trajectory.test_follow_nearest import TWIST, judged
+
+STEP = 1e-4
+
+
+def field_along(name: str, kind: str, size: float, seed: int) -> tuple[RateField, Array]:
+    chain, following, rng = robot(name).chain(None, None), Following(), np.random.default_rng(seed)
+    q = starts(chain, FULL_POSE, 1, seed)[0]
+    path = random_path(kind, pose(chain, q), rng, FULL_POSE, size)
+    tolerances = following.position_tolerance, following.orientation_tolerance
+    return RateField(chain, path, FULL_POSE, tolerances, following.min_singular_value), q
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("name", ["panda", "ur5"])
+def test_it_is_the_path_traced_from_knot_to_knot(name: str, kind: str) -> None:
+    found = 0
+    for seed in range(4):
+        field, q = field_along(name, kind, 0.04, seed)
+        trace, whole = traced(field, q), swept(field, q)
+        assert whole is None or trace.ending == "complete"
+        if whole is None:
+            continue
+        found += 1
+        assert (whole[1] <= np.array(field.tolerances)).all()
+        s = np.linspace(0.0, field.path.extent, 300)
+        one, other = (refined(field, joints)[0].at(s) for joints in (whole[0], _joint_path(trace, None).positions))
+        # Of a redundant arm, the same path of the tip leaves open how the spare joint drifts.
+        assert np.abs(one - other).max() < (5e-4 if field.is_redundant else 1e-5)
+    assert found
+
+
+@pytest.mark.parametrize("name", ["panda", "ur5"])
+def test_it_has_no_answer_where_the_trace_has_an_end(name: str) -> None:
+    ends = set()
+    for seed in range(12):
+        field, q = field_along(name, "line", 0.8, seed)
+        trace = traced(field, q)
+        if trace.ending != "complete":
+            ends.add(trace.ending)
+            assert swept(field, q) is None
+    assert ends >= {"threshold"}
+
+
+@pytest.mark.parametrize("name", ["panda", "ur5"])
+def test_rates_beside_given_ones_are_exact_and_keep_the_spare_motion(name: str) -> None:
+    machine, rng = robot(name), np.random.default_rng(0)
+    chain, count = machine.chain(None, None), 5
+    qs = np.array(starts(chain, FULL_POSE, count))
+    poses = [judged(machine, chain, q)[0] for q in qs]
+    places = np.array([one.translation for one in poses]), np.array([one.rotation for one in poses])
+    given = np.stack((qs + 1e-3 * rng.normal(size=qs.shape), *rng.normal(size=(2, *qs.shape))))
+    bends = rng.normal(size=(count, 6))
+    exact, lasts = beside(chain.flat, *places, np.tile(TWIST, (count, 1)), bends, given, 4)
+    assert (lasts < 1e-10).all()
+    for i in range(count):
+        q, dq, ddq = exact[:, i]
+        judge, J = judged(machine, chain, q)
+        assert np.abs(judge.homogeneous - poses[i].homogeneous).max() < 1e-10
+        assert J @ dq == pytest.approx(TWIST, abs=1e-10)
+        changes = [judged(machine, chain, q + k * STEP * dq)[1] for k in (-1, 1)]
+        assert J @ ddq == pytest.approx(bends[i] - (changes[1] - changes[0]) @ dq / (2.0 * STEP), abs=1e-5)
+        spare = np.eye(len(q)) - np.linalg.pinv(J) @ J
+        assert spare @ dq == pytest.approx(spare @ given[1, i], abs=1e-9)
+        assert spare @ ddq == pytest.approx(spare @ given[2, i], abs=1e-9)
+
+
+def test_elimination_solves_and_notices_a_lost_rank() -> None:
+    rng = np.random.default_rng(1)
+    J, L, b = rng.normal(size=(6, 7)), np.zeros((6, 6)), rng.normal(size=6)
+    assert factored(J, L)
+    assert weights(L, b) == pytest.approx(np.linalg.solve(J @ J.T, b), rel=1e-10)
+    J[5] = J[0] + 1e-7 * J[5]
+    assert not factored(J, L)
