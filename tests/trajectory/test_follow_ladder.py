@@ -11,10 +11,10 @@ from gelenk.trajectory.follow.ladder import Metric, Rungs, way_up
 
 def _ladder(seed: int, turning: bool = False) -> tuple[Rungs, Metric, Array]:
     rng = np.random.default_rng(seed)
-    counts = rng.integers(3, 12, 9)
+    counts = rng.integers(3, 30, 9)
     firsts = np.concatenate(([0], np.cumsum(counts)))
-    metric = Metric(rng.uniform(0.5, 2.0, 4), rng.uniform(0.8, 1.5, 4), np.array([turning, False, turning, False]))
-    return Rungs(rng.uniform(-2.0, 2.0, (firsts[-1], 4)), firsts), metric, rng.uniform(0.1, 1.0, counts[0])
+    metric = Metric(rng.uniform(0.5, 2.0, 4), rng.uniform(1.2, 3.5, 4), np.array([turning, False, turning, False]))
+    return Rungs(rng.uniform(-4.0, 4.0, (firsts[-1], 4)), firsts), metric, rng.uniform(0.1, 1.0, counts[0])
 
 
 def _by_dijkstra(rungs: Rungs, metric: Metric, first_costs: Array) -> Array:

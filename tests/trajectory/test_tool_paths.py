@@ -21,8 +21,8 @@ from gelenk.trajectory.paths.spline_paths import spline
 from gelenk.trajectory.paths.turned_path import TurnedPath
 from gelenk.trajectory.plan import plan
 from gelenk.trajectory.problem.problem import FreeTool, Segment, SegmentLimits, Trajectory, TrajectoryProblem
-from gelenk.trajectory.tool.candidates import regular
 from gelenk.trajectory.tool.sequence import tool_sequence
+from gelenk.trajectory.tool.singularity import regular
 from tests.robots import robot
 from tests.trajectory.test_follow import pinocchio_poses
 

@@ -40,7 +40,7 @@ from gelenk.trajectory.follow.ladder import Metric, Rungs, way_up
 from gelenk.trajectory.follow.nearest import nearest
 from gelenk.trajectory.plan import plan
 from gelenk.trajectory.problem.problem import Segment, SegmentLimits, TrajectoryProblem
-from gelenk.trajectory.tool.candidates import regular
+from gelenk.trajectory.tool.singularity import regular
 
 
 def warm_up() -> None:

@@ -9,7 +9,7 @@ from gelenk.robot.notations import rotations_from_vectors
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.words import StopReason
 from gelenk.trajectory.problem.result import PlanningFailure
-from gelenk.trajectory.tool.candidates import regular
+from gelenk.trajectory.tool.singularity import regular
 
 
 def blocked(

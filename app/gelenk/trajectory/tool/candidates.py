@@ -8,13 +8,11 @@ from gelenk.ik.closed.branch_kernels import BranchTable
 from gelenk.ik.closed.closed_form import ClosedForm
 from gelenk.ik.search.bounds import mid_range
 from gelenk.ik.search.search import in_pieces
-from gelenk.kinematics.simd.kernels import chain_jacobians
 from gelenk.robot.arrays import Array, Flags, Indices
-from gelenk.robot.chain import FlatChain
-from gelenk.robot.compilation import compiled
 from gelenk.robot.notations import rotations_from_vectors
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.follow.ladder import Rungs
+from gelenk.trajectory.tool.singularity import regular
 
 _PIECE = 1024
 """Targets that one thread solves at a time."""
@@ -70,30 +68,3 @@ def solved_near(form: ClosedForm, targets: Poses, qs: Array) -> tuple[BranchTabl
     """Return the solution of each target nearest to a configuration, and which targets have one."""
     table = form.solve(targets, qs, most=1)
     return table, np.diff(table.firsts) > 0
-
-
-def regular(flat: FlatChain, qs: Array, least: float) -> Flags:
-    """Flag configurations whose Jacobian's smallest singular value is at least `least`; shape (N,)."""
-    return np.asarray(_regular(chain_jacobians(flat, qs)[2], least))
-
-
-@compiled
-def _regular(Js: Array, least: float) -> Flags:
-    """Flag matrices (N, 6, n) for which JJᵀ - least² I has a Cholesky factor: it is positive definite."""
-    flags, L = np.empty(len(Js), np.bool_), np.zeros((6, 6))
-    for i in range(len(Js)):
-        J, good = Js[i], True
-        for k in range(6):
-            for m in range(k + 1):
-                entry = -(least**2) if k == m else 0.0
-                for j in range(J.shape[1]):
-                    entry += J[k, j] * J[m, j]
-                for j in range(m):
-                    entry -= L[k, j] * L[m, j]
-                if k == m:
-                    good &= entry > 0.0
-                    L[k, k] = np.sqrt(max(entry, 1e-300))
-                else:
-                    L[k, m] = entry / L[m, m]
-        flags[i] = good
-    return flags

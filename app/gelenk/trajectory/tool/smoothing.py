@@ -14,7 +14,8 @@ from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.notations import rotations_from_vectors
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.motion.tridiagonal import Tridiagonal, solution
-from gelenk.trajectory.tool.candidates import regular, solved_near
+from gelenk.trajectory.tool.candidates import solved_near
+from gelenk.trajectory.tool.singularity import regular
 
 _ROUNDS = 20
 _FARTHEST = 0.3
