@@ -3,9 +3,9 @@
 From point to point with 1,000 samples: against the calculation of ruckig by itself, and `jtraj` of roboticstoolbox. 1 m
 of lines with a corner flown over, a sample each millisecond: against `mstraj` with inverse kinematics of each of its
 samples, and against joints by inverse kinematics along the lines, a spline through them, and toppra. And the fastest
-motion along five way-points, against toppra on the same spline. The peers check nothing; what they take is their own
-calculation. Ours is all from the request to the answer's last byte, or in this process from the checked request to
-audited and certified samples with poses.
+motion along five way-points, also within torques, against toppra on the same spline. The peers check nothing; what they
+take is their own calculation. Ours is all from the request to the answer's last byte, or in this process from the
+checked request to audited and certified samples with poses.
 """
 
 import http.client
@@ -29,12 +29,14 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
 from gelenk.settings import Settings
 from gelenk.store.library import Library
+from gelenk.trajectory.audit.torques import TorqueLimits
 from gelenk.trajectory.joints.splines import JointSpline
 from gelenk.trajectory.problem.problem import FreeTool
 from gelenk.trajectory.tool.sequence import tool_sequence
 from tests.benchmarks.server import running
 from tests.benchmarks.table import Row
 from tests.test_serve import HOST
+from tests.trajectory.figures_torques import toppra_torques
 
 ROUNDS = 15
 SAMPLES, PERIOD = 1000, 1e-3
@@ -47,6 +49,7 @@ RADIUS = 0.1
 VELOCITY = np.array([2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61])
 ACCELERATION = 2.0 * VELOCITY
 JERK = 10.0 * ACCELERATION
+TORQUE = 0.4 * np.array([87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0])
 TIP_SPEED = 0.5
 NPY = "application/x-npy"
 
@@ -70,7 +73,7 @@ def measure() -> list[Row]:
         connection = http.client.HTTPConnection(HOST, server.port, timeout=60)
         rows = [*point_to_point(connection), *many(connection), *corner(connection)]
         connection.close()
-    return [*rows, way(), seam()]
+    return [*rows, way(), way(TORQUE), seam()]
 
 
 def point_to_point(connection: http.client.HTTPConnection) -> list[Row]:
@@ -154,29 +157,35 @@ def corner(connection: http.client.HTTPConnection) -> list[Row]:
     ]
 
 
-def way() -> Row:
+def way(torque: Array | None = None) -> Row:
     """The fastest motion along a spline through five way-points; toppra takes the same spline on 1,600 intervals."""
     rng = np.random.default_rng(3)
     line = np.linspace(START, TARGET, 6)
     line[1:-1] += rng.uniform(-0.3, 0.3, (4, 7))
     content = call([{"type": "spline", "waypoints": line[1:].tolist()}], "time_optimal")
     del content["limits"]["joint_jerk"]  # toppra knows none
+    if torque is not None:
+        content["limits"]["joint_torque"] = torque.tolist()
     planned = here(content)
     segment = planned().question.problem.segments[0]
     knots = JointSpline.of(line[0], segment, planned().chain).path
     grid = np.linspace(knots.breaks[0], knots.breaks[-1], 1601)
     spline = toppra.SplineInterpolator(knots.breaks, knots.at(knots.breaks), bc_type="clamped")
-    fastest = toppra.algorithm.TOPPRA(toppra_limits(), spline, gridpoints=grid, parametrizer="ParametrizeConstAccel")
+    fastest = toppra.algorithm.TOPPRA(
+        toppra_limits(segment.limits.torque), spline, gridpoints=grid, parametrizer="ParametrizeConstAccel"
+    )
     times = medians({"here": planned, "toppra": fastest.compute_trajectory})
     ours, theirs = planned().found.motion.duration, fastest.compute_trajectory().duration
+    within, wanted = ("", "≤ 1 ms, ≤ +0.2 %") if torque is None else (" within torques", "≤ +1 %")
+    more = f"{100.0 * (ours / theirs - 1.0):+.2f} % of the time"
     return row(
-        f"time-optimal along 5 way-points of 7 joints, in process, {100.0 * (ours / theirs - 1.0):+.2f} % of the time",
+        f"time-optimal along 5 way-points of 7 joints{within}, in process, {more}",
         times,
         "here",
         "toppra",
         "toppra at 1,600 points",
         {"here": ours, "toppra": theirs},
-        "≤ 1 ms, ≤ +0.2 %",
+        wanted,
     )
 
 
@@ -287,12 +296,15 @@ def toppra_alone() -> tuple[float, Array]:
     return float(found.duration), np.stack([found(times), found(times, 1), found(times, 2)])
 
 
-def toppra_limits() -> list[Any]:
-    """Of the joints."""
-    return [
+def toppra_limits(torque: TorqueLimits | None = None) -> list[Any]:
+    """Of the joints; with torques by Pinocchio, one state after the other."""
+    limits = [
         toppra.constraint.JointVelocityConstraint(np.column_stack((-VELOCITY, VELOCITY))),
         toppra.constraint.JointAccelerationConstraint(np.column_stack((-ACCELERATION, ACCELERATION))),
     ]
+    if torque is not None:
+        limits.append(toppra_torques(torque))
+    return limits
 
 
 def rounded(shares: Array) -> Array:

@@ -26,6 +26,7 @@ from tests.trajectory.arms import Arm, arm
 
 ARMS = ("panda", "ur5", "xarm7", "kinova", "talos_left_arm", "z1")
 PATHS, POINTS, BETWEEN = 60, 1600, 7
+INTERPOLATION = toppra.constraint.DiscretizationType.Interpolation
 
 
 @dataclass(frozen=True)
@@ -61,22 +62,29 @@ def ours(one: Case) -> PiecewisePolynomial:
 
 def theirs(one: Case, points: int = POINTS) -> float:
     """Return the duration by toppra, [s]."""
-    v, a, most = (np.stack((-bound, bound), axis=1) for bound in (one.velocity, one.acceleration, one.torque.most))
-    kind = toppra.constraint.DiscretizationType.Interpolation
-
-    def torques(*state: Array) -> Array:
-        (found,) = one.torque.recomputed(*(row[None] for row in state))
-        return np.asarray(found)
-
+    v, a = (np.stack((-bound, bound), axis=1) for bound in (one.velocity, one.acceleration))
     limits = [
         toppra.constraint.JointVelocityConstraint(v),
-        toppra.constraint.JointAccelerationConstraint(a, discretization_scheme=kind),
-        toppra.constraint.JointTorqueConstraint(torques, most, np.zeros(len(v)), discretization_scheme=kind),
+        toppra.constraint.JointAccelerationConstraint(a, discretization_scheme=INTERPOLATION),
+        toppra_torques(one.torque),
     ]
     knots = toppra.SplineInterpolator(one.path.breaks, one.path.at(one.path.breaks), "not-a-knot")
     grid = np.linspace(0.0, one.path.duration, points)
     speeds = toppra.algorithm.TOPPRA(limits, knots, gridpoints=grid).compute_parameterization(0.0, 0.0)[1]
     return float((2.0 * np.diff(grid) / (speeds[:-1] + speeds[1:])).sum())
+
+
+def toppra_torques(limits: TorqueLimits) -> toppra.constraint.JointTorqueConstraint:
+    """Return the limits as a constraint of toppra, which asks Pinocchio for the torques of one state at a time."""
+
+    def torques(*state: Array) -> Array:
+        (found,) = limits.recomputed(*(row[None] for row in state))
+        return np.asarray(found)
+
+    most = np.stack((-limits.most, limits.most), axis=1)
+    return toppra.constraint.JointTorqueConstraint(
+        torques, most, np.zeros(len(most)), discretization_scheme=INTERPOLATION
+    )
 
 
 def worst(one: Case, motion: PiecewisePolynomial) -> float:
