@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.robot.arrays import Array, Indices
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, composed, cut, derivatives, divided
+from gelenk.trajectory.motion.evaluation import composed
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut, derivatives, divided
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 
 _EXACT_DEGREE = 10
@@ -84,7 +85,7 @@ def in_time(joints: PiecewisePolynomial, law: PiecewisePolynomial) -> PiecewiseP
     degree = (joints.coefficients.shape[1] - 1) * (law.coefficients.shape[1] - 1)
     if degree <= _EXACT_DEGREE:
         exact = _expanded(joints, law, _breaks(joints, law, _SAME))
-        coefficients = composed(exact.joints, exact.law[:, 1:])
+        coefficients = composed(np.ascontiguousarray(exact.joints), exact.law[:, :, 0])
         coefficients[:, 0] = exact.starts
         return PiecewisePolynomial(exact.breaks, coefficients)
     breaks = _breaks(joints, law, _SHORTEST)

@@ -39,3 +39,27 @@ def expanded(breaks: Array, coefficients: Array, nodes: Array) -> Array:
                 for j in range(n):
                     found[i, m, j] += offset * found[i, m + 1, j]
     return found
+
+
+@compiled
+def composed(pieces: Array, laws: Array) -> Array:
+    """Return the coefficients of Σ c_k σᵏ with σ = a_1 t + a_2 t² + …, by Horner's scheme; shape (N, D d + 1, n).
+
+    Args:
+        pieces: c; shape (N, D + 1, n).
+        laws: a_0, which does not count, a_1, a_2, …; shape (N, d + 1).
+    """
+    count, size, n = pieces.shape
+    d = laws.shape[1] - 1
+    found = np.zeros((count, (size - 1) * d + 1, n))
+    for i in range(count):
+        found[i, 0] = pieces[i, -1]
+        for k in range(size - 2, -1, -1):
+            for power in range((size - 1 - k) * d, 0, -1):
+                for j in range(n):
+                    value = 0.0
+                    for q in range(max(1, power - (size - 2 - k) * d), min(d, power) + 1):
+                        value += laws[i, q] * found[i, power - q, j]
+                    found[i, power, j] = value
+            found[i, 0] = pieces[i, k]
+    return found

@@ -115,21 +115,3 @@ def bernstein(c: Array) -> Array:
 @lru_cache
 def _bernstein_matrix(degree: int) -> Array:
     return np.array([[comb(j, k) / comb(degree, k) for k in range(degree + 1)] for j in range(degree + 1)])
-
-
-def composed(pieces: Array, advance: Array) -> Array:
-    """Return the coefficients of Σ c_k σᵏ with σ = a_1 t + a_2 t² + …, by Horner's scheme; shape (N, D d + 1, n).
-
-    Args:
-        pieces: c; shape (N, D + 1, n).
-        advance: a_1, a_2, …; shape (N, d, 1).
-    """
-    result = pieces[:, -1:]
-    for k in range(pieces.shape[1] - 2, -1, -1):
-        size = result.shape[1]
-        longer = np.zeros((len(pieces), size + advance.shape[1], pieces.shape[2]))
-        for power in range(advance.shape[1]):
-            longer[:, power + 1 : power + 1 + size] += result * advance[:, power : power + 1]
-        longer[:, 0] += pieces[:, k]
-        result = longer
-    return result

@@ -2,16 +2,19 @@
 
 The path is cut into intervals of length Δ. In each of them u = s̈ is constant, so x = ṡ² goes from x_i to x_i + 2Δu.
 The admissible points (u, x_i) of an interval form a convex polygon, given by rows αu + βx ≤ 1; it always contains rest,
-u = x = 0. For a given x, the rows bound u from above and from below by lines in x; eliminating u from pairs of such
-lines leaves bounds of x. All pairs except those with the speed at the next node are evaluated in advance.
+u = x = 0. For a given x, the rows bound u from above and from below by lines in x. Where the lowest upper and the
+highest lower one meet is the largest x; of all lines only those matter that bound u for a smaller x. Eight intervals
+are examined at a time.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from gelenk.robot.arrays import Array
-from gelenk.robot.compilation import compiled
+from gelenk.kinematics.simd.lanes import LANES, Lanes, abs_lanes, bits, lanes, load, max_lanes, min_lanes, store, where
+from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.compilation import compiled, inlined, unmanaged
+from gelenk.trajectory.timing.joint_constraints import store_joint_rows
 
 _NO_WEIGHT = 1e-12
 """α of a row, as a fraction of the largest in its interval, below which the row does not bound u."""
@@ -19,94 +22,217 @@ _UNBOUNDED = 1e30
 _MOST_STEPS = 100
 
 
+class Further(NamedTuple):
+    """Further constraints on each interval, beside the joints'.
+
+    Attributes:
+        alpha, beta: Rows αu + βx ≤ 1; shape (N, m).
+        squares: k² for k ≥ 1 times slower motion in the interval; shape (N,).
+        least_shares: Smallest fraction of x, from 0 to 1, that must be left at the end of each interval; shape (N,).
+            Without, where q' of a joint changes sign, the largest x may be one from which the motion can only stop.
+    """
+
+    alpha: Array
+    beta: Array
+    squares: Array
+    least_shares: Array
+
+
 class Stages(NamedTuple):
     """Constraints of a motion in each of N intervals.
 
     Attributes:
         lengths: Δ; shape (N,).
-        upper: Offsets and slopes of the lines in x that bound u from above, ∞ and 0 for none; shape (2, N, m + 1).
-        lower: The same for those that bound u from below, -∞ and 0 for none.
+        lines: Offset and slope of the lines in x that bound u from above, and from below; shape (2, N, at most all, 2).
+        counts: How many lines there are of each; shape (2, N).
         highest: Largest x at the start of each interval from which the motion can continue; shape (N,).
     """
 
     lengths: Array
-    upper: Array
-    lower: Array
+    lines: Array
+    counts: Indices
     highest: Array
 
 
+class _Block(NamedTuple):
+    """Work arrays for eight intervals, with a row of eight numbers for each value.
+
+    Attributes:
+        pieces: The path's coefficients, row k n + j for the power k of joint j.
+        alpha, beta: α and β of each constraint, then offset and slope of its line in x. The offset is positive if the
+            line bounds u from above, negative if from below, and 0 if it does not.
+        values: Δ, k², the slope of the line by which the least share bounds u, the largest x, and four lines.
+    """
+
+    pieces: Array
+    alpha: Array
+    beta: Array
+    values: Array
+
+
+_LENGTH, _SQUARE, _BRAKING, _HIGHEST, _LINES, _VALUES = 0, 1, 2, 3, 4, 12
+
+
 @compiled
-def stages(lengths: Array, alpha: Array, beta: Array, least_shares: Array) -> Stages:
-    """Build the constraints of intervals from their rows αu + βx ≤ 1.
+def stages(pieces: Array, lengths: Array, limits: Array, further: Further) -> Stages:
+    """Build the constraints of intervals.
 
     Args:
+        pieces: The path's polynomials from the start of each interval on; shape (N, d + 1, n).
         lengths: Δ > 0; shape (N,).
-        alpha, beta: α and β; shape (N, m).
-        least_shares: Smallest fraction of x, from 0 to 1, that must be left at the end of each interval; shape (N,).
-            Without, where q' of a joint changes sign, the largest x may be one from which the motion can only stop.
+        limits: Of velocity and acceleration; shape (2, n).
     """
-    count, m = alpha.shape
-    upper, lower = np.zeros((2, count, m + 1)), np.zeros((2, count, m + 1))
-    upper[0], lower[0, :, :m] = np.inf, -np.inf
-    highest = np.full(count, _UNBOUNDED)
-    for i in range(count):
-        # x_i + 2Δu ≥ share x_i.
-        lower[1, i, m] = -0.5 * (1.0 - least_shares[i]) / lengths[i]
-        weightless = _NO_WEIGHT * np.abs(alpha[i]).max()
-        for k in range(m):
-            a, b = alpha[i, k], beta[i, k]
-            if abs(a) > weightless:
-                lines = upper if a > 0.0 else lower
-                lines[0, i, k], lines[1, i, k] = 1.0 / a, -b / a
-            elif b > 0.0:
-                highest[i] = min(highest[i], 1.0 / b)
-        highest[i] = _highest(upper[:, i], lower[:, i], highest[i])
-    return Stages(lengths, upper, lower, highest)
+    count, size, n = pieces.shape
+    own = 4 * (size - 1) * n
+    rows = own + further.alpha.shape[1]
+    lines, counts = np.empty((2, count, rows + 2, 2)), np.full((2, count), 2)
+    found = Stages(lengths, lines, counts, np.empty(count))
+    alpha, beta, values = np.empty(rows * LANES), np.empty(rows * LANES), np.empty(_VALUES * LANES)
+    block = _Block(np.empty(size * n * LANES), alpha, beta, values)
+    for first in range(0, count, LANES):
+        for lane in range(LANES):
+            _gather(block, pieces, lengths, further, min(first + lane, count - 1), lane)
+        store_joint_rows(block.pieces, size, load(values, _LENGTH), limits, alpha, beta)
+        _store_extremes(block, rows)
+        for lane in range(min(LANES, count - first)):
+            found.highest[first + lane] = values[_HIGHEST * LANES + lane]
+            for k in range(8):
+                lines[k // 4, first + lane, k % 4 // 2, k % 2] = values[(_LINES + k) * LANES + lane]
+        _add_others(block, rows, first, found)
+    return found
+
+
+@inlined
+def _gather(block: _Block, pieces: Array, lengths: Array, further: Further, i: int, lane: int) -> None:
+    """Write what interval `i` is given into a lane."""
+    _, size, n = pieces.shape
+    own = 4 * (size - 1) * n
+    for k in range(size):
+        for j in range(n):
+            block.pieces[(k * n + j) * LANES + lane] = pieces[i, k, j]
+    for k in range(further.alpha.shape[1]):
+        block.alpha[(own + k) * LANES + lane] = further.alpha[i, k]
+        block.beta[(own + k) * LANES + lane] = further.beta[i, k]
+    block.values[_LENGTH * LANES + lane] = lengths[i]
+    block.values[_SQUARE * LANES + lane] = further.squares[i]
+    # x_i + 2Δu ≥ share x_i.
+    block.values[_BRAKING * LANES + lane] = -0.5 * (1.0 - further.least_shares[i]) / lengths[i]
+
+
+@unmanaged
+def _store_extremes(block: _Block, rows: int) -> None:
+    """Find the largest x at which no upper line is below a lower one, by Newton's method from the right.
+
+    The gap between the lowest upper and the highest lower line is concave in x and nonnegative at 0: every step ends
+    to the right of the zero, and finitely many steps reach it. The innermost lines there and at 0 are stored.
+    """
+    x = _store_lines(block, rows)
+    for _ in range(_MOST_STEPS):
+        upper, upper_slope, lower, lower_slope = _innermost(block, rows, x)
+        room, slope = upper - lower, lower_slope - upper_slope
+        is_smaller = (slope > 0.0) & (slope * x > room) & (room / slope < x)
+        if not bits(is_smaller):
+            break
+        x = where(is_smaller, room / slope, x)
+    store(block.values, _HIGHEST, x)
+    first, first_slope, _, _ = _innermost(block, rows, lanes(0.0))
+    _store_line(block, 0, first, first_slope)
+    _store_line(block, 1, upper, upper_slope)
+    _store_line(block, 2, lanes(0.0), load(block.values, _BRAKING))
+    _store_line(block, 3, lower, lower_slope)
+
+
+@inlined
+def _store_line(block: _Block, k: int, offset: Lanes, slope: Lanes) -> None:
+    store(block.values, _LINES + 2 * k, offset)
+    store(block.values, _LINES + 2 * k + 1, slope)
+
+
+@inlined
+def _store_lines(block: _Block, rows: int) -> Lanes:
+    """Replace α and β by lines; return the largest x that the rows without α allow."""
+    square, weight, highest = load(block.values, _SQUARE), lanes(0.0), lanes(_UNBOUNDED)
+    for k in range(rows):
+        weight = max_lanes(weight, abs_lanes(load(block.alpha, k)))
+    for k in range(rows):
+        a, b = load(block.alpha, k), load(block.beta, k)
+        bounds = abs_lanes(a) > _NO_WEIGHT * weight
+        highest = where(bounds, highest, where(b > 0.0, min_lanes(1.0 / (square * b), highest), highest))
+        store(block.alpha, k, where(bounds, 1.0 / (square * a), 0.0))
+        store(block.beta, k, where(bounds, -b / a, 0.0))
+    return highest
+
+
+@inlined
+def _innermost(block: _Block, rows: int, x: Lanes) -> tuple[Lanes, Lanes, Lanes, Lanes]:
+    """Return the lowest upper and the highest lower line at x, each by offset and slope."""
+    upper, upper_slope, lowest = lanes(np.inf), lanes(0.0), lanes(np.inf)
+    lower, lower_slope = lanes(0.0), load(block.values, _BRAKING)
+    highest = lower_slope * x
+    for k in range(rows):
+        offset, slope = load(block.alpha, k), load(block.beta, k)
+        u = offset + slope * x
+        is_lower, is_higher = (offset > 0.0) & (u < lowest), (offset < 0.0) & (u > highest)
+        upper, upper_slope, lowest = (
+            where(is_lower, offset, upper),
+            where(is_lower, slope, upper_slope),
+            where(is_lower, u, lowest),
+        )
+        lower, lower_slope, highest = (
+            where(is_higher, offset, lower),
+            where(is_higher, slope, lower_slope),
+            where(is_higher, u, highest),
+        )
+    return upper, upper_slope, lower, lower_slope
 
 
 @compiled
-def _highest(upper: Array, lower: Array, x: float) -> float:
-    """Return the largest x at which no upper line is below a lower one, by Newton's method from the right.
+def _add_others(block: _Block, rows: int, first: int, found: Stages) -> None:
+    """Add the lines that are innermost somewhere between 0 and the largest x: beyond the two at its ends' crossing."""
+    (x_upper, upper), (x_lower, lower) = _crossing(block, 0), _crossing(block, 2)
+    most = min(LANES, len(found.lengths) - first)
+    for k in range(rows):
+        offset, slope = load(block.alpha, k), load(block.beta, k)
+        below = bits((offset > 0.0) & (offset + slope * x_upper < upper))
+        above = bits((offset < 0.0) & (offset + slope * x_lower > lower))
+        for lane in range(most if below | above else 0):
+            for side, mask in ((0, below), (1, above)):
+                if mask >> lane & 1:
+                    i = first + lane
+                    line = found.lines[side, i, found.counts[side, i]]
+                    line[0], line[1] = block.alpha[k * LANES + lane], block.beta[k * LANES + lane]
+                    found.counts[side, i] += 1
 
-    The gap between the lowest upper and the highest lower line is concave in x and nonnegative at 0: every step ends
-    to the right of the zero, and finitely many steps reach it.
-    """
-    for _ in range(_MOST_STEPS):
-        i, j = 0, 0
-        for k in range(1, upper.shape[1]):
-            i = k if upper[0, k] + upper[1, k] * x < upper[0, i] + upper[1, i] * x else i
-            j = k if lower[0, k] + lower[1, k] * x > lower[0, j] + lower[1, j] * x else j
-        room, slope = upper[0, i] - lower[0, j], lower[1, j] - upper[1, i]
-        if not (slope > 0.0 and slope * x > room and room / slope < x):
-            break
-        x = room / slope
-    return x
+
+@inlined
+def _crossing(block: _Block, k: int) -> tuple[Lanes, Lanes]:
+    """Return where the innermost line at 0 meets that at the largest x, and the u there; NaN if they are the same."""
+    offset, slope = load(block.values, _LINES + 2 * k), load(block.values, _LINES + 2 * k + 1)
+    x = (load(block.values, _LINES + 2 * k + 2) - offset) / (slope - load(block.values, _LINES + 2 * k + 3))
+    return x, offset + slope * x
 
 
 @compiled
 def controllable(constraints: Stages, end: float) -> Array:
     """Return the largest x at each node from which x ≤ `end` can be reached at the end; shape (N + 1,)."""
-    offsets, slopes = constraints.lower
     most = np.append(constraints.highest, end)
-    for i in range(len(offsets) - 1, -1, -1):
+    for i in range(len(most) - 2, -1, -1):
         # No faster than the motion can brake to the largest x of the next node.
         half = 0.5 / constraints.lengths[i]
-        for k in range(offsets.shape[1]):
-            climb = slopes[i, k] + half
-            if climb > 0.0:
-                most[i] = min(most[i], (most[i + 1] * half - offsets[i, k]) / climb)
+        for offset, slope in constraints.lines[1, i, : constraints.counts[1, i]]:
+            if slope + half > 0.0:
+                most[i] = min(most[i], (most[i + 1] * half - offset) / (slope + half))
     return most
 
 
 @compiled
 def fastest(constraints: Stages, most: Array, start: float) -> Array:
     """Return x at each node, from at most `start`, for the largest u that keeps x within `most`; shape (N + 1,)."""
-    offsets, slopes = constraints.upper
     x = np.empty(len(most))
     x[0] = min(start, most[0])
-    for i in range(len(offsets)):
+    for i in range(len(most) - 1):
         u = np.inf
-        for k in range(offsets.shape[1]):
-            u = min(u, offsets[i, k] + slopes[i, k] * x[i])
+        for offset, slope in constraints.lines[0, i, : constraints.counts[0, i]]:
+            u = min(u, offset + slope * x[i])
         x[i + 1] = max(min(x[i] + 2.0 * constraints.lengths[i] * u, most[i + 1]), 0.0)
     return x
