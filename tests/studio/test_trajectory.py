@@ -452,6 +452,47 @@ def test_a_motion_begins_and_ends_moving(studio: Studio, refusals: set[int]) -> 
 
 
 @pytest.mark.slow
+def test_torques_with_a_payload(studio: Studio, refusals: set[int]) -> None:
+    """Drawn with the motors' limits, as the service has them; a payload that is none says so at its field."""
+    panda(studio)
+    add(studio, "Joint target", ABOVE)
+    studio.page.locator("summary", has_text="Torques and payload").click()
+    assert studio.field("Payload, centre z").is_disabled()
+    studio.type("Payload, mass", "0")
+    studio.button("Plan").click()
+    studio.page.locator(".folded .segment-error", has_text="greater than 0").wait_for(timeout=COLD * 1000)
+    refusals.add(422)
+    assert studio.field("Payload, mass").get_attribute("aria-invalid") == "true"
+    studio.type("Payload, mass", "3")
+    studio.type("Payload, centre z", "0.1")
+    studio.button("Within the motors’ effort").click()
+    answer = plan(studio)
+    motion = studio.state("motion")
+    assert motion["payload"] == {"mass": 3, "center": [0, 0, 0.1]}
+    assert (motion["limits"], motion["torques"]) == ({"joint_torque": "effort"}, True)
+    peak = answer["audit"]["joint_torque"]
+    value, ratio, joint, _ = row(studio, "Torque")
+    assert float(value.split()[0]) == pytest.approx(abs(peak["value"]), abs=6e-3)
+    assert (float(ratio.split()[0]), joint) == (pytest.approx(100 * peak["ratio"], abs=0.06), peak["joint"])
+    studio.button("Torque").click()
+    for i in (0, len(answer["times"]) // 3, -1):
+        seek(studio, answer["times"][i])
+        texts = studio.page.locator(".profile-value").all_text_contents()
+        shown_torques = [float(text.replace("−", "-")) for text in texts]
+        assert shown_torques == pytest.approx(answer["joint_torques"][i], abs=6e-4)
+    studio.button("All limits").click()
+    plot = studio.page.locator(".profiles .u-over").bounding_box()
+    assert plot is not None
+    rows = drawn(studio, "--joint-4", axis=0)
+    lowest, *_, highest = np.flatnonzero(rows)
+    assert min(rows[lowest], rows[highest]) > 0.3 * plot["width"], "its limits are dashed lines around the torques"
+    studio.page.wait_for_timeout(600)
+    studio.page.reload()
+    studio.wait_for_robot("panda")
+    assert studio.state("motion") == motion
+
+
+@pytest.mark.slow
 def test_a_plan_is_saved_for_a_controller(studio: Studio, refusals: set[int]) -> None:
     """As the service's own answers; what an arm cannot be written as says why."""
     studio.open("trajectory", robot="ur5", q="0,-1.2,1.6,-0.4,1.2,0")

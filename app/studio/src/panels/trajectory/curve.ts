@@ -33,7 +33,7 @@ export class Curve {
 
   /** One number a joint, [rad or m per sᵏ]; where the derivative jumps, that after the jump. */
   at(time: number, derivative: Derivative = 0): number[] {
-    return this.#in(this.#piece(time), time, derivative);
+    return this.#in(this.piece(time), time, derivative);
   }
 
   /** At least so many samples, both ends of each piece among them, so that what jumps is drawn as a jump. */
@@ -54,7 +54,8 @@ export class Curve {
     return found;
   }
 
-  #piece(time: number): number {
+  /** The one that holds at a time: at a break the later one. */
+  piece(time: number): number {
     let [low, high] = [0, this.#coefficients.length - 1];
     while (low < high) {
       const middle = Math.ceil((low + high) / 2);

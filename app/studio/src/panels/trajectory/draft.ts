@@ -4,7 +4,7 @@ import { shownChain, type ShownChain } from "../../robot/chain.ts";
 import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
 import { moved } from "./configurations.ts";
-import { belongs, defined, fresh, type Motion, type Segment } from "./motion.ts";
+import { belongs, defined, fresh, type Limits, type Motion, type Segment } from "./motion.ts";
 
 /** Motions of other chains, to come back to. */
 const LEFT = new Map<string, Motion>();
@@ -44,6 +44,12 @@ export class Draft {
   /** Change some fields; undefined takes one out. */
   set(patch: { [K in keyof Motion]?: Motion[K] | undefined }): void {
     this.store.set({ motion: defined<Motion>({ ...this.motion, ...patch }) });
+  }
+
+  /** Change some limits of the whole motion likewise. */
+  limit(patch: { [K in keyof Limits]?: Limits[K] | undefined }): void {
+    const limits = defined<Limits>({ ...this.motion.limits, ...patch });
+    this.set({ limits: Object.keys(limits).length ? limits : undefined });
   }
 
   edit(index: number, change: (segment: Segment) => Segment): void {

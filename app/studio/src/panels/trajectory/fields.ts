@@ -37,13 +37,18 @@ export function choice<T extends string>(
   return { host: titled(title, select), show: (value) => (select.value = value) };
 }
 
-/** A number that may be left out: the placeholder then says what holds. */
+/**
+ * A number that may be left out: the placeholder then says what holds.
+ *
+ * @param name the field of the request, where the service's word on it is shown.
+ */
 export function optional(
   title: string,
   label: string,
   unit: string,
   placeholder: string,
   change: (value: number | undefined) => void,
+  name = "",
 ): Field<number | undefined> {
   const field = new NumberField({
     label,
@@ -53,6 +58,7 @@ export function optional(
     change: (value) => change(value ?? undefined),
   });
   field.input.placeholder = placeholder;
+  field.input.name = name;
   return { host: titled(title, field.input, unit), show: (value) => field.set(value ?? null) };
 }
 
@@ -84,6 +90,11 @@ export function jointTable(
 /** The units of some joints, per a power of the second. */
 export function unitsOf(joints: readonly Joint[], degrees: boolean, per: string): string {
   return [...new Set(joints.map((joint) => unitOf(kindOf(joint), degrees) + per))].join(" or ");
+}
+
+/** Of what a joint's motor gives. */
+export function effortUnit({ type }: Joint): string {
+  return type === "prismatic" ? "N" : "N m";
 }
 
 export interface PlaceOptions {

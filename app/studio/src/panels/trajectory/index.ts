@@ -9,6 +9,7 @@ import type { Panel, Studio } from "../panel.ts";
 import { Arm } from "./arm.ts";
 import { Draft } from "./draft.ts";
 import { Ends } from "./ends.ts";
+import { Loads } from "./loads.ts";
 import { belongs, missing } from "./motion.ts";
 import { Planner } from "./planner.ts";
 import { Result } from "./result.ts";
@@ -31,21 +32,27 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const list = new SegmentList(draft, showPlaces);
   const settings = new Settings(draft);
   const ends = new Ends(draft);
+  const loads = new Loads(draft);
   const arm = new Arm(studio);
   const result = new Result(draft, asked.api, marks);
   const planner = new Planner(
     draft,
     asked,
-    (places) => ends.fail(list.fail(places)),
+    (places) => loads.fail(ends.fail(list.fail(places))),
     () => result.begin(),
   );
-  host.append(section("Motion", list.host, arm.host, settings.host, ends.host, planner.host), result.host, asked.host);
+  host.append(
+    section("Motion", list.host, arm.host, settings.host, ends.host, loads.host, planner.host),
+    result.host,
+    asked.host,
+  );
   const stops = [
     store.watch(["model", "base", "tip", "motion", "degrees", "plan"], ({ plan }) => {
       draft.begin();
       list.update();
       settings.update(plan && belongs(plan.motion, draft.chain) ? plan.answer.limits : null);
       ends.update();
+      loads.update();
       planner.update();
       result.update();
     }),

@@ -22,6 +22,8 @@ export function asMotion(value: unknown): Motion | null {
     RATES.every((rate) => motion[rate] === undefined || areNumbers(motion[rate], motion.start.length)) &&
     (motion.task === undefined || isTask(motion.task)) &&
     isFlag(motion.compare_timing) &&
+    isFlag(motion.torques) &&
+    (motion.payload === undefined || isPayload(motion.payload)) &&
     areLimits(motion.limits);
   return isMotion ? motion : null;
 }
@@ -60,15 +62,22 @@ function isTask(value: unknown): boolean {
   return JSON.stringify(DIRECTIONS.filter((direction) => value.includes(direction))) === JSON.stringify(value);
 }
 
+function isPayload(value: unknown): boolean {
+  if (!isObject(value)) return false;
+  return isNumber(value["mass"]) && (value["center"] === undefined || areNumbers(value["center"], 3));
+}
+
 function isFlag(value: unknown): boolean {
   return value === undefined || typeof value === "boolean";
 }
 
 function areLimits(value: unknown): boolean {
   if (value === undefined) return true;
+  if (!isObject(value)) return false;
+  const { joint_torque, ...others } = value;
   return (
-    isObject(value) &&
-    Object.values(value).every((limit) => isNumber(limit) || (isObject(limit) && Object.values(limit).every(isNumber)))
+    (joint_torque === undefined || joint_torque === "effort") &&
+    Object.values(others).every((limit) => isNumber(limit) || (isObject(limit) && Object.values(limit).every(isNumber)))
   );
 }
 

@@ -19,6 +19,8 @@ export interface Limits {
   joint_velocity?: Record<string, number>;
   joint_acceleration?: Record<string, number>;
   joint_jerk?: Record<string, number>;
+  /** Those of the robot's description, or none. */
+  joint_torque?: "effort";
   tip_velocity?: number;
   tip_acceleration?: number;
   tip_angular_velocity?: number;
@@ -53,6 +55,9 @@ export interface Segment extends Pace {
   blends?: boolean;
 }
 
+/** What the tip carries; its centre of mass is at the tip if left out. */
+export type Payload = Pick<NonNullable<TrajectoryRequest["payload"]>, "mass" | "center">;
+
 /** How fast the joints are where the motion begins and ends. */
 export const RATES = ["start_velocities", "start_accelerations", "end_velocities", "end_accelerations"] as const;
 export type Rates = Record<(typeof RATES)[number], number[]>;
@@ -69,6 +74,9 @@ export interface Motion extends Pace, Partial<Rates> {
   orientation_tolerance?: number;
   min_singular_value?: number;
   near_singularity?: NearSingularity;
+  payload?: Payload;
+  /** Whether the motors' torques are told. */
+  torques?: boolean;
   /** Directions in which a way of the tip counts; all of them if left out. */
   task?: Direction[];
   /** Whether the time-optimal duration of each way is told beside that of its law. */

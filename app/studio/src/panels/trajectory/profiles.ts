@@ -10,23 +10,22 @@ import type { Store } from "../../store.ts";
 import { Choice, element, toggle } from "../../ui/dom.ts";
 import { paint } from "../../view/colours.ts";
 import type { TrajectoryAnswer } from "../../types.ts";
-import type { JointLimits } from "./answer.ts";
 import type { Curve, Derivative, Samples } from "./curve.ts";
-import { kindOf, unitsOf } from "./fields.ts";
+import { effortUnit, kindOf, unitsOf } from "./fields.ts";
 import { hue, Legend } from "./legend.ts";
+import type { Torques } from "./torques.ts";
 
-type Quantity = "position" | "velocity" | "acceleration" | "jerk";
-
-const QUANTITIES: readonly { value: Quantity; text: string; per: string }[] = [
-  { value: "position", text: "Position", per: "" },
-  { value: "velocity", text: "Velocity", per: "/s" },
-  { value: "acceleration", text: "Acceleration", per: "/s²" },
-  { value: "jerk", text: "Jerk", per: "/s³" },
-];
+const QUANTITIES = [
+  { value: "position", text: "Position", per: "", limit: null },
+  { value: "velocity", text: "Velocity", per: "/s", limit: "joint_velocity" },
+  { value: "acceleration", text: "Acceleration", per: "/s²", limit: "joint_acceleration" },
+  { value: "jerk", text: "Jerk", per: "/s³", limit: "joint_jerk" },
+  { value: "torque", text: "Torque", per: "", limit: "joint_torque" },
+] as const;
+type Quantity = (typeof QUANTITIES)[number]["value"];
 /** What is drawn where nothing else is chosen stands first. */
-const CHOICES: readonly Quantity[] = ["velocity", "position", "acceleration", "jerk"];
+const CHOICES: readonly Quantity[] = ["velocity", "position", "acceleration", "jerk", "torque"];
 const EXTENTS = ["near", "all"] as const;
-const LIMITS = [null, "joint_velocity", "joint_acceleration", "joint_jerk"] as const;
 const HEIGHT = 184;
 const LEAST_SAMPLES = 600;
 const DASH = [5, 4];
@@ -36,6 +35,8 @@ const WIDTH = 1.5;
 /** A motion that is drawn. */
 export interface Drawn {
   curve: Curve;
+  /** Null where they were not asked for. */
+  torques: Torques | null;
   answer: TrajectoryAnswer;
   joints: readonly Joint[];
 }
@@ -96,16 +97,18 @@ export class Profiles {
   draw(): void {
     this.#plot?.destroy();
     this.#plot = null;
-    this.#choice.show(QUANTITIES[this.#quantity]!.value);
     this.#limits.setAttribute("aria-pressed", String(this.#showsLimits));
     if (!this.#drawn) return;
-    const { curve, joints } = this.#drawn;
-    const name = QUANTITIES[this.#quantity]!;
-    const degrees = this.store.value.degrees;
-    this.#unit.textContent = `[${unitsOf(joints, degrees, name.per)}]`;
+    const { joints, torques } = this.#drawn;
+    const { value, text, per } = this.#quantity;
+    this.#choice.allow("torque", torques ? null : "Ask for them under “Torques and payload”, and plan again");
+    this.#choice.show(value);
+    const units = new Set(joints.map(effortUnit));
+    const unit = value === "torque" ? [...units].join(" or ") : unitsOf(joints, this.store.value.degrees, per);
+    this.#unit.textContent = `[${unit}]`;
     this.#canvas.setAttribute("role", "img");
-    this.#canvas.setAttribute("aria-label", `${name.text} of each joint over time; its limits are dashed`);
-    const samples = curve.sample(this.#quantity, LEAST_SAMPLES);
+    this.#canvas.setAttribute("aria-label", `${text} of each joint over time; its limits are dashed`);
+    const samples = this.#values.sample();
     const series = joints.map((joint, i) => this.#lines(joint, i, samples));
     const data = [samples.times, ...series.flat()] as uPlot.AlignedData;
     this.#plot = new uPlot(this.#options(joints), data, this.#canvas);
@@ -120,8 +123,7 @@ export class Profiles {
     this.#time = time;
     if (!this.#plot || !this.#drawn) return;
     this.#now.style.transform = `translateX(${this.#plot.valToPos(time, "x")}px)`;
-    const values = this.#drawn.curve.at(time, this.#quantity);
-    this.#legend.tell(values.map((value, i) => value * this.#factor(this.#drawn!.joints[i]!)));
+    this.#legend.tell(this.#values.at(time).map((value, i) => value * this.#factor(this.#drawn!.joints[i]!)));
   }
 
   /** Bring one joint to the front, or none. */
@@ -135,9 +137,21 @@ export class Profiles {
     this.#plot?.destroy();
   }
 
-  get #quantity(): Derivative {
-    const quantity = chosen(this.store.value, "trajectory.plot", CHOICES);
-    return QUANTITIES.findIndex(({ value }) => value === quantity) as Derivative;
+  get #quantity(): (typeof QUANTITIES)[number] {
+    const wanted = chosen(this.store.value, "trajectory.plot", CHOICES);
+    const quantity = wanted === "torque" && !this.#drawn?.torques ? CHOICES[0] : wanted;
+    return QUANTITIES.find(({ value }) => value === quantity)!;
+  }
+
+  get #values(): { sample: () => Samples; at: (time: number) => number[] } {
+    const { curve, torques } = this.#drawn!;
+    const { value } = this.#quantity;
+    if (value === "torque") return torques!;
+    const derivative = QUANTITIES.findIndex((one) => one.value === value) as Derivative;
+    return {
+      sample: () => curve.sample(derivative, LEAST_SAMPLES),
+      at: (time) => curve.at(time, derivative),
+    };
   }
 
   get #showsLimits(): boolean {
@@ -153,17 +167,16 @@ export class Profiles {
     const factor = this.#factor(joint);
     const scaled = values[index]!.map((value) => value * factor);
     const { curve, answer } = this.#drawn!;
-    const key = LIMITS[this.#quantity];
-    if (!key) {
-      const along = (limit: number | null) => pieces.map(() => (limit === null ? null : limit * factor));
-      return [scaled, along(joint.lower), along(joint.upper)];
-    }
-    const upper = pieces.map((piece) => limitIn(answer, curve, piece, key)[index]! * factor);
-    return [scaled, upper.map((value) => -value), upper];
+    const { limit: key } = this.#quantity;
+    const times = (by: number) => (limit: number | null) => (limit === null ? null : limit * by);
+    if (!key) return [scaled, ...[joint.lower, joint.upper].map((limit) => pieces.map(() => times(factor)(limit)))];
+    const limits = pieces.map((piece) => limitIn(answer, curve, piece, key)?.[index] ?? null);
+    return [scaled, limits.map(times(-factor)), limits.map(times(factor))];
   }
 
   #factor(joint: Joint): number {
-    return kindOf(joint) === "angle" && this.store.value.degrees ? 180 / Math.PI : 1;
+    const isTurned = this.#quantity.value !== "torque" && kindOf(joint) === "angle";
+    return isTurned && this.store.value.degrees ? 180 / Math.PI : 1;
   }
 
   #options(joints: readonly Joint[]): uPlot.Options {
@@ -240,8 +253,8 @@ function limitIn(
   { segments, limits }: TrajectoryAnswer,
   curve: Curve,
   piece: number,
-  key: keyof JointLimits,
-): number[] {
+  key: NonNullable<(typeof QUANTITIES)[number]["limit"]>,
+): readonly (number | null)[] | null | undefined {
   const middle = (curve.breaks[piece]! + curve.breaks[piece + 1]!) / 2;
   const segment = segments.find(({ start_time, end_time }) => start_time <= middle && middle <= end_time);
   return (segment?.limits ?? limits)[key];

@@ -11,6 +11,7 @@ import { Player } from "./player.ts";
 import { Profiles } from "./profiles.ts";
 import { Saving } from "./saving.ts";
 import { type MotionMarks, tipPath } from "./scene.ts";
+import { Torques } from "./torques.ts";
 import { auditTable, failureBox, timingTable } from "./verdict.ts";
 
 export class Result {
@@ -99,7 +100,8 @@ export class Result {
     if (!this.#plan || !this.#curve) return this.#profiles.show(null, 0);
     const { answer } = this.#plan;
     const { chain, degrees } = this.draft;
-    this.#profiles.show({ curve: this.#curve, answer, joints: chain.joints }, this.#player.time);
+    const torques = answer.joint_torques ? new Torques(answer, this.#curve) : null;
+    this.#profiles.show({ curve: this.#curve, torques, answer, joints: chain.joints }, this.#player.time);
     const go = (time: number) => this.#player.seek(time);
     this.#title.textContent = `Motion of ${answer.duration.toFixed(3)} s`;
     const failure = failureBox(answer, go);

@@ -8,7 +8,7 @@ import { format, type Kind } from "../../ui/quantity.ts";
 import type { JointLimits } from "./answer.ts";
 import type { Draft } from "./draft.ts";
 import { choice, type Field, jointTable, kindOf, optional, unitsOf } from "./fields.ts";
-import { defined, LAWS, type Limits, type Motion, type NearSingularity } from "./motion.ts";
+import { LAWS, type Motion, type NearSingularity } from "./motion.ts";
 
 const NEAR: readonly { value: NearSingularity; text: string }[] = [
   { value: "stop", text: "Stop" },
@@ -141,7 +141,7 @@ export class Settings {
   #tip(): HTMLElement[] {
     return OF_THE_TIP.map(({ name, title, unit }) => {
       const label = name === "tip_angular_acceleration" ? "Acceleration of the tip's turning" : title;
-      const field = optional(title, label, unit, "none", (value) => this.#limit({ [name]: value }));
+      const field = optional(title, label, unit, "none", (value) => this.draft.limit({ [name]: value }));
       return this.#follow(field, ({ limits }) => limits?.[name]);
     });
   }
@@ -167,18 +167,13 @@ export class Settings {
       change: (value) => {
         const others = Object.entries(this.draft.motion.limits?.[name] ?? {}).filter(([other]) => other !== joint);
         const all = value === null ? others : [...others, [joint, value] as const];
-        this.#limit({ [name]: all.length ? Object.fromEntries(all) : undefined });
+        this.draft.limit({ [name]: all.length ? Object.fromEntries(all) : undefined });
       },
     });
     const used = this.#used?.[name][index];
     field.input.placeholder = used === undefined ? UNKNOWN[name] : format(used, kind, this.draft.degrees, 3);
     this.#shows.push(({ limits }) => field.set(limits?.[name]?.[joint] ?? null));
     return field.input;
-  }
-
-  #limit(patch: { [K in keyof Limits]?: Limits[K] | undefined }): void {
-    const limits = defined<Limits>({ ...this.draft.motion.limits, ...patch });
-    this.draft.set({ limits: Object.keys(limits).length ? limits : undefined });
   }
 }
 
@@ -200,7 +195,7 @@ function summary(motion: Motion): string {
     acceleration_scale !== undefined && `acceleration × ${acceleration_scale}`,
     duration !== undefined && `in ${duration} s`,
     near_singularity && near_singularity !== "stop" && `near a singularity ${near_singularity.replace("_", " ")}`,
-    limits && "limits of its own",
+    Object.keys(limits ?? {}).some((name) => name !== "joint_torque") && "limits of its own",
     motion.task && `counts in ${motion.task.join(" ")}`,
   ];
   return said.filter(Boolean).join(" · ");

@@ -5,7 +5,7 @@ import { button, element } from "../../ui/dom.ts";
 import { fixed, scientific, unitOf } from "../../ui/quantity.ts";
 import type { TrajectoryAnswer } from "../../types.ts";
 import type { Audit, Failure, Peak } from "./answer.ts";
-import { kindOf } from "./fields.ts";
+import { effortUnit, kindOf } from "./fields.ts";
 import type { Law } from "./motion.ts";
 
 /** Laws that keep the limits of jerk; the others are only compared with them. */
@@ -48,6 +48,7 @@ export function findings({ audit, segments }: TrajectoryAnswer, joints: readonly
     peak("Tip acceleration", audit.tip.acceleration, metres("/s²")),
     peak("Tip turning", audit.tip.angular_speed, angle("/s")),
     peak("Tip turning, acceleration", audit.tip.angular_acceleration, angle("/s²")),
+    peak("Torque", audit.joint_torque, efforts(joints)),
     ...rest(audit, ofJoint),
   ];
   return found.filter((entry) => entry !== null);
@@ -199,6 +200,10 @@ function measured(joints: readonly Joint[], degrees: boolean): (per: string) => 
     const factor = kind === "angle" && degrees ? 180 / Math.PI : 1;
     return `${short(factor * value)} ${unitOf(kind, degrees)}${per}`;
   };
+}
+
+function efforts(joints: readonly Joint[]): Measure {
+  return (value, name) => `${short(value)} ${effortUnit(joints.find((joint) => joint.name === name)!)}`;
 }
 
 function short(value: number): string {
