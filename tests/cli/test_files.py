@@ -242,6 +242,8 @@ def test_motions_are_given_in_one_way(shell: Shell) -> None:
     motion = ["trajectory", "planar_2r", "--start", "0 0"]
     assert "none are given: --joint" in shell(*motion, code=2)[1]
     assert "give no --joint" in shell(*motion, "--joint", "0.1 0.1", "--motion", "{}", code=2)[1]
+    assert "give no --joint" in shell(*motion, "--path", "-", "--motion", "{}", code=2)[1]
+    assert "is for the tool that --path leads" in shell(*motion, "--joint", "0 1", "--free", "rz", code=2)[1]
     assert "name it" in shell("robots", "--urdf", code=2)[1]
 
 

@@ -52,6 +52,13 @@ MOTION = Asked(
     "robots/ur5/trajectory",
     {"start": START, "segments": [FIRST], "sample_period": 0.1},
 )
+SEAM = [{"position": [0.4, y, 0.2], "rpy": [3.1, 0.0, 0.2 + y]} for y in (0.1, 0.12, 0.15)]
+AS_CSV = ["x,y,z,roll,pitch,yaw", *(",".join(map(str, [*one["position"], *one["rpy"]])) for one in SEAM)]
+WELD = Asked(
+    ["trajectory", "ur5", "--path", "seam.csv", "--period", "0.1"],
+    "robots/ur5/trajectory",
+    {"path": {"poses": SEAM, "free": []}, "sample_period": 0.1},
+)
 WORKSPACE = Asked(["workspace", "ur5", "--samples", "500"], "robots/ur5/workspace", {"samples": 500})
 FROM_URDF = Asked(["dh", "from-urdf", "ur5"], "robots/ur5/dh", {})
 TO_URDF = Asked(["dh", "to-urdf", "table.json"], "dh/to-urdf", {"name": "robot", "dh": TABLE})
@@ -80,6 +87,8 @@ CASES: list[tuple[Asked, list[str], dict[str, Any]]] = [
     (MOTION, ["--start", said(ON)], {"start": ON}),
     (MOTION, ["--joint", said(ON)], {"segments": [FIRST, LAST]}),
     (MOTION, ["--line", "0.5 0.2 0.4 3 0 0"], {"segments": [FIRST, {"type": "line", "target": GOAL}]}),
+    (WELD, ["--free", "rz"], {"path": {"poses": SEAM, "free": ["rz"]}}),
+    (WELD, ["--path", "back.csv"], {"path": {"poses": SEAM[::-1], "free": []}}),
     (MOTION, ["--law", "cubic"], {"law": "cubic"}),
     (MOTION, ["--period", "0.05"], {"sample_period": 0.05}),
     (WORKSPACE, ["--samples", "700"], {"samples": 700}),
@@ -130,6 +139,8 @@ def test_an_option_is_its_field(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "table.json").write_text(json.dumps(TABLE))
+    (tmp_path / "seam.csv").write_text("\n".join(AS_CSV))
+    (tmp_path / "back.csv").write_text("\n".join([AS_CSV[0], *AS_CSV[:0:-1]]))
     told = answer(url, asked, fields)
     assert "detail" not in told, told
     assert told != answer(url, asked, {}), "it makes no difference"

@@ -8,10 +8,10 @@ from typing import Annotated, Any, Literal
 import typer
 
 from gelenk.cli.arms import UNREACHED
-from gelenk.cli.completion import LAWS, WORKSPACES
+from gelenk.cli.completion import LAWS, WORKSPACES, one_of
 from gelenk.cli.files.inputs import fields_of
 from gelenk.cli.files.outputs import AnswerRows, Format, check_place
-from gelenk.cli.files.rows import numbers_of, target_of
+from gelenk.cli.files.rows import numbers_of, rows_of, target_of
 from gelenk.cli.session import (
     BaseOption,
     FieldsOption,
@@ -25,6 +25,8 @@ from gelenk.cli.session import (
 )
 from gelenk.errors import InvalidField
 
+_AXES = ("rx", "ry", "rz")
+
 
 def trajectory(
     context: typer.Context,
@@ -34,6 +36,14 @@ def trajectory(
     ] = None,
     joint: Annotated[list[str] | None, typer.Option("--joint", help="Move the joints to a configuration.")] = None,
     line: Annotated[list[str] | None, typer.Option("--line", help="Go there straight: a pose.")] = None,
+    path: Annotated[
+        str | None,
+        typer.Option(help="Lead the tool through the poses in a file, `-` for stdin: CSV, npy or JSON."),
+    ] = None,
+    free: Annotated[
+        str | None,
+        typer.Option(help="Axis about which that tool may turn: rx, ry, rz.", autocompletion=one_of(_AXES)),
+    ] = None,
     motion: Annotated[
         str | None,
         typer.Option("--motion", help="Segments and all other fields as in the API: JSON, or a file with it."),
@@ -46,8 +56,8 @@ def trajectory(
     program: Annotated[Path | None, typer.Option(help="Write it for ROS (.yaml, .json) or a UR (.script).")] = None,
     later: LaterOption = False,
 ) -> None:
-    """A motion through configurations and poses, joints first; exit code 1 if it cannot be completed."""
-    shared, fields = session(context), _motion(start, joint or [], line or [], motion)
+    """A motion through configurations and poses, joints first, or of a tool; exit code 1 if it cannot be completed."""
+    shared, fields = session(context), _motion(start, joint or [], line or [], motion, path, free)
     fields = {"base_frame": base, "tip_frame": tip, "law": law, "sample_period": period, **fields}
     kind = None if program is None else _program_kind(program)
     with shared.robot(robot) as (client, name):
@@ -86,16 +96,24 @@ def _program_kind(file: Path) -> Literal["joint_trajectory", "yaml", "urscript"]
     raise InvalidField("program", f"{file.name!r} must end in .yaml, .json or .script")
 
 
-def _motion(start: str | None, joint: list[str], line: list[str], motion: str | None) -> dict[str, Any]:
+def _motion(
+    start: str | None, joint: list[str], line: list[str], motion: str | None, path: str | None, free: str | None
+) -> dict[str, Any]:
+    if free is not None and path is None:
+        raise InvalidField("free", "is for the tool that --path leads: give that too, or `path` in --motion")
     first = {} if start is None else {"start": numbers_of(start, "start")}
+    for name, given in (("motion", motion), ("path", path)):
+        if given is not None and (joint or line or (motion is not None and path is not None)):
+            raise InvalidField(name, "leads all the way: give no --joint, no --line and no other beside it")
     if motion is not None:
-        if joint or line:
-            raise InvalidField("motion", "has the segments: give no --joint and no --line beside it")
         return first | fields_of(motion)
+    if path is not None:
+        poses = rows_of([], path, "poses").targets(position_suffices=False)
+        return {**first, "path": {"poses": poses, "free": [] if free is None else [free]}}
     segments: list[dict[str, Any]] = [{"type": "joint", "target": numbers_of(text, "joint")} for text in joint]
     segments += [{"type": "line", "target": target_of(numbers_of(text, "line"), False)} for text in line]
     if not segments:
-        raise InvalidField("segments", "none are given: --joint, --line, or --motion with all of them")
+        raise InvalidField("segments", "none are given: --joint, --line, --path, or --motion with all of them")
     if start is None:
         raise InvalidField("start", "where the motion begins: --start, or `start` or `at` in --motion")
     return {**first, "segments": segments}
