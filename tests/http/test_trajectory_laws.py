@@ -169,22 +169,37 @@ def test_of_blended_lines_each_keeps_its_own_speed(
     assert told["audit"]["tip"]["speed"]["ratio"] == pytest.approx(1.0, abs=0.01)
 
 
-@pytest.mark.quick(5)
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("bound", ["tip_velocity", "joint_velocity", None])
-def test_blended_lines_say_what_paces_them_beside_their_own_limits(
-    client: TestClient, law: str, bound: str | None
+@pytest.mark.parametrize(
+    ("own", "order"),
+    [
+        ({"limits": {"joint_velocity": 0.05}}, 1),
+        ({"velocity_scale": 0.05}, 1),
+        ({"limits": {"joint_acceleration": {"elbow_joint": 0.3}}}, 2),
+        ({"limits": {"joint_jerk": 2.0}}, 3),
+    ],
+)
+def test_of_blended_lines_each_keeps_its_own_limits_of_joints(
+    client: TestClient, law: str, own: dict[str, Any], order: int
 ) -> None:
+    """The tight ones hold from the blend on and not before; by differences of the samples."""
     pose = tip(client)
     lines: list[dict[str, Any]] = [
-        {"type": "line", "target": shifted(pose, 0.12), "blend_radius": 0.01},
-        {"type": "line", "target": shifted(pose, 0.12, 0.12)},
+        {"type": "line", "target": shifted(pose, 0.12), "blend_radius": 0.02},
+        {"type": "line", "target": shifted(pose, 0.12, 0.12), **own},
     ]
-    if bound is not None:
-        lines[1]["limits"] = {bound: 0.05}
-    call = {"start": START, "segments": lines, "law": law, "limits": {"tip_velocity": 0.2}, "tip_poses": False}
+    call = {"start": START, "segments": lines, "law": law, "sample_period": 0.002, "tip_poses": False}
     told = client.post("/v1/robots/ur5/trajectory", json=call).json()
-    for segment in told["segments"]:
-        notes = " ".join(segment["notes"])
-        assert "the line with the lowest limits of the tip" not in notes
-        assert ("the tightest of each joint holds" in notes) is (bound == "joint_velocity")
+    first, second = told["segments"]
+    rates = np.diff(told["joint_positions"], order, axis=0)[:-1] / 0.002**order  # The last sample is off the grid.
+    times = np.array(told["times"])[: len(rates)]
+    name = ("joint_velocity", "joint_acceleration", "joint_jerk")[order - 1]
+    before, after = times + 0.002 * order < first["blend"]["start_time"], times > first["blend"]["start_time"]
+    tight, loose = np.array(second["limits"][name]), np.array(first["limits"][name])
+    assert np.abs(rates[before] / tight).max() > 2.0
+    if order < 3 or law in {"quintic", "septic", "jerk_limited"}:
+        assert np.abs(rates[before] / loose).max() < 1.01
+        assert np.abs(rates[after] / tight).max() < 1.01
+    assert told["audit"]["passed"]
+    assert told["audit"][name.removeprefix("joint_")]["ratio"] == pytest.approx(1.0, abs=0.1)

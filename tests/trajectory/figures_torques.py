@@ -19,6 +19,7 @@ from gelenk.robot.arrays import Array
 from gelenk.trajectory.audit.torques import TorqueLimits
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline
+from gelenk.trajectory.paths.path_geometry import geometry_of
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.torque_constraints import optimal_within, torque_factor
 from tests.robots import robot
@@ -56,7 +57,8 @@ def case(one: Arm, name: str, rng: np.random.Generator) -> Case:
 def ours(one: Case) -> PiecewisePolynomial:
     """Plan as a trajectory does: rows, then a uniform factor."""
     free = np.full(len(one.velocity), np.inf)
-    motion = optimal_within(one.path, SegmentLimits(one.velocity, one.acceleration, free, torque=one.torque)).motion
+    limits = SegmentLimits(one.velocity, one.acceleration, free, torque=one.torque)
+    motion = optimal_within(geometry_of(None, one.path, limits)).motion
     return motion.scaled(torque_factor(motion, one.torque))
 
 

@@ -15,6 +15,7 @@ from gelenk.trajectory.audit.torques import TorqueLimits
 from gelenk.trajectory.audit.words import Law
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline
+from gelenk.trajectory.paths.path_geometry import geometry_of
 from gelenk.trajectory.plan import plan
 from gelenk.trajectory.problem.problem import Segment, SegmentLimits, TrajectoryProblem
 from gelenk.trajectory.timing.torque_constraints import torque_factor, torque_rows
@@ -54,7 +55,7 @@ def test_where_the_rows_hold_the_torques_do_in_the_whole_interval() -> None:
     path = cubic_spline(np.arange(4.0), READY + rng.uniform(-0.5, 0.5, (4, 7)), "natural").motion
     torque = limits_of("panda", np.array([60.0, 80.0, 60.0, 60.0, 10.0, 10.0, 10.0]))
     nodes = np.union1d(np.linspace(0.0, 1.0, 61), path.breaks / path.duration)
-    rows = torque_rows(path, torque)
+    rows = torque_rows(geometry_of(None, path, replace(LIMITS, torque=torque)))
     assert rows is not None
     alpha, beta = rows(nodes)
     tight = 0

@@ -61,9 +61,7 @@ class TrajectorySegmentInfo(Answer):
     blend: SegmentBlend | None = Field(description="The blend; null also if the motion does not get that far.")
     joint_deviation: Damping | None = Field(description="Deviation from the path where joints were damped.")
     limits: MotionLimitsInfo = Field(
-        description="Its own. Of lines that are blended each keeps its own limits of the tip; of those of joints, and "
-        "so of `velocity_scale` and `acceleration_scale`, the tightest of all hold on each. A slow line does not slow "
-        "the others."
+        description="Its own, which also hold in the blends at its ends. A slow line does not slow the others."
     )
     notes: list[str] = Field(description="Further remarks.")
     polynomials: PolynomialsInfo | None = optional(

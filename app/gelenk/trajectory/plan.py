@@ -153,10 +153,11 @@ def _factor(parts: list[PlannedPart], problem: TrajectoryProblem) -> float:
 
 def _with_stated_jerk(part: PlannedPart, problem: TrajectoryProblem) -> PlannedPart:
     """Slow a part down to requested jerk limits that its law does not keep; `InvalidField` if its times are given."""
-    limits = part.demands.stated_jerk
-    if limits is None or part.demands.keeps_jerk or part.motion.duration == 0.0:
+    if part.demands.keeps_jerk or part.motion.duration == 0.0:
         return part
-    factor = float(np.cbrt((np.abs(peaks(part.motion, 3).values) / limits).max()))
+    stretches = [(motion, zone.stated_jerk) for motion, zone in part.stretches()]
+    jerks = [(np.abs(peaks(motion, 3).values) / stated).max() for motion, stated in stretches if stated is not None]
+    factor = float(np.cbrt(max(jerks, default=0.0)))
     if factor <= 1.0:
         return part
     for report in part.reports:
@@ -176,15 +177,16 @@ def _margin(motion: PiecewisePolynomial) -> float:
     return float(np.clip(4.0 * np.finfo(float).eps * motion.duration / shortest, _MARGIN, _ROUNDING))
 
 
-def _with_torques(part: PlannedPart, problem: TrajectoryProblem) -> PlannedPart:
+def _with_torques(part: PlannedPart, problem: TrajectoryProblem, tighter: float = 1.0) -> PlannedPart:
     """Slow a part down until its torques keep their limits; `InvalidField` if its times or its ends' rates are given.
 
-    It is refused too where the weight alone asks for more than a limit.
+    It is refused too where the weight alone asks for more than a limit. The limits are first divided by `tighter`.
     """
-    torque = part.demands.torque
-    if torque is None or not torque.is_limited or part.motion.duration == 0.0:
+    if part.motion.duration == 0.0:
         return part
-    factor = torque_factor(part.motion, torque)
+    stretches = [(motion, zone.torque) for motion, zone in part.stretches()]
+    factors = (torque_factor(motion, torque.tightened(tighter)) for motion, torque in stretches if torque is not None)
+    factor = max(factors, default=1.0)
     if factor == 1.0:
         return part
     for report in part.reports:
@@ -225,14 +227,12 @@ def _within_torques(
     robot: RobotModel, chain: Chain, part: PlannedPart, problem: TrajectoryProblem
 ) -> tuple[PlannedPart, Audit]:
     """Audit a part, and slow it down by what its torques exceed their limits between the planner's places."""
-    found, torque = audit(robot, chain, part.motion, part.demands), part.demands.torque
+    found = audit(robot, chain, part.motion, part.demands)
     for _ in range(_MOST_TRIES):
-        if torque is None or not any(reason.check == "torque" for reason in found.reasons):
+        if not any(reason.check == "torque" for reason in found.reasons):
             break
         ratio = cast(float, cast(Peak, found.joint_torque).ratio)
-        tighter = replace(part.demands, torque=torque.tightened(ratio * (1.0 + _ROUNDING)))
-        slowed = _with_torques(replace(part, demands=tighter), problem)
-        part = replace(slowed, demands=replace(slowed.demands, torque=torque))
+        part = _with_torques(part, problem, ratio * (1.0 + _ROUNDING))
         found = audit(robot, chain, part.motion, part.demands)
     return part, found
 

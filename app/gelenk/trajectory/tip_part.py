@@ -13,13 +13,12 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
-from gelenk.trajectory.audit.demands import Demands, JointLimits, TipLimits, Zone
+from gelenk.trajectory.audit.demands import Demands, JointLimits, TipLimits
 from gelenk.trajectory.audit.torques import TorqueLimits
 from gelenk.trajectory.audit.words import Law
 from gelenk.trajectory.follow.exact import path_error
 from gelenk.trajectory.follow.follow import FollowedPath, follow
 from gelenk.trajectory.laws.laws import LAWS, scaled_law
-from gelenk.trajectory.laws.time_scaling import QUANTITIES
 from gelenk.trajectory.motion.composition import times_at
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.paths.path_geometry import LimitedPath, geometry_of, tip_through
@@ -70,15 +69,15 @@ class _TipPart:
 
     @cached_property
     def limits(self) -> SegmentLimits:
-        """The tightest limits of joints and the loosest of the tip; `SegmentsPath.zones` has the tighter ones."""
+        """The loosest limits; `SegmentsPath.zones` has the tighter ones."""
         limits = [segment.limits for segment in self.segments]
         if len(limits) == 1:
             return limits[0]
         tip = TipLimits(*(max(getattr(one.tip, name) for one in limits) for name in TipLimits.__slots__))
-        velocity, acceleration, jerk = (np.min([getattr(one, name) for one in limits], axis=0) for name in QUANTITIES)
         torque = limits[0].torque
         if torque is not None:
-            torque = replace(torque, most=np.min([cast(TorqueLimits, one.torque).most for one in limits], axis=0))
+            torque = replace(torque, most=np.max([cast(TorqueLimits, one.torque).most for one in limits], axis=0))
+        velocity, acceleration, jerk = np.max([one.joints for one in limits], axis=0)
         return SegmentLimits(velocity, acceleration, jerk, tip, torque)
 
     @property
@@ -124,7 +123,7 @@ class _TipPart:
             position = max(position, _SLACK * joints.path_deviation)
             orientation = max(orientation, _SLACK * joints.orientation_deviation)
         start, end = joints.positions.at(np.array([0.0, joints.reached]))
-        stated = [one.stated_jerk for one in self.segments if one.stated_jerk is not None]
+        stated = [one.stated_jerk for one in self.segments]
         return Demands(
             JointLimits(limits.velocity, limits.acceleration, limits.jerk),
             limits.tip,
@@ -135,13 +134,13 @@ class _TipPart:
             orientation,
             timing.continuous,
             tuple(
-                Zone(*self._times_at(law, zone.begin, zone.end), zone.tip)
+                zone.between(*self._times_at(law, zone.begin, zone.end))
                 for zone in self.path.zones
                 if zone.begin < joints.reached
             ),
             timing.has_bounded_jerk,
-            np.min(stated, axis=0) if stated else None,
-            path_error(joints.positions, joints.bend_errors, timing, limits),
+            None if any(one is None for one in stated) else np.max(cast(list[Array], stated), axis=0),
+            path_error(joints.positions, joints.bend_errors, timing, self.geometry),
             torque=limits.torque,
         )
 
@@ -182,7 +181,7 @@ class _TipPart:
                     deviation if damped else None,
                     i + 1 < len(self.segments),
                     self._blend(i, timing.law),
-                    (*path.notes, *self._notes(), *timing.notes),
+                    (*path.notes, *timing.notes),
                 )
             )
         return tuple(reports)
@@ -193,13 +192,6 @@ class _TipPart:
         corner = self.path.corners[i]
         limit = corner.acceleration if math.isfinite(corner.acceleration) else None
         return SegmentBlend(corner.radius, *self._times_at(law, corner.begin, corner.end), limit)
-
-    def _notes(self) -> tuple[str, ...]:
-        first = self.segments[0].limits
-        each = ((getattr(one.limits, name), getattr(first, name)) for one in self.segments for name in QUANTITIES)
-        if all(np.array_equal(one, other) for one, other in each):
-            return ()
-        return ("the limits of joints differ among blended lines: the tightest of each joint holds on all of them",)
 
     def _travelled(self, begin: float, end: float) -> tuple[float, float]:
         """Return the lengths of the position's and the orientation's path between two places, [m] and [rad]."""

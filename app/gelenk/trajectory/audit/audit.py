@@ -158,16 +158,25 @@ class _Examination:
         demands, names = self.demands, self.chain.joint_names
         peaks: dict[str, Peak] = {}
         for order, check in enumerate(_RATES if names else (), start=1):
-            values, times = extremes(self.pieces, order, absolute=True)
-            peaks[check] = peak = _worst(values, times, names, getattr(demands.joints, check))
-            if check == "jerk" and not demands.keeps_jerk:
-                if demands.stated_jerk is None:
-                    continue
-                peak = _worst(values, times, names, demands.stated_jerk)
-            if peak.ratio is not None and not peak.ratio <= 1.0 + demands.tolerance:
-                detail = f"{check} is {peak.ratio:.6g} times the limit"
-                self.reasons.append(Reason(check, detail, peak.joint, peak.time))
+            found = [self.joint_peak(order, self.pieces, getattr(demands.joints, check), demands.stated_jerk)]
+            for zone in demands.zones:
+                if zone.joints is not None:
+                    within = self.pieces.between(zone.begin, zone.end)
+                    found.append(self.joint_peak(order, within, zone.joints[order - 1], zone.stated_jerk))
+            peaks[check] = max(found, key=lambda peak: peak.ratio or 0.0)
         return peaks
+
+    def joint_peak(self, order: int, pieces: Pieces, limits: Array | None, stated_jerk: Array | None) -> Peak:
+        """Find the peak of a rate in some of the pieces, and check it."""
+        check, names = _RATES[order - 1], self.chain.joint_names
+        values, times = extremes(pieces, order, absolute=True)
+        peak = enforced = _worst(values, times, names, limits)
+        if check == "jerk" and not self.demands.keeps_jerk:
+            enforced = _worst(values, times, names, stated_jerk)
+        if enforced.ratio is not None and not enforced.ratio <= 1.0 + self.demands.tolerance:
+            detail = f"{check} is {enforced.ratio:.6g} times the limit"
+            self.reasons.append(Reason(check, detail, enforced.joint, enforced.time))
+        return peak
 
     def continuity(self, peaks: dict[str, Peak]) -> Continuity:
         names, tolerance = self.chain.joint_names, self.demands.tolerance
@@ -224,11 +233,16 @@ class _Examination:
 
     def torque(self) -> Peak | None:
         """Find the torque nearest to its limit, or the largest if none is limited."""
-        limits = self.demands.torque
-        if limits is None or not self.chain.joint_names:
-            return None
-        peak = _worst(*torque_peaks(self.pieces, limits), self.chain.joint_names, limits.most)
-        if peak.ratio is not None and not peak.ratio <= 1.0 + self.demands.tolerance:
+        stretches = [(self.pieces, self.demands.torque)]
+        stretches += [(self.pieces.between(zone.begin, zone.end), zone.torque) for zone in self.demands.zones]
+        names = self.chain.joint_names
+        peaks = [
+            _worst(*torque_peaks(pieces, limits), names, limits.most)
+            for pieces, limits in stretches
+            if limits is not None and names
+        ]
+        peak = max(peaks, key=lambda one: one.ratio or 0.0, default=None)
+        if peak is not None and peak.ratio is not None and not peak.ratio <= 1.0 + self.demands.tolerance:
             detail = f"torque is {peak.ratio:.6g} times the limit"
             self.reasons.append(Reason("torque", detail, peak.joint, peak.time))
         return peak

@@ -1,7 +1,7 @@
 """Demands on a motion: limits of joints and tip, its ends, its path, and its smoothness."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.robot.arrays import Array
@@ -38,11 +38,23 @@ class TipLimits:
 
 @dataclass(frozen=True, slots=True)
 class Zone:
-    """A part of a motion or a path, between two times or places, where the tip has limits besides those everywhere."""
+    """A part of a motion or a path, between two times or places, that has limits besides those everywhere.
+
+    Attributes:
+        joints: Limits of velocity, acceleration and jerk, if any; shape (3, n), [rad or m per s, s², s³].
+        torque, stated_jerk: As in `Demands`.
+    """
 
     begin: float
     end: float
     tip: TipLimits
+    joints: Array | None = None
+    torque: TorqueLimits | None = None
+    stated_jerk: Array | None = None
+
+    def between(self, begin: float, end: float) -> "Zone":
+        """Return the same limits between other times or places."""
+        return replace(self, begin=begin, end=end)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +68,7 @@ class Demands:
         path_tolerance: Allowed distance from the path, [m].
         orientation_tolerance: Allowed angle from the path's orientation, [rad].
         continuous: Order up to which derivatives must not jump; 1 means C¹.
-        zones: Time intervals with their own limits of the tip; pieces of the motion begin and end at their bounds.
+        zones: Time intervals with their own limits; pieces of the motion begin and end at their bounds.
         keeps_jerk: Whether exceeding a jerk limit fails the audit; otherwise jerk is only compared.
         stated_jerk: Jerk limits enforced within pieces even if `keeps_jerk` is False; shape (n,), [rad/s³ or m/s³].
         way_error: How far the planned motion is from the exact path; None if it follows no path.

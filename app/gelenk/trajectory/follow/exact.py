@@ -20,8 +20,8 @@ from gelenk.trajectory.follow.rows import row_derivatives, task_rows
 from gelenk.trajectory.motion.composition import RATES_KNOWN
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut, derivatives, divided
 from gelenk.trajectory.motion.time_laws import hermite_pieces
+from gelenk.trajectory.paths.path_geometry import LimitedPath
 from gelenk.trajectory.paths.paths import PathSamples
-from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.timing import Timed
 
 TOLERANCE = 1e-6
@@ -54,7 +54,7 @@ def refined(field: RateField, positions: PiecewisePolynomial) -> tuple[Piecewise
     return positions, off
 
 
-def path_error(joints: PiecewisePolynomial, off: Array | None, timing: Timed, limits: SegmentLimits) -> PathError:
+def path_error(joints: PiecewisePolynomial, off: Array | None, timing: Timed, geometry: LimitedPath) -> PathError:
     """Bound how much a motion's ratios to limits differ from those of the exact path; None where unknown.
 
     `off` is the largest error of q'' in each of the M pieces of the joints' path; shape (M, n), None off the path.
@@ -69,7 +69,7 @@ def path_error(joints: PiecewisePolynomial, off: Array | None, timing: Timed, li
     first, third = _FIRST * second * widths, _THIRD * second / widths
     with np.errstate(invalid="ignore"):  # An unknown error times a rate of zero is NaN.
         errors = (first * v, first * a + second * v**2, first * j + 3.0 * second * v * a + third * v**3)
-    bounds = (limits.velocity, limits.acceleration, limits.jerk)
+    bounds = np.moveaxis(geometry.joint_bounds(geometry.piece_of(s[:, 0])), 1, 0)
     found = [
         float(np.fmax.reduce(error / bound, axis=None, initial=0.0)) + known
         for error, bound, known in zip(errors, bounds, RATES_KNOWN, strict=True)

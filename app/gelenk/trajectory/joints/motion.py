@@ -21,6 +21,7 @@ from gelenk.trajectory.laws.laws import LAWS
 from gelenk.trajectory.laws.time_scaling import LARGEST, ScalingLimits, check_limits, uniform_scaling
 from gelenk.trajectory.laws.trapezoid import JointMove, point_to_point
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.paths.path_geometry import geometry_of
 from gelenk.trajectory.problem.parts import standing
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.timing import Timings
@@ -88,7 +89,8 @@ def _within_torques(
     if factor == 1.0:
         return motion
     line = PiecewisePolynomial(np.array([0.0, 1.0]), np.stack((start, steps))[None])
-    return min(motion.scaled(factor), optimal_within(line, limits).motion, key=lambda one: one.duration)
+    straight = optimal_within(geometry_of(None, line, limits)).motion
+    return min(motion.scaled(factor), straight, key=lambda one: one.duration)
 
 
 def kept_limits(law: Law, limits: SegmentLimits) -> ScalingLimits:

@@ -137,7 +137,7 @@ class JointSpline:
         if self._is_scaled():
             return self.path.scaled(uniform_scaling(self.path, kept_limits(law, limits)).factor or 1.0)
         if law == "time_optimal":
-            return optimal_within(self.path, limits).motion
+            return optimal_within(geometry_of(None, self.path, limits)).motion
         return timed(geometry_of(None, self.path, limits), law).motion
 
 

@@ -39,6 +39,11 @@ class PiecewisePolynomial:
             c = c[:, 1:] * powers if c.shape[1] > 1 else np.zeros_like(c)
         return PiecewisePolynomial(self.breaks, c)
 
+    def between(self, begin: float, end: float) -> "PiecewisePolynomial":
+        """Return the pieces whose middle lies between two times, [s]."""
+        first, last = np.searchsorted(0.5 * (self.breaks[:-1] + self.breaks[1:]), (begin, end))
+        return PiecewisePolynomial(self.breaks[first : last + 1], self.coefficients[first:last])
+
     def at(self, times: Array) -> Array:
         """Return values of shape (N, n) at times of shape (N,), [s]; at an inner break, the later piece counts."""
         found: Array = self._evaluated(times, 0)[0]

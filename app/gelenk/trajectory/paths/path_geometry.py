@@ -4,7 +4,7 @@ With a time law s(t): q̇ = q' ṡ, q̈ = q' s̈ + q'' ṡ², q⃛ = q' s⃛ + 3
 ξ̇ = ξ_s s̈ + ξ_s' ṡ². Uniform scaling by k divides the ratio of such a quantity to its limit by k, k² or k³.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Final, TypeAlias, cast
@@ -15,6 +15,7 @@ from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
 from gelenk.trajectory.audit.demands import TipLimits, Zone
+from gelenk.trajectory.audit.torques import TorqueLimits
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut, derivatives
 from gelenk.trajectory.paths.paths import Path
 from gelenk.trajectory.problem.problem import SegmentLimits
@@ -36,8 +37,6 @@ ORDERS: Final = np.array([1, 2, 3, 1, 1, 2, 2])
 """Power of k by which uniform scaling divides each quantity."""
 JOINTS: Final = 3
 """Number of joint quantities, which come first in `QUANTITIES`."""
-ACCELERATION: Final = 2
-"""Index of the linear acceleration among the tip's quantities."""
 
 _SAME = 1e-9
 _CORNER = 1e-7
@@ -66,19 +65,21 @@ class Slopes:
     Attributes:
         first, second, third: q', q'' and q'''; shape (N, n), [rad or m per unit of s, and so on].
         tip: ξ_s and ξ_s'; shape (2, N, 6); None if the tip has no limits.
-        bounds: Limits of the tip, in the order of `QUANTITIES`; shape (N, 4).
+        joint_bounds, tip_bounds: Limits, in the order of `QUANTITIES`; shape (N, 3, n) and (N, 4).
     """
 
     first: Array
     second: Array
     third: Array
     tip: Array | None
-    bounds: Array
+    joint_bounds: Array
+    tip_bounds: Array
 
     def take(self, rows: Indices) -> "Slopes":
         """Return the derivatives at some of the places."""
         tip = None if self.tip is None else self.tip[:, rows]
-        return Slopes(self.first[rows], self.second[rows], self.third[rows], tip, self.bounds[rows])
+        bounds = self.joint_bounds[rows], self.tip_bounds[rows]
+        return Slopes(self.first[rows], self.second[rows], self.third[rows], tip, *bounds)
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +89,7 @@ class LimitedPath:
     Attributes:
         joints: q(s), whose breaks include those of the tip's path.
         tip_motion: Function from the joints' motion to the tip's; None if the tip has no limits.
-        zones: Where the tip has its own limits; each begins and ends at a break.
+        zones: Where there are limits besides; each begins and ends at a break.
     """
 
     joints: PiecewisePolynomial
@@ -115,13 +116,34 @@ class LimitedPath:
         bounds = self.tip_bounds(np.arange(len(self.joints.breaks) - 1))
         return self.tip_motion is not None and bool(np.isfinite(bounds).any())
 
+    @property
+    def limits_torque(self) -> bool:
+        """Whether some joint has a limit of torque somewhere."""
+        torques = [self.limits.torque, *(zone.torque for zone in self.zones)]
+        return any(torque is not None and torque.is_limited for torque in torques)
+
     def tip_bounds(self, piece: Indices) -> Array:
         """Return the tip's limits in given pieces, in the order of `QUANTITIES`; shape (N,) → (N, 4)."""
-        bounds = np.tile(_of_tip(self.limits.tip), (len(piece), 1))
-        middles = 0.5 * (self.joints.breaks[piece] + self.joints.breaks[piece + 1])
-        for zone in self.zones:
-            rows = (middles > zone.begin) & (middles < zone.end)
-            bounds[rows] = np.minimum(bounds[rows], _of_tip(zone.tip))
+        return self._bounds(piece, _of_tip(self.limits.tip), [_of_tip(zone.tip) for zone in self.zones])
+
+    def joint_bounds(self, piece: Indices) -> Array:
+        """Return the limits of velocity, acceleration and jerk in given pieces; shape (N,) → (N, 3, n)."""
+        return self._bounds(piece, self.limits.joints, [zone.joints for zone in self.zones])
+
+    def torque_bounds(self, piece: Indices) -> Array:
+        """Return the limits of torque in given pieces, which there have to be; shape (N,) → (N, n)."""
+        most = [None if zone.torque is None else zone.torque.most for zone in self.zones]
+        return self._bounds(piece, cast(TorqueLimits, self.limits.torque).most, most)
+
+    def _bounds(self, piece: Indices, everywhere: Array, in_zones: Sequence[Array | None]) -> Array:
+        bounds = np.broadcast_to(everywhere, (len(piece), *everywhere.shape))
+        if any(own is not None for own in in_zones):
+            bounds = bounds.copy()
+            middles = 0.5 * (self.joints.breaks[piece] + self.joints.breaks[piece + 1])
+            for zone, own in zip(self.zones, in_zones, strict=True):
+                if own is not None:
+                    rows = (middles > zone.begin) & (middles < zone.end)
+                    bounds[rows] = np.minimum(bounds[rows], own)
         return bounds
 
     def piece_of(self, s: Array) -> Indices:
@@ -134,7 +156,7 @@ class LimitedPath:
         local = (s - self.joints.breaks[piece])[:, None]
         _, first, second, third = derivatives(self.joints.coefficients[piece], local)
         tip = self.tip_at(piece, s) if self.limits_tip else None
-        return Slopes(first, second, third, tip, self.tip_bounds(piece))
+        return Slopes(first, second, third, tip, self.joint_bounds(piece), self.tip_bounds(piece))
 
     def tip_at(self, piece: Indices, s: Array) -> Array:
         """Return ξ_s and ξ_s' of a tip with limits; shape (2, N, 6)."""
@@ -201,19 +223,18 @@ def subdivided(lengths: Array, count: int, least: int) -> tuple[Indices, Indices
     return piece, within, (counts - 1)[piece]
 
 
-def ratios(slopes: Slopes, limits: SegmentLimits, speeds: Array, accelerations: Array, jerks: Array) -> Array:
+def ratios(slopes: Slopes, speeds: Array, accelerations: Array, jerks: Array) -> Array:
     """Return the ratio of each of `QUANTITIES` to its limit at ṡ, s̈ and s⃛ of shape (N,); (N, 7), 0 without limit."""
     v, a, j = speeds[:, None], accelerations[:, None], jerks[:, None]
     found = np.zeros((len(speeds), len(QUANTITIES)))
     velocity = slopes.first * v
     acceleration = slopes.first * a + slopes.second * v**2
     jerk = slopes.first * j + slopes.second * (3.0 * v * a) + slopes.third * v**3
-    each = zip((velocity, acceleration, jerk), limits.joints, strict=True)
-    for column, (values, limit) in enumerate(each):
-        found[:, column] = np.abs(values / limit).max(axis=1, initial=0.0)
+    for column, values in enumerate((velocity, acceleration, jerk)):
+        found[:, column] = np.abs(values / slopes.joint_bounds[:, column]).max(axis=1, initial=0.0)
     if slopes.tip is not None:
         first, second = slopes.tip
-        found[:, JOINTS:] = tip_ratios(first * v, first * a + second * v**2, slopes.bounds)
+        found[:, JOINTS:] = tip_ratios(first * v, first * a + second * v**2, slopes.tip_bounds)
     return found
 
 

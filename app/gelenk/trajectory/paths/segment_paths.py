@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 from itertools import pairwise
 from typing import cast
 
@@ -47,7 +47,7 @@ class SegmentsPath:
 
     Attributes:
         ends: s at the end of each segment: the middle of its blend, and `path.extent` for the last.
-        zones: Where the tip has its own limits: in blends that set one, and on lines and the blends beside them.
+        zones: Where there are limits of its own: in blends that set one, and on segments and the blends beside them.
     """
 
     path: Path
@@ -136,12 +136,25 @@ def _zones(corners: Sequence[BlendedCorner], segments: Sequence[Segment], extent
         for corner in corners
         if math.isfinite(corner.acceleration)
     ]
-    if len({segment.limits.tip for segment in segments}) == 1:
+    rows = [_limits_of(segment) for segment in segments]
+    if all(np.array_equal(row, rows[0]) for row in rows):
         return tuple(own)
     begins = (0.0, *(corner.begin for corner in corners))
     ends = (*(corner.end for corner in corners), extent)
     lines = zip(begins, ends, segments, strict=True)
-    return (*own, *(Zone(begin, end, one.limits.tip) for begin, end, one in lines if one.limits.tip != TipLimits()))
+    return (*own, *(_zone(*line) for line in lines))
+
+
+def _limits_of(segment: Segment) -> Array:
+    """Return all limits in a row, infinite where there are none."""
+    limits, stated = segment.limits, segment.stated_jerk
+    own = [limits.joints.ravel(), np.array(astuple(limits.tip)), np.array([np.inf]) if stated is None else stated]
+    return np.concatenate(own if limits.torque is None else [*own, limits.torque.most])
+
+
+def _zone(begin: float, end: float, segment: Segment) -> Zone:
+    limits = segment.limits
+    return Zone(begin, end, limits.tip, limits.joints, limits.torque, segment.stated_jerk)
 
 
 def _turns(rotations: Array, segments: Sequence[Segment], first: int) -> Sequence[Turn]:

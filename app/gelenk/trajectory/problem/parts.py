@@ -8,7 +8,7 @@ import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
-from gelenk.trajectory.audit.demands import Demands
+from gelenk.trajectory.audit.demands import Demands, Zone
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.problem.problem import SegmentReport
 from gelenk.trajectory.problem.result import PlanningFailure, TimingComparison
@@ -33,12 +33,19 @@ class PlannedPart:
     timing: TimingComparison | None = None
     law: PiecewisePolynomial | None = None
 
+    def stretches(self) -> Iterator[tuple[PiecewisePolynomial, Zone]]:
+        """Yield the whole motion with the limits that it has everywhere, and each zone's part of it with its own."""
+        demands, motion = self.demands, self.motion
+        yield motion, Zone(0.0, motion.duration, demands.tip, None, demands.torque, demands.stated_jerk)
+        for zone in demands.zones:
+            yield motion.between(zone.begin, zone.end), zone
+
     def slowed(self, factor: float) -> "PlannedPart":
         """Return the part slowed down to `factor` times its duration."""
         if factor == 1.0:
             return self
         path = self.demands.path
-        zones = tuple(replace(one, begin=factor * one.begin, end=factor * one.end) for one in self.demands.zones)
+        zones = tuple(one.between(factor * one.begin, factor * one.end) for one in self.demands.zones)
         slower = None if path is None else lambda times: path(times / factor)
         return replace(
             self,

@@ -15,7 +15,6 @@ from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, derivatives
 from gelenk.trajectory.paths.path_geometry import ORDERS, LimitedPath, ratios
 from gelenk.trajectory.timing.time_optimal import Slower
-from gelenk.trajectory.timing.tip_constraints import tip_rows
 from gelenk.trajectory.timing.torque_constraints import optimal_within
 
 _PARTS, _PER_WINDOW, _MOST_PARTS = 128, 8, 1024
@@ -33,8 +32,8 @@ def averaged(geometry: LimitedPath, times: int) -> PiecewisePolynomial:
 
     A window as long as a joint's limits take to reach the full acceleration is tried first, then ever shorter ones.
     """
-    limits = geometry.limits
-    width = float((limits.acceleration / limits.jerk).max())
+    bounds = geometry.joint_bounds(np.arange(len(geometry.joints.coefficients)))
+    width = float((bounds[:, 1] / bounds[:, 2]).max())
     fastest = _fastest(geometry)
     best = _Average(geometry, times, fastest, width).improved(_TRIALS)
     while not best.is_narrowest:
@@ -100,13 +99,13 @@ class _Average:
         s, *rates = (values[:, 0] for values in derivatives(rows, local))
         s = np.clip(s, *self.geometry.ends)
         slopes = self.geometry.at(self.geometry.piece_of(s), s)
-        found = ratios(slopes, self.geometry.limits, *rates) ** (1.0 / ORDERS)
+        found = ratios(slopes, *rates) ** (1.0 / ORDERS)
         factors: Array = found.reshape(len(law.coefficients), -1).max(axis=1)
         return factors
 
 
 def _fastest(geometry: LimitedPath, slower: Slower | None = None) -> PiecewisePolynomial:
-    return optimal_within(geometry.joints, geometry.limits, tip_rows(geometry), slower).time_law
+    return optimal_within(geometry, slower).time_law
 
 
 def _instants(law: PiecewisePolynomial, count: int) -> Array:

@@ -13,7 +13,6 @@ from gelenk.robot.arrays import Array, Indices
 from gelenk.trajectory.laws.s_curves import lasting, planned, profiles
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.paths.path_geometry import ORDERS, LimitedPath, Slopes, of_order, ratios
-from gelenk.trajectory.problem.problem import SegmentLimits
 
 _SAMPLES = 600
 _LEAST_SAMPLES = 4
@@ -104,8 +103,8 @@ def _bounds(geometry: LimitedPath, piece: Indices, s: Array) -> Array:
     slopes = geometry.at(piece, s)
     one, none = np.ones_like(s), np.zeros_like(s)
     speeding = np.where(s - begin <= end - s, 1.0, -1.0)
-    ramp = ratios(slopes, geometry.limits, np.sqrt(2.0 * np.maximum(distance, 0.0)), speeding, none)
-    coast = ratios(slopes, geometry.limits, one, none, none)
+    ramp = ratios(slopes, np.sqrt(2.0 * np.maximum(distance, 0.0)), speeding, none)
+    coast = ratios(slopes, one, none, none)
     velocity = coast[:, of_order(1)].max(axis=1) ** 2
     bend = coast[:, of_order(2)].max(axis=1)
     columns = distance, ramp[:, of_order(2)].max(axis=1), distance * velocity, np.maximum(velocity, bend)
@@ -137,14 +136,14 @@ def s_curve(geometry: LimitedPath) -> PiecewisePolynomial:
     piece, s = geometry.samples(_TABLE, _LEAST_SAMPLES)
     slopes = geometry.at(piece, s)
     middles = 0.5 * (s[:-1] + s[1:])
-    most = _alone(slopes, geometry.limits)
+    most = _alone(slopes)
 
     def durations(exponents: Array) -> Array:
         caps = most / length * 2.0 ** np.column_stack((np.zeros(len(exponents)), exponents))
         places, *rates = profiles(caps, _INSTANTS)
         rows = np.searchsorted(middles, begin + length * places.ravel())
         v, a, j = (length * rate.ravel() for rate in rates)
-        found = ratios(slopes.take(rows), geometry.limits, v, a, j).reshape(*places.shape, -1).max(axis=1)
+        found = ratios(slopes.take(rows), v, a, j).reshape(*places.shape, -1).max(axis=1)
         slowed: Array = (found ** (1.0 / ORDERS)).max(axis=1) * lasting(caps)
         return slowed
 
@@ -166,12 +165,12 @@ def _searched(durations: Callable[[Array], Array]) -> Array:
     return best
 
 
-def _alone(slopes: Slopes, limits: SegmentLimits) -> Array:
+def _alone(slopes: Slopes) -> Array:
     """Return the largest ṡ, s̈ and s⃛ that the limits of each order allow if the other two are zero; shape (3,)."""
     count = len(slopes.first)
     largest = np.empty(3)
     for k in range(3):
         rates = np.zeros((3, count))
         rates[k] = 1.0
-        largest[k] = 1.0 / ratios(slopes, limits, *rates)[:, of_order(k + 1)].max()
+        largest[k] = 1.0 / ratios(slopes, *rates)[:, of_order(k + 1)].max()
     return largest

@@ -14,7 +14,6 @@ from gelenk.robot.arrays import Array, Indices
 from gelenk.trajectory.motion.extremes import candidates
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, derivatives
 from gelenk.trajectory.paths.path_geometry import (
-    ACCELERATION,
     JOINTS,
     ORDERS,
     QUANTITIES,
@@ -24,7 +23,6 @@ from gelenk.trajectory.paths.path_geometry import (
     subdivided,
     tip_ratios,
 )
-from gelenk.trajectory.problem.problem import SegmentLimits
 
 Ratios: TypeAlias = Callable[[Indices, Array], Array]
 """Maps pieces and times since their start to the tip's ratios; shape (N,) each → (N, 4)."""
@@ -61,17 +59,17 @@ class PathPeaks:
         """Return the largest ratio of a velocity (1), an acceleration (2) or a jerk (3), of joints and tip."""
         return float(self.ratios[of_order(order)].max())
 
-    def binding(self, limits: SegmentLimits, *, in_blends: bool = False) -> str:
-        """Return the limit that is reached first, in words; blends may have their own."""
+    def binding(self, geometry: LimitedPath) -> str:
+        """Return the limit that is reached first, in words, with its value if it is the same everywhere."""
         i = int(self._factors().argmax())
+        tip = geometry.limits.tip
         if i < JOINTS:
             joint = int(self.joints[i])
-            return f"joint {joint + 1} reaches its limit of {QUANTITIES[i]}, {limits.joints[i, joint]:g}"
-        if in_blends and i == JOINTS + ACCELERATION:
-            return "the tip reaches its limit of acceleration, its own or that of a blend"
-        tip = limits.tip
-        value = (tip.speed, tip.angular_speed, tip.acceleration, tip.angular_acceleration)[i - JOINTS]
-        return f"the tip reaches its limit of {QUANTITIES[i]}, {value:g}"
+            whose, value = f"joint {joint + 1}", float(geometry.limits.joints[i, joint])
+        else:
+            whose = "the tip"
+            value = (tip.speed, tip.angular_speed, tip.acceleration, tip.angular_acceleration)[i - JOINTS]
+        return f"{whose} reaches its limit of {QUANTITIES[i]}" + ("" if geometry.zones else f", {value:g}")
 
     def _factors(self) -> Array:
         factors: Array = self.ratios ** (1.0 / ORDERS)
@@ -91,20 +89,22 @@ def peaks_of(
     Jerk and the joints are considered if requested, the tip always if it has limits.
     """
     found, joints = np.zeros(len(QUANTITIES)), np.zeros(JOINTS, dtype=np.int64)
-    for order, limit in enumerate(geometry.limits.joints[: 3 if with_jerk else 2]):
+    piece = geometry.piece_of(law.at(motion.breaks[:-1] + 0.5 * np.diff(motion.breaks))[:, 0])
+    bounds = geometry.joint_bounds(piece)
+    for order in range(3 if with_jerk else 2):
         if with_joints:
-            found[order], joints[order] = _largest(motion.derivative(order + 1), limit)
+            found[order], joints[order] = _largest(motion.derivative(order + 1), bounds[:, order])
     if geometry.limits_tip:
-        found[JOINTS:] = _of_tip(geometry, motion, law)
+        found[JOINTS:] = _of_tip(geometry, motion, geometry.tip_bounds(piece))
     return PathPeaks(found, joints)
 
 
 def _largest(values: PiecewisePolynomial, limits: Array) -> tuple[float, int]:
-    """Return the largest ratio of a magnitude to its limit, and the index of its coordinate."""
-    if len(limits) == 0:
+    """Return the largest ratio of a magnitude to its limits, (M, n), and the index of its coordinate."""
+    if limits.size == 0:
         return 0.0, 0
     powers = np.diff(values.breaks)[:, None] ** np.arange(values.coefficients.shape[1])
-    c = values.coefficients * powers[:, :, None] / limits
+    c = values.coefficients * powers[:, :, None] / limits[:, None]
     bounds = np.abs(bernstein(c)).max(axis=1)
     probes = np.abs(_PROBES[:, None] ** np.arange(c.shape[1]) @ c).max(axis=1)
     joint = int(probes.max(axis=0).argmax())
@@ -118,10 +118,8 @@ def _largest(values: PiecewisePolynomial, limits: Array) -> tuple[float, int]:
     return (float(largest[i]), int(column[i])) if largest[i] > least else (least, joint)
 
 
-def _of_tip(geometry: LimitedPath, motion: PiecewisePolynomial, law: PiecewisePolynomial) -> Array:
-    widths = np.diff(motion.breaks)
-    middles = law.at(motion.breaks[:-1] + 0.5 * widths)[:, 0]
-    tip_motion, bounds = cast(TipMotion, geometry.tip_motion), geometry.tip_bounds(geometry.piece_of(middles))
+def _of_tip(geometry: LimitedPath, motion: PiecewisePolynomial, bounds: Array) -> Array:
+    widths, tip_motion = np.diff(motion.breaks), cast(TipMotion, geometry.tip_motion)
 
     def ratios(piece: Indices, local: Array) -> Array:
         rates = derivatives(motion.coefficients[piece], local[:, None], 2)

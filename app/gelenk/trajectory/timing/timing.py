@@ -32,7 +32,6 @@ from gelenk.trajectory.problem.parts import standing
 from gelenk.trajectory.timing.averages import averaged
 from gelenk.trajectory.timing.path_laws import least_trapezoidal, s_curve, trapezoid
 from gelenk.trajectory.timing.path_peaks import peaks_of
-from gelenk.trajectory.timing.tip_constraints import tip_rows
 from gelenk.trajectory.timing.torque_constraints import optimal_within
 
 _IN_PLACE: Final = "to be slow only where the path bends, the time-optimal law is taken in place of `{}`"
@@ -131,7 +130,7 @@ def passing_at(geometry: LimitedPath, places: Array, times: Array) -> Timed:
     motion = in_time(geometry.joints, law)
     peaks = peaks_of(geometry, motion, law, with_jerk=False)
     if peaks.factor > 1.0 + _ROUNDING:
-        reason = f"{peaks.binding(geometry.limits)}: to keep the limits, multiply all times by {peaks.factor:.10g}"
+        reason = f"{peaks.binding(geometry)}: to keep the limits, multiply all times by {peaks.factor:.10g}"
         raise InvalidField("times", reason)
     return Timed(motion, law, 1 if len(geometry.bends()) else 2, False, "the times are given")
 
@@ -193,7 +192,7 @@ def _along(geometry: LimitedPath, law: Law, along: PiecewisePolynomial) -> Timed
         places = ", ".join(f"{s:.4g}" for s in bends[:4]) + (", …" if len(bends) > 4 else "")
         note = f"the path's curvature jumps at s = {places}: so does the acceleration there, and the limit of jerk"
         notes = (f"{note} holds in between only",)
-    binding = peaks.binding(geometry.limits, in_blends=bool(geometry.zones))
+    binding = peaks.binding(geometry)
     return _scaled(Timed(motion, along, 2 if jerk_holds else 1, jerk_holds, binding, notes), peaks.factor)
 
 
@@ -205,13 +204,12 @@ def _shape(geometry: LimitedPath, law: Law) -> PiecewisePolynomial:
 
 
 def _time_optimal(geometry: LimitedPath) -> Timed:
-    limits = geometry.limits
-    found = optimal_within(geometry.joints, limits, tip_rows(geometry))
+    found = optimal_within(geometry)
     timing = Timed(found.motion, found.time_law, 1, False, "some limit is reached nearly everywhere")
-    if geometry.limits_tip:
-        peaks = peaks_of(geometry, found.motion, found.time_law, with_jerk=False, with_joints=False)
+    if geometry.limits_tip or geometry.zones:
+        peaks = peaks_of(geometry, found.motion, found.time_law, with_jerk=False, with_joints=bool(geometry.zones))
         timing = _scaled(timing, max(1.0, peaks.factor))
-    if limits.torque is not None and limits.torque.is_limited:
+    if geometry.limits_torque:
         return timing
     # Along a straight path the trapezoidal law is the exact optimum, with only three pieces; here it would be slower.
     if least_trapezoidal(timing.law) > _SLOWER * timing.motion.duration:

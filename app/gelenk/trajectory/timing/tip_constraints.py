@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from gelenk.robot.arrays import Array
+from gelenk.robot.arrays import Array, Indices
 from gelenk.trajectory.paths.path_geometry import LimitedPath
 
 _PLACES = np.array([0.0, 0.5, 1.0])
@@ -25,20 +25,24 @@ def tip_rows(geometry: LimitedPath) -> Callable[[Array], tuple[Array, Array]] | 
     """Return the function from nodes in 0 ≤ s ≤ 1 to α and β on the intervals between them; None without tip limits."""
     if not geometry.limits_tip:
         return None
-    begin, end = geometry.ends
-    length = end - begin
+    length = geometry.joints.duration
 
     def rows(nodes: Array) -> tuple[Array, Array]:
-        s = begin + length * nodes
-        piece = geometry.piece_of(0.5 * (s[:-1] + s[1:]))
-        gains = 2.0 * np.diff(nodes)[:, None] * _PLACES
-        places = s[:-1, None] + np.diff(s)[:, None] * _PLACES
-        places[:, -1] = s[1:]
+        piece, places, gains = sampled(geometry, nodes)
         tip = geometry.tip_at(np.repeat(piece, len(_PLACES)), places.ravel()).reshape(2, *places.shape, 6)
         first, second = tip[0] * length, tip[1] * length**2
         return _rows(first + gains[:, :, None] * second, second, first, gains, geometry.tip_bounds(piece))
 
     return rows
+
+
+def sampled(geometry: LimitedPath, nodes: Array) -> tuple[Indices, Array, Array]:
+    """Return the piece of each interval, (N,), and its three places s and the coefficients of u in ṡ² there, (N, 3)."""
+    s = geometry.ends[0] + geometry.joints.duration * nodes
+    piece = geometry.piece_of(0.5 * (s[:-1] + s[1:]))
+    places = s[:-1, None] + np.diff(s)[:, None] * _PLACES
+    places[:, -1] = s[1:]
+    return piece, places, 2.0 * np.diff(nodes)[:, None] * _PLACES
 
 
 def _rows(along: Array, bend: Array, slope: Array, gains: Array, bounds: Array) -> tuple[Array, Array]:

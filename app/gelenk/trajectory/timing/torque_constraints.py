@@ -13,9 +13,10 @@ from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.audit.torques import TorqueLimits
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut, derivatives
-from gelenk.trajectory.problem.problem import SegmentLimits
+from gelenk.trajectory.paths.path_geometry import LimitedPath
 from gelenk.trajectory.timing.time_optimal import INTERVALS, Rows, Slower, TimeOptimal, time_optimal
-from gelenk.trajectory.timing.tip_constraints import control_points
+from gelenk.trajectory.timing.tip_constraints import control_points, tip_rows
+from gelenk.trajectory.timing.zone_constraints import zone_rows
 
 FIELD = "limits.joint_torque"
 MARGIN = 1e-4
@@ -25,15 +26,13 @@ _LEAST, _EACH = 800, 4
 """Least number of intervals between examined places in a motion, and in each of its pieces."""
 
 
-def optimal_within(
-    path: PiecewisePolynomial, limits: SegmentLimits, further: Rows | None = None, slower: Slower | None = None
-) -> TimeOptimal:
-    """Plan the fastest motion along a path under limits of velocity, acceleration and torque, and further rows.
+def optimal_within(geometry: LimitedPath, slower: Slower | None = None) -> TimeOptimal:
+    """Plan the fastest motion along a path under all of its limits but those of jerk.
 
     With limits of torque the intervals are half as long: torques bend more than accelerations.
     """
-    torques = torque_rows(path, limits.torque)
-    every = [rows for rows in (further, torques) if rows is not None]
+    limits, torques = geometry.limits, torque_rows(geometry)
+    every = [rows for rows in (tip_rows(geometry), zone_rows(geometry), torques) if rows is not None]
 
     def together(nodes: Array) -> tuple[Array, Array]:
         alphas, betas = zip(*(rows(nodes) for rows in every), strict=True)
@@ -41,17 +40,19 @@ def optimal_within(
 
     intervals = INTERVALS if torques is None else 2 * INTERVALS
     rows = together if every else None
-    return time_optimal(path, limits.velocity, limits.acceleration, intervals=intervals, further=rows, slower=slower)
+    bounds = limits.velocity, limits.acceleration
+    return time_optimal(geometry.joints, *bounds, intervals=intervals, further=rows, slower=slower)
 
 
-def torque_rows(path: PiecewisePolynomial, torque: TorqueLimits | None) -> Rows | None:
+def torque_rows(geometry: LimitedPath) -> Rows | None:
     """Return the function from nodes in 0 ≤ s ≤ 1 to α and β on the intervals between them; None without limits.
 
     It raises `InvalidField` where the weight alone asks for more than a limit.
     """
-    if torque is None or not torque.is_limited:
+    limits, path = geometry.limits.torque, geometry.joints
+    if limits is None or not geometry.limits_torque:
         return None
-    length, limits = path.duration, torque
+    length = path.duration
 
     def rows(nodes: Array) -> tuple[Array, Array]:
         s = path.breaks[0] + length * nodes
@@ -60,7 +61,8 @@ def torque_rows(path: PiecewisePolynomial, torque: TorqueLimits | None) -> Rows 
         q, first, second = derivatives(pieces, places.reshape(-1, 1), 2)
         along = limits.parts(q, np.zeros_like(q), first * length)[0]
         bend, weight = limits.parts(q, first * length, second * length**2)
-        above, below = _rooms(limits, weight)
+        most = geometry.torque_bounds(geometry.piece_of(0.5 * (s[:-1] + s[1:])))
+        above, below = _rooms(limits, np.repeat(most, len(_PLACES), axis=0), weight)
         shape = len(s) - 1, len(_PLACES), -1
         gains = 2.0 * np.diff(nodes)[:, None, None] * _PLACES[:, None]
         beta = np.hstack((bend / above, -bend / below)).reshape(shape)
@@ -75,26 +77,28 @@ def torque_factor(motion: PiecewisePolynomial, torque: TorqueLimits) -> float:
 
     `InvalidField` where the weight alone asks for more than a limit.
     """
+    if not torque.is_limited:
+        return 1.0
     widths = np.diff(motion.breaks)
     counts = np.maximum(np.ceil(widths * (_LEAST / motion.duration)), _EACH).astype(int) + 1
     local = np.concatenate([np.linspace(0.0, width, count) for width, count in zip(widths, counts, strict=True)])
     states = derivatives(np.repeat(motion.coefficients, counts, axis=0), local[:, None], 2)
     inertial, weight = torque.parts(*states)
-    above, below = _rooms(torque, weight)
+    above, below = _rooms(torque, torque.most, weight)
     return float(np.sqrt(max(1.0, (inertial / above).max(initial=0.0), (-inertial / below).max(initial=0.0))))
 
 
-def _rooms(torque: TorqueLimits, weight: Array) -> tuple[Array, Array]:
+def _rooms(torque: TorqueLimits, limits: Array, weight: Array) -> tuple[Array, Array]:
     """Return what the weight leaves of each limit above and below it, less the margin; shape (N, n) → (N, n) each."""
-    most = torque.most * (1.0 - MARGIN)
+    most = np.broadcast_to(limits * (1.0 - MARGIN), weight.shape)
     excess = np.abs(weight) - most
     if (excess >= 0.0).any():
-        joint = int(excess.max(axis=0).argmax())
-        needed = float(np.abs(weight[:, joint]).max())
+        row, joint = np.unravel_index(excess.argmax(), excess.shape)
+        needed, limit = abs(weight[row, joint]), np.broadcast_to(limits, weight.shape)[row, joint]
         raise InvalidField(
             FIELD,
             f"the weight alone asks joint {torque.names[joint]} for {needed:.6g} {torque.units[joint]} on the way, and "
-            f"its limit is {torque.most[joint]:.6g} {torque.units[joint]}: lighten the payload, or lead the motion "
+            f"its limit is {limit:.6g} {torque.units[joint]}: lighten the payload, or lead the motion "
             "where the arm reaches less far",
         )
     return most - weight, most + weight
