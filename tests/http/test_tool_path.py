@@ -8,6 +8,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from gelenk.contract.trajectory_answer import TrajectoryAnswer
+from tests.http.test_trajectory_torques import LOAD, by_dynamics
 
 ROBOT = "ur5_joint_limited"
 AT = [0.3, -1.2, 1.3, -1.6, -1.2, 0.4]
@@ -58,6 +59,25 @@ def test_a_seam_that_leaves_the_workspace_ends_where_it_does(client: TestClient)
     assert "way-point" in found["failure"]["detail"]
     assert 0.0 < found["completed_fraction"] < 1.0
     assert 1 <= len(found["path"]["turns"]) < 8
+
+
+def test_a_seam_keeps_the_torques_that_its_payload_needs(client: TestClient) -> None:
+    call = {"path": {"poses": poses(client), **FREE}, "law": "time_optimal", "payload": LOAD, "sample_period": 0.005}
+    limits: dict[str, Any] = {"joint_acceleration": 15.0}
+    free = post_motion(client, **call, limits=limits).json()
+    peak = free["audit"]["joint_torque"]
+    most = 0.97 * abs(peak["value"])
+    found = post_motion(client, **call, limits={**limits, "joint_torque": {peak["joint"]: most}}, torques=True).json()
+    assert found["audit"]["passed"]
+    assert found["completed_fraction"] == 1.0
+    assert found["path"] == free["path"]
+    assert found["duration"] > free["duration"]
+    torques = by_dynamics(client, found, ROBOT, payload=LOAD)
+    np.testing.assert_allclose(found["joint_torques"], torques, atol=1e-9)
+    column = np.abs(torques[:, found["joint_names"].index(peak["joint"])])
+    assert 0.98 * most < column.max() <= most * (1.0 + 1e-9)
+    unloaded = by_dynamics(client, found, ROBOT)
+    assert np.abs(torques - unloaded).max() > 1.0
 
 
 @pytest.mark.parametrize(

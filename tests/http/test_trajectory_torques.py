@@ -37,12 +37,12 @@ def refused(client: TestClient, field: str, name: str = "panda", **options: Any)
     return answer.text
 
 
-def by_dynamics(client: TestClient, motion: dict[str, Any], **options: Any) -> Array:
+def by_dynamics(client: TestClient, motion: dict[str, Any], name: str = "panda", **options: Any) -> Array:
     """Torques of the samples by the operation for dynamics."""
-    rows = {name: motion[name] for name in ("joint_positions", "joint_velocities", "joint_accelerations")}
+    rows = {field: motion[field] for field in ("joint_positions", "joint_velocities", "joint_accelerations")}
     if "payload" in options:
-        options["payload"] = {RENAMED.get(name, name): value for name, value in options["payload"].items()}
-    answer = client.post("/v1/robots/panda/dynamics", json={**rows, "terms": [], **options})
+        options["payload"] = {RENAMED.get(field, field): value for field, value in options["payload"].items()}
+    answer = client.post(f"/v1/robots/{name}/dynamics", json={**rows, "terms": [], **options})
     return np.array(answer.json()["torques"])
 
 
