@@ -35,9 +35,9 @@ from gelenk.robot.notations import (
 )
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.batch import plan_batch
-from gelenk.trajectory.follow.elimination import beside, field_rates, walked
 from gelenk.trajectory.follow.ladder import Metric, Rungs, way_up
-from gelenk.trajectory.follow.nearest import nearest
+from gelenk.trajectory.follow.nearest import beside, field_rates, nearest, walked
+from gelenk.trajectory.paths.arc_length import arc_lengths, parameters
 from gelenk.trajectory.plan import plan
 from gelenk.trajectory.problem.problem import Segment, SegmentLimits, TrajectoryProblem
 from gelenk.trajectory.tool.singularity import regular
@@ -119,10 +119,12 @@ def _motions() -> None:
     plan_batch(robot, chain, qs, qs + 0.5, move)
     flat, rates = _six_joints()[1].flat, np.zeros((3, 1, 6))
     nearest(flat, np.zeros(3), np.eye(3), *np.zeros((3, 6)))
-    samples = np.zeros((1, 3)), np.eye(3)[None], *np.zeros((2, 1, 6))
+    samples = np.zeros((1, 3)), np.eye(3)[None], np.zeros((1, 6)), np.zeros((1, 6))
     walked(flat, np.zeros(1), *samples, np.zeros(6))
     field_rates(flat, *rates[:2])
     beside(flat, *samples, rates, 1)
+    edges, slope = np.array([0.0, 1.0]), np.ones((1, 1, 3))
+    parameters(edges, slope, edges, arc_lengths(edges, slope, edges, edges), edges, edges)
     metric = Metric(np.ones(3), np.ones(3), np.zeros(3, dtype=bool))
     way_up(Rungs(np.zeros((2, 3)), np.arange(3)), metric, np.zeros(1))
     regular(chain.flat, qs, 0.0)

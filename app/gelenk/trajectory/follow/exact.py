@@ -14,7 +14,7 @@ from gelenk.ik.search.task import FULL_POSE
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.trajectory.audit.result import PathError
 from gelenk.trajectory.follow.bounds import SLACK
-from gelenk.trajectory.follow.elimination import beside
+from gelenk.trajectory.follow.nearest import beside
 from gelenk.trajectory.follow.rate_field import RateField, sampled
 from gelenk.trajectory.follow.rows import row_derivatives, task_rows
 from gelenk.trajectory.motion.composition import RATES_KNOWN

@@ -13,7 +13,7 @@ from gelenk.ik.search.task import FULL_POSE
 from gelenk.kinematics.simd.kernels import chain_jacobians
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.follow.bounds import CERTAIN, FINEST, SLACK
-from gelenk.trajectory.follow.elimination import field_rates, walked
+from gelenk.trajectory.follow.nearest import field_rates, walked
 from gelenk.trajectory.follow.rate_field import SHARE, RateField, sampled, taken
 from gelenk.trajectory.follow.step import INNER, RATE_TOLERANCE
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, divided

@@ -22,7 +22,6 @@ _EXACT_DEGREE = 10
 _SHORTEST = 1e-5
 """Least time between two breaks of an approximation, in fractions of the whole: doubles give no jerk for less."""
 _SAME = 1e-13
-_STEPS = 60
 RATES_KNOWN = (1e-8, 1e-7, 1e-5)
 """Error of velocity, acceleration and jerk of an approximation, in fractions of the largest of each joint."""
 _TOLERANCES = np.array([1e-9, *RATES_KNOWN])
@@ -103,21 +102,11 @@ def in_time(joints: PiecewisePolynomial, law: PiecewisePolynomial) -> PiecewiseP
 
 def times_at(law: PiecewisePolynomial, s: Array) -> Array:
     """Return when a non-decreasing law reaches places between its ends; shape (N,), [s]."""
-    values = law.at(law.breaks)[:, 0]
-    i = np.clip(np.searchsorted(values, s, side="right") - 1, 0, len(values) - 2)
-    low, high = law.breaks[i].copy(), law.breaks[i + 1].copy()
-    speeds = law.derivative()
-    t = 0.5 * (low + high)
-    for _ in range(_STEPS):
-        off = law.at(t)[:, 0] - s
-        low, high = np.where(off <= 0.0, t, low), np.where(off > 0.0, t, high)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            newton = t - off / speeds.at(t)[:, 0]
-        following = np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
-        if (np.abs(following - t) <= _SAME * law.breaks[-1]).all():
-            break
-        t = following
-    return t
+    from gelenk.trajectory.motion.evaluation import reached  # noqa: PLC0415 - a client has no compiler
+
+    breaks, places = np.ascontiguousarray(law.breaks), np.ascontiguousarray(s, dtype=float)
+    found: Array = reached(breaks, np.ascontiguousarray(law.coefficients), law.at(breaks)[:, 0].copy(), places)
+    return found
 
 
 def _breaks(joints: PiecewisePolynomial, law: PiecewisePolynomial, least: float) -> Array:

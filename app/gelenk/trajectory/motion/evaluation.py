@@ -5,6 +5,9 @@ import numpy as np
 from gelenk.robot.arrays import Array
 from gelenk.robot.compilation import compiled
 
+_STEPS = 60
+_SAME = 1e-13
+
 
 @compiled
 def evaluated(breaks: Array, coefficients: Array, times: Array, order: int) -> Array:
@@ -63,3 +66,30 @@ def composed(pieces: Array, laws: Array) -> Array:
                     found[i, power, j] = value
             found[i, 0] = pieces[i, k]
     return found
+
+
+@compiled
+def reached(breaks: Array, coefficients: Array, values: Array, places: Array) -> Array:
+    """Return when a non-decreasing motion of one coordinate is at places between its ends; shape (N,), [s].
+
+    `values` are those at the breaks. Newton's method, and bisection where that would leave the piece.
+    """
+    times = np.empty(len(places))
+    for i in range(len(places)):
+        piece = min(max(np.searchsorted(values, places[i], side="right") - 1, 0), len(values) - 2)
+        low, high = 0.0, breaks[piece + 1] - breaks[piece]
+        t = 0.5 * high
+        for _ in range(_STEPS):
+            value, slope = 0.0, 0.0
+            for k in range(coefficients.shape[1] - 1, -1, -1):
+                slope = slope * t + value
+                value = value * t + coefficients[piece, k, 0]
+            off = value - places[i]
+            low, high = (t, high) if off <= 0.0 else (low, t)
+            newton = t - off / slope if slope > 0.0 else high
+            following = newton if low <= newton <= high else 0.5 * (low + high)
+            if abs(following - t) <= _SAME * breaks[-1]:
+                break
+            t = following
+        times[i] = breaks[piece] + t
+    return times

@@ -1,7 +1,7 @@
 """Paths whose position is a polynomial of a parameter u, reparametrised by arc length: splines and blended corners.
 
 The arc length s(u) = ∫ ‖dp/du‖ du is computed by Gauss quadrature on panels that are halved until the sum no longer
-changes, and inverted by Newton's method within a panel. Derivatives by s follow exactly from those by u.
+changes, and inverted by Newton's method within a panel (`arc_length`). Derivatives by s follow exactly from those by u.
 """
 
 from collections.abc import Sequence
@@ -19,6 +19,7 @@ from gelenk.trajectory.audit.words import OrientationLaw
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline
 from gelenk.trajectory.motion.time_laws import hermite_pieces
+from gelenk.trajectory.paths.arc_length import arc_lengths, parameters
 from gelenk.trajectory.paths.curves import PARABOLA, Line
 from gelenk.trajectory.paths.orientation_paths import AxisAnglePath, OrientationPath, axis_angle
 from gelenk.trajectory.paths.paths import (
@@ -38,13 +39,9 @@ from gelenk.trajectory.paths.zyz_paths import ZyzPath, zyz_corner
 Turn: TypeAlias = AxisAnglePath | ZyzPath
 SplineBoundary: TypeAlias = Literal["natural", "not_a_knot", "periodic"]
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
 _FINEST = 256
 """Number of panels per piece at which halving stops."""
 _LENGTH_TOLERANCE = 1e-13
-_NEWTON_STEPS = 40
-_SQUARED = 1e-11
-"""Error of the arc length, as a fraction of the whole, from which one more Newton step leaves only rounding errors."""
 _SLOWEST = 1e-12
 """Fraction of the mean speed below which dp/du counts as zero: a cusp, which has no tangent."""
 
@@ -108,9 +105,12 @@ class PolynomialPath:
 
     def _lengths(self, begin: Array, finish: Array) -> Array:
         """Return the arc lengths between pairs of u that are close together; shape (N,), [m]."""
-        half = 0.5 * (finish - begin)
-        u = (begin + half)[:, None] + half[:, None] * _NODES
-        return half * (self._speeds(u.ravel()).reshape(u.shape) @ _WEIGHTS)
+        return arc_lengths(*self._slopes, begin, finish)
+
+    @cached_property
+    def _slopes(self) -> tuple[Array, Array]:
+        """Breaks and coefficients of dp/du, as kernels take them."""
+        return np.ascontiguousarray(self._velocity.breaks), np.ascontiguousarray(self._velocity.coefficients)
 
     @cached_property
     def _velocity(self) -> PiecewisePolynomial:
@@ -130,23 +130,8 @@ class PolynomialPath:
         return PiecewisePolynomial(lengths, hermite_pieces(ends[:, :-1], ends[:, 1:], np.diff(lengths)))
 
     def _parameters(self, s: Array) -> Array:
-        edges, lengths = self._table
-        panel = np.clip(np.searchsorted(lengths, s, side="right") - 1, 0, len(edges) - 2)
-        begin, low, high = edges[panel], edges[panel], edges[panel + 1]
-        wanted = s - lengths[panel]
-        u = np.minimum(np.maximum(self._inverse.at(s)[:, 0], low), high)
-        for _ in range(_NEWTON_STEPS):
-            excess = self._lengths(begin, u) - wanted
-            error = float(np.abs(excess).max(initial=0.0))
-            if error <= 4e-16 * lengths[-1]:
-                break
-            low, high = np.where(excess < 0.0, u, low), np.where(excess > 0.0, u, high)
-            newton = u - excess / np.maximum(self._speeds(u), np.finfo(float).tiny)
-            within = (newton >= low) & (newton <= high)
-            u = np.where(within, newton, 0.5 * (low + high))
-            if error <= _SQUARED * lengths[-1] and within.all():
-                break
-        return u
+        s = np.ascontiguousarray(s)
+        return parameters(*self._slopes, *self._table, s, self._inverse.at(s)[:, 0].copy())
 
 
 def spline(
