@@ -148,7 +148,7 @@ def test_extremes_by_brute_force(degree: int, order: int) -> None:
     for larger in (
         np.abs(extremes(pieces, order, absolute=True)[0]) - np.abs(values).max(axis=(0, 2)),
         extremes(pieces, order)[0] - values.max(axis=(0, 2)),
-        extremes(pieces.negated(), order)[0] + values.min(axis=(0, 2)),
+        extremes(pieces._replace(scaled=-pieces.scaled), order)[0] + values.min(axis=(0, 2)),
     ):
         assert (larger >= -1e-9 * size).all(), "none is missed"
         assert (larger <= 1e-4 * size).all(), "none is invented"

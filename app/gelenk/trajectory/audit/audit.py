@@ -19,7 +19,7 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.demands import Demands
-from gelenk.trajectory.audit.pieces import Pieces, extremes, largest_jumps, pieces_of, values_at
+from gelenk.trajectory.audit.pieces import Pieces, extremes, joint_ends, joint_extremes, joint_jumps, pieces_of
 from gelenk.trajectory.audit.result import (
     Audit,
     Continuity,
@@ -41,8 +41,6 @@ DERIVATIVES = ("position", "velocity", "acceleration", "jerk")
 _RATES: tuple[Literal["velocity", "acceleration", "jerk"], ...] = ("velocity", "acceleration", "jerk")
 _DIGIT = 10.0
 """Factor by which the tolerated jump grows with each derivative: coefficients hold fewer digits of higher ones."""
-_ZONE_SAMPLES = 200
-"""Samples of a zone that has its own limits."""
 _TIP_UNITS = {"speed": "m/s", "angular_speed": "rad/s", "acceleration": "m/s²", "angular_acceleration": "rad/s²"}
 
 
@@ -56,11 +54,12 @@ def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands:
     if not (np.isfinite(motion.coefficients).all() and (np.diff(motion.breaks) > 0.0).all()):
         raise CertificationFailed("the motion", math.nan, 0.0)
     examination = _Examination(pieces_of(motion), chain, demands, [])
-    peaks = examination.joint_peaks()
+    values, times = (found.tolist() for found in joint_extremes(examination.pieces))
+    peaks = examination.joint_peaks(values[2:], times[2:])
     tip, deviations = examination.tip()
     qs, poses = poses_at(examination.pieces, chain, MAX_SAMPLES)
     continuity = examination.continuity(peaks)
-    margin = examination.margin()
+    margin = examination.margin(values, times)
     ends = examination.ends(peaks)
     torque = examination.torque()
     return Audit(
@@ -153,23 +152,26 @@ class _Examination:
     demands: Demands
     reasons: list[Reason]
 
-    def joint_peaks(self) -> dict[str, Peak]:
-        """Find the peaks of velocity, acceleration and jerk; empty without joints."""
+    def joint_peaks(self, values: list[list[float]], times: list[list[float]]) -> dict[str, Peak]:
+        """Compare the peaks of velocity, acceleration and jerk with their limits; empty without joints."""
         demands, names = self.demands, self.chain.joint_names
         peaks: dict[str, Peak] = {}
         for order, check in enumerate(_RATES if names else (), start=1):
-            found = [self.joint_peak(order, self.pieces, getattr(demands.joints, check), demands.stated_jerk)]
+            whole = values[order - 1], times[order - 1]
+            found = [self.joint_peak(order, *whole, getattr(demands.joints, check), demands.stated_jerk)]
             for zone in demands.zones:
                 if zone.joints is not None:
-                    within = self.pieces.between(zone.begin, zone.end)
-                    found.append(self.joint_peak(order, within, zone.joints[order - 1], zone.stated_jerk))
+                    sizes, at = extremes(self.pieces.between(zone.begin, zone.end), order, absolute=True)
+                    limits = zone.joints[order - 1], zone.stated_jerk
+                    found.append(self.joint_peak(order, sizes.tolist(), at.tolist(), *limits))
             peaks[check] = max(found, key=lambda peak: peak.ratio or 0.0)
         return peaks
 
-    def joint_peak(self, order: int, pieces: Pieces, limits: Array | None, stated_jerk: Array | None) -> Peak:
-        """Find the peak of a rate in some of the pieces, and check it."""
+    def joint_peak(
+        self, order: int, values: list[float], times: list[float], limits: Array | None, stated_jerk: Array | None
+    ) -> Peak:
+        """Return the peak nearest to its limit of those of all joints, and check it."""
         check, names = _RATES[order - 1], self.chain.joint_names
-        values, times = extremes(pieces, order, absolute=True)
         peak = enforced = _worst(values, times, names, limits)
         if check == "jerk" and not self.demands.keeps_jerk:
             enforced = _worst(values, times, names, stated_jerk)
@@ -183,8 +185,9 @@ class _Examination:
         if not names:
             return Continuity(None, None, None, None)
         jumps = []
+        values, times = (found.tolist() for found in joint_jumps(self.pieces))
         for order, quantity in enumerate(DERIVATIVES):
-            found = _worst(*largest_jumps(self.pieces, order), names, None)
+            found = _worst(values[order], times[order], names, None)
             jump = Jump(found.value, found.joint, found.time)
             jumps.append(jump)
             allowed = _DIGIT**order * tolerance * _scale(peaks, quantity)
@@ -193,20 +196,19 @@ class _Examination:
                 self.reasons.append(Reason("continuity", detail, jump.joint, jump.time))
         return Continuity(*jumps)
 
-    def margin(self) -> LimitMargin | None:
+    def margin(self, values: list[list[float]], times: list[list[float]]) -> LimitMargin | None:
         chain, limits = self.chain, self.demands.joints
         lower = chain.lower if limits.lower is None else limits.lower
         upper = chain.upper if limits.upper is None else limits.upper
         if not (np.isfinite(lower).any() or np.isfinite(upper).any()):
             return None
-        lowest, lowest_times = extremes(self.pieces.negated(), 0)
-        highest, highest_times = extremes(self.pieces, 0)
         # 0 - 0 is 0, and the opposite of 0 is -0.
-        below, above = 0.0 - lowest - lower, upper - highest
-        bound: Literal["lower", "upper"] = "lower" if below.min() < above.min() else "upper"
-        distances, times = (below, lowest_times) if bound == "lower" else (above, highest_times)
-        joint = int(distances.argmin())
-        margin = LimitMargin(float(distances[joint]), chain.joint_names[joint], bound, float(times[joint]))
+        below = [0.0 - value - bound for value, bound in zip(values[0], lower.tolist(), strict=True)]
+        above = [bound - value for value, bound in zip(values[1], upper.tolist(), strict=True)]
+        joint = _worst_index([-distance for distance in (*above, *below)])
+        side, joint = divmod(joint, len(above))
+        bound: Literal["lower", "upper"] = "lower" if side else "upper"
+        margin = LimitMargin((above, below)[side][joint], chain.joint_names[joint], bound, times[1 - side][joint])
         if not margin.value >= -self.demands.tolerance:
             detail = f"the joint goes {-margin.value:.6g} beyond its {bound} limit"
             self.reasons.append(Reason("joint_limit", detail, margin.joint, margin.time))
@@ -215,18 +217,18 @@ class _Examination:
     def ends(self, peaks: dict[str, Peak]) -> dict[str, float]:
         pieces, names, demands = self.pieces, self.chain.joint_names, self.demands
         errors: dict[str, float] = {}
-        last = len(pieces.widths) - 1
-        for i, (end, piece, tau) in enumerate((("start", 0, 0.0), ("end", last, 1.0))):
-            rates = np.zeros((1, len(names))) if demands.end_rates is None else demands.end_rates[i]
-            for order, wanted in enumerate((None if demands.ends is None else demands.ends[i], *rates)):
+        rest = [[0.0] * len(names)]
+        for i, (end, found) in enumerate(zip(("start", "end"), joint_ends(pieces).tolist(), strict=True)):
+            rates = rest if demands.end_rates is None else demands.end_rates[i].tolist()
+            position = None if demands.ends is None else demands.ends[i].tolist()
+            for quantity, values, wanted in zip(DERIVATIVES, found, (position, *rates), strict=False):
                 if wanted is None or not names:
                     continue
-                quantity = DERIVATIVES[order]
-                off = np.abs(values_at(pieces, np.array([piece]), np.array([tau]), order)[0] - wanted)
-                joint = int(off.argmax())
-                errors[f"{end}_{quantity}"] = error = float(off[joint])
+                off = [abs(value - one) for value, one in zip(values, wanted, strict=True)]
+                joint = _worst_index(off)
+                errors[f"{end}_{quantity}"] = error = off[joint]
                 if not error <= demands.tolerance * _scale(peaks, quantity):
-                    time = float(pieces.starts[piece] + tau * pieces.widths[piece])
+                    time = float(pieces.starts[-1] + pieces.widths[-1] if i else pieces.starts[0])
                     detail = f"{quantity} at the {end} is off by {error:.6g}"
                     self.reasons.append(Reason("boundary", detail, names[joint], time))
         return errors
@@ -235,12 +237,11 @@ class _Examination:
         """Find the torque nearest to its limit, or the largest if none is limited."""
         stretches = [(self.pieces, self.demands.torque)]
         stretches += [(self.pieces.between(zone.begin, zone.end), zone.torque) for zone in self.demands.zones]
-        names = self.chain.joint_names
-        peaks = [
-            _worst(*torque_peaks(pieces, limits), names, limits.most)
-            for pieces, limits in stretches
-            if limits is not None and names
-        ]
+        names, peaks = self.chain.joint_names, []
+        for pieces, limits in stretches:
+            if limits is not None and names:
+                values, times = torque_peaks(pieces, limits)
+                peaks.append(_worst(values.tolist(), times.tolist(), names, limits.most))
         peak = max(peaks, key=lambda one: one.ratio or 0.0, default=None)
         if peak is not None and peak.ratio is not None and not peak.ratio <= 1.0 + self.demands.tolerance:
             detail = f"torque is {peak.ratio:.6g} times the limit"
@@ -258,11 +259,11 @@ class _Examination:
             largest |= path_peaks(self.pieces, self.chain, demands.path, demands.task)
         for quantity, found in largest.items():
             limit = limits[quantity]
-            ratio = float(_ratios(np.array(found.value), np.array(limit))) if math.isfinite(limit) else None
+            ratio = _ratio(found.value, limit) if math.isfinite(limit) else None
             peaks[quantity] = Peak(ratio, found.value, None, found.time)
             self.check_tip(quantity, found, limit, ratio)
         for zone in demands.zones:
-            within = tip_peaks(self.pieces.between(zone.begin, zone.end), self.chain, _ZONE_SAMPLES)
+            within = tip_peaks(self.pieces.between(zone.begin, zone.end), self.chain)
             for quantity, found in within.items():
                 limit = getattr(zone.tip, quantity)
                 if math.isfinite(limit):
@@ -284,19 +285,24 @@ class _Examination:
             self.reasons.append(Reason("path", detail, None, found.time))
 
 
-def _worst(values: Array, times: Array, names: tuple[str, ...], bounds: Array | None) -> Peak:
+def _worst(values: list[float], times: list[float], names: tuple[str, ...], bounds: Array | None) -> Peak:
     """Return the joint nearest to its limit, or the largest value if none is limited."""
-    sizes = np.abs(values)
-    limited = bounds is not None and bool(np.isfinite(bounds).any())
-    ratios = _ratios(sizes, bounds) if limited and bounds is not None else sizes
-    joint = int(ratios.argmax())
-    return Peak(float(ratios[joint]) if limited else None, float(values[joint]), names[joint], float(times[joint]))
+    limits = [math.inf] if bounds is None else bounds.tolist()
+    limited = any(map(math.isfinite, limits))
+    ratios = [_ratio(*pair) for pair in zip(values, limits, strict=True)] if limited else [abs(one) for one in values]
+    joint = _worst_index(ratios)
+    return Peak(ratios[joint] if limited else None, values[joint], names[joint], times[joint])
 
 
-def _ratios(sizes: Array, bounds: Array) -> Array:
-    """Divide sizes by limits; where the limit is 0, a size of 0 gives 0 and any other gives infinity."""
-    beyond = np.where(sizes > 0.0, np.inf, 0.0)
-    return np.divide(sizes, bounds, out=beyond, where=bounds > 0.0)
+def _worst_index(values: list[float]) -> int:
+    """Return where the largest value is; one that is not a number is the largest."""
+    return max(range(len(values)), key=lambda i: (math.isnan(values[i]), values[i]))
+
+
+def _ratio(value: float, limit: float) -> float:
+    """Divide a magnitude by its limit; if the limit is 0, a value of 0 gives 0 and any other gives infinity."""
+    size = abs(value)
+    return size / limit if limit > 0.0 else math.inf if size > 0.0 else 0.0
 
 
 def _scale(peaks: dict[str, Peak], quantity: str) -> float:

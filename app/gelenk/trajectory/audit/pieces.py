@@ -15,6 +15,8 @@ from gelenk.robot.compilation import compiled, inlined
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _MIN_INTERVALS = 12
+_PLACES = 16
+"""Least number of steps by which the travel of a whole motion is measured."""
 _ROUNDING = 1e-13
 _SAME = 1e-12
 """Share by which a piece must be able to exceed the largest sample to be searched."""
@@ -40,10 +42,6 @@ class Pieces(NamedTuple):
         middles = self.starts + 0.5 * self.widths
         some = slice(*np.searchsorted(middles, (begin, end)))
         return Pieces(self.starts[some], self.widths[some], self.scaled[some])
-
-    def negated(self) -> "Pieces":
-        """Return the pieces of the opposite motion, whose highest values are the lowest."""
-        return Pieces(self.starts, self.widths, -self.scaled)
 
     def times(self, piece: Indices, tau: Array) -> Array:
         """Return the times at τ of some pieces, [s]."""
@@ -271,3 +269,49 @@ def largest_jumps(pieces: Pieces, order: int) -> tuple[Array, Array]:
             if abs(jump) > jumps[joint]:
                 jumps[joint], times[joint] = abs(jump), pieces.starts[piece]
     return jumps, times
+
+
+@compiled
+def joint_extremes(pieces: Pieces) -> tuple[Array, Array]:
+    """Find the extremes of each joint and their times, [s]; shape (5, n) each.
+
+    They are the opposite of the lowest position, the highest, and the largest magnitudes of three derivatives.
+    """
+    values, times = np.empty((5, pieces.scaled.shape[2])), np.empty((5, pieces.scaled.shape[2]))
+    values[0], times[0] = extremes(Pieces(pieces.starts, pieces.widths, -pieces.scaled), 0, False)
+    for order in range(4):
+        values[order + 1], times[order + 1] = extremes(pieces, order, order > 0)
+    return values, times
+
+
+@compiled
+def joint_jumps(pieces: Pieces) -> tuple[Array, Array]:
+    """Find the largest jumps of position and three derivatives, and when, [s]; shape (4, n) each."""
+    values, times = np.empty((4, pieces.scaled.shape[2])), np.empty((4, pieces.scaled.shape[2]))
+    for order in range(4):
+        values[order], times[order] = largest_jumps(pieces, order)
+    return values, times
+
+
+@compiled
+def joint_ends(pieces: Pieces) -> Array:
+    """Evaluate position, velocity and acceleration at the start and the end; shape (2, 3, n)."""
+    found, last = np.empty((2, 3, pieces.scaled.shape[2])), len(pieces.widths) - 1
+    for order in range(3):
+        for joint in range(found.shape[2]):
+            found[0, order, joint] = value_at(pieces, 0, joint, 0.0, order)
+            found[1, order, joint] = value_at(pieces, last, joint, 1.0, order)
+    return found
+
+
+@compiled
+def travel(pieces: Pieces) -> float:
+    """Return how far all joints go together, at least, [rad or m]: from piece to piece, or places between in few."""
+    steps, total = max(1, _PLACES // len(pieces.widths)), 0.0
+    for piece in range(len(pieces.widths)):
+        for joint in range(pieces.scaled.shape[2]):
+            before = pieces.scaled[piece, 0, joint]
+            for k in range(1, steps + 1):
+                here = _by_tau(pieces, piece, joint, k / steps, 0)
+                total, before = total + abs(here - before), here
+    return total

@@ -1,7 +1,7 @@
 """Motion of the tip while the joints move: speeds, accelerations, path deviations and nearness to a singularity.
 
-All quantities are sampled densely, including both ends of each piece, and refined where parabolas through the samples
-reach higher.
+All quantities are sampled at both ends of each piece and between, the more densely the further the joints travel, and
+refined where parabolas through the samples reach higher.
 """
 
 from collections.abc import Callable
@@ -18,15 +18,17 @@ from gelenk.robot.compilation import compiled
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.kernels import smallest_singular_values, tip_rates
 from gelenk.trajectory.audit.peaks import ROUNDS, highest, narrowed, promising, tried, triples
-from gelenk.trajectory.audit.pieces import Pieces, positions_at, rate_bounds, values_at
+from gelenk.trajectory.audit.pieces import Pieces, positions_at, rate_bounds, travel, values_at
 from gelenk.trajectory.audit.result import SmallestSingularValue
 
 PathOfTime: TypeAlias = Callable[[Array], Poses]
 """The demanded pose T_base_tip at times of shape (N,), [s]."""
 
 MIN_SAMPLES = 1500
-"""Samples of the whole motion; more if there are many pieces."""
-_SIGMA_SAMPLES = 400
+"""Samples of the whole motion along a path or within torques; more if there are many pieces."""
+_RATE_SAMPLES, _SIGMA_SAMPLES = (200, 40.0), (60, 15.0)
+"""Samples in which the tip's rates and σ are examined: of any motion, and for each radian that all joints travel."""
+_MOST_SAMPLES = 20_000
 _ROUNDING = 1e-12
 """Rounding of path deviations, [m] and [rad], and of the tip's rates, in fractions of the joints' rates."""
 _THREE = np.array([-1, 0, 1])
@@ -61,10 +63,15 @@ def grid(pieces: Pieces, least: int, intervals: int) -> tuple[Indices, Array, In
     return piece, tau, inner
 
 
-def tip_peaks(pieces: Pieces, chain: Chain, least: int = MIN_SAMPLES) -> dict[str, Largest]:
-    """Find the largest value of each of `RATES`, [m/s, rad/s, m/s², rad/s²]; at least `least` samples are examined."""
-    values, times = rate_peaks(chain.flat, pieces, least)
+def tip_peaks(pieces: Pieces, chain: Chain) -> dict[str, Largest]:
+    """Find the largest value of each of `RATES`, [m/s, rad/s, m/s², rad/s²]."""
+    values, times = rate_peaks(chain.flat, pieces, _enough(pieces, *_RATE_SAMPLES))
     return {name: Largest(*found) for name, *found in zip(RATES, values.tolist(), times.tolist(), strict=True)}
+
+
+def _enough(pieces: Pieces, least: int, each: float) -> int:
+    """Return how many samples show every wave: the more, the further all joints turn together."""
+    return int(min(least + each * travel(pieces), _MOST_SAMPLES))
 
 
 @compiled
@@ -74,13 +81,14 @@ def rate_peaks(flat: FlatChain, pieces: Pieces, least: int) -> tuple[Array, Arra
     rates = tip_rates(flat, pieces, piece, tau)
     rows, columns, tops, exact = promising(tau, rates, inner, _rounding(pieces))
     places, values, best, where = triples(tau, rates, rows, columns)
-    for _ in range(ROUNDS if len(rows) else 0):
+    for k in range(ROUNDS if len(rows) else 0):
         at = tried(places, values)
         found = tip_rates(flat, pieces, np.repeat(piece[rows], at.shape[1]), at.ravel())
         of_each = np.empty(at.shape)
         for c in range(len(rows)):
             of_each[c] = found[c * at.shape[1] : (c + 1) * at.shape[1], columns[c]]
-        if narrowed(places, values, at, of_each, best, where, exact[columns]):
+        # The first parabola can be right at its vertex, and its vertex still beside the peak.
+        if narrowed(places, values, at, of_each, best, where, exact[columns]) and k:
             break
     peaks, times = np.empty(len(tops)), np.empty(len(tops))
     for q in range(len(tops)):
@@ -116,7 +124,7 @@ def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE
     """
     # The task's rotations are about the tip's axes.
     value, time = least_singular_value(
-        chain.flat, pieces, np.flatnonzero(task.weights), task != FULL_POSE, _SIGMA_SAMPLES
+        chain.flat, pieces, np.flatnonzero(task.weights), task != FULL_POSE, _enough(pieces, *_SIGMA_SAMPLES)
     )
     return SmallestSingularValue(value, time)
 
@@ -134,10 +142,10 @@ def least_singular_value(
     negative[:, 0] = -smallest_singular_values(flat, positions_at(pieces, times), rows, about_tip)
     near, columns, tops, exact = promising(times, negative, np.arange(1, len(times) - 1), np.zeros(1))
     places, values, best, where = triples(times, negative, near, columns)
-    for _ in range(ROUNDS if len(near) else 0):
+    for k in range(ROUNDS if len(near) else 0):
         at = tried(places, values)
         found = smallest_singular_values(flat, positions_at(pieces, at.ravel()), rows, about_tip)
-        if narrowed(places, values, at, -found.reshape(at.shape), best, where, exact[columns]):
+        if narrowed(places, values, at, -found.reshape(at.shape), best, where, exact[columns]) and k:
             break
     value, time = negative[tops[0], 0], times[tops[0]]
     for c in range(len(near)):
