@@ -203,3 +203,34 @@ def test_of_blended_lines_each_keeps_its_own_limits_of_joints(
         assert np.abs(rates[after] / tight).max() < 1.01
     assert told["audit"]["passed"]
     assert told["audit"][name.removeprefix("joint_")]["ratio"] == pytest.approx(1.0, abs=0.1)
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize("law", LAWS)
+def test_corners_at_circles_stay_within_their_radius_and_are_smooth(client: TestClient, law: str) -> None:
+    """A line, two arcs that meet at an angle, and a line; by differences of the tip's poses."""
+    pose, radius = tip(client), 0.02
+    places = {name: shifted(pose, x, z) for name, x, z in (("a", -0.1, 0.0), ("b", -0.1, 0.1), ("c", -0.2, 0.1))}
+    segments: list[dict[str, Any]] = [
+        {"type": "line", "target": places["a"], "blend_radius": radius},
+        {"type": "circle", "via": shifted(pose, -0.07, 0.05), "target": places["b"], "blend_radius": radius},
+        {"type": "circle", "via": shifted(pose, -0.15, 0.12), "target": places["c"], "blend_radius": radius},
+        {"type": "line", "target": shifted(pose, -0.2, 0.2)},
+    ]
+    call = {"start": START, "segments": segments, "law": law, "sample_period": 0.001}
+    told = client.post("/v1/robots/ur5/trajectory", json=call).json()
+    assert told["audit"]["passed"]
+    assert told["completed_fraction"] == 1.0
+    positions, times = np.array([one["position"] for one in told["tip_poses"]])[:-1], np.array(told["times"])[:-1]
+    for corner, segment in zip(places.values(), told["segments"], strict=False):
+        distances = np.linalg.norm(positions - corner["position"], axis=1)
+        inside = (times > segment["blend"]["start_time"]) & (times < segment["blend"]["end_time"])
+        assert 0.001 < distances.min() < distances[inside].max() <= radius + 1e-6
+        assert distances[~inside].min() > 0.9 * radius, "an arc's chord is a little shorter than the arc"
+        velocities = np.gradient(positions, times, axis=0)[inside]
+        assert np.linalg.norm(velocities, axis=1).min() > 0.01, "without a stop"
+    if law in {"quintic", "septic", "jerk_limited"}:
+        # A jump of the acceleration would stay in the differences, however short they are.
+        fine, coarse = (np.abs(np.diff(positions[::step], 3, axis=0)).max() / step**2 for step in (2, 4))
+        assert fine < 0.7 * coarse
+        assert told["audit"]["continuity"]["acceleration"]["value"] < 1e-6

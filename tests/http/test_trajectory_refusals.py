@@ -95,7 +95,7 @@ def places(problem: dict[str, Any]) -> list[str]:
         ({"segments": [{**SPLINE, "times": [1.0, 9.0], "duration": 9.0}]}, "#/segments/0/duration", "`times`"),
         ({"segments": [{**SPLINE, "boundary": "loose"}]}, "#/segments/0/boundary", "'clamped', 'natural'"),
         ({"segments": [BLENDED]}, "#/segments/0/blend_radius", "last segment"),
-        ({"segments": [BLENDED, CIRCLE]}, "#/segments/0/blend_radius", "type circle"),
+        ({"segments": [BLENDED, JOINT]}, "#/segments/0/blend_radius", "type joint"),
         ({"segments": [{**LINE, "blend_time": 0.1}, JOINT]}, "#/segments/0/blend_time", "type joint"),
         ({"segments": [{**LINE, "blend_acceleration": 1.0}]}, "#/segments/0/blend_acceleration", "last segment"),
         ({"segments": [{**BLENDED, "blend_time": 0.1}, LINE]}, "#/segments/0/blend_time", "`blend_radius`"),

@@ -22,8 +22,9 @@ from gelenk.trajectory.follow import integrate as follow_trace
 from gelenk.trajectory.follow.follow import FollowedPath, follow
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline
+from gelenk.trajectory.paths.corners import blended_lines
 from gelenk.trajectory.paths.paths import Path, PathSamples, PathSequence, Unit, circle, line
-from gelenk.trajectory.paths.spline_paths import blended_lines, spline
+from gelenk.trajectory.paths.spline_paths import spline
 from gelenk.trajectory.problem.problem import Following
 from tests.robots import of_table, robot, rows, samples
 

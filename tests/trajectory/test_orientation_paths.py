@@ -7,14 +7,12 @@ import pytest
 from scipy.spatial.transform import Rotation, RotationSpline, Slerp
 
 from gelenk.robot.arrays import Array
-from gelenk.trajectory.paths.curves import PARABOLA, QUARTIC
 from gelenk.trajectory.paths.orientation_paths import (
-    AxisAnglePath,
     OrientationPath,
     axis_angle,
     travelled,
 )
-from gelenk.trajectory.paths.rotation_splines import angular_motion, rate_matrices, rotation_corner, rotation_spline
+from gelenk.trajectory.paths.rotation_splines import angular_motion, rate_matrices, rotation_spline, vector_motion
 from gelenk.trajectory.paths.zyz_paths import zyz_turns
 
 HALF = np.array([0.5])
@@ -136,21 +134,6 @@ def test_the_spline_passes_its_knots_smoothly() -> None:
     np.testing.assert_allclose(path.at(x)[1], differs_by_steps(path, x, 1e-6)[0], atol=1e-6 * scale)
 
 
-@pytest.mark.parametrize("weights", [PARABOLA, QUARTIC], ids=["parabola", "quartic"])
-def test_the_turn_over_a_corner_joins_its_legs(weights: Array) -> None:
-    """Its rates at both ends are twice those of the ways to and from the corner, as a parabola's are."""
-    entry, corner, leaving = Rotation.random(3, rng=5).as_matrix()
-    path = rotation_corner(entry, corner, leaving, weights)
-    rotations, rates, changes = path.at(ENDS)
-    if weights is QUARTIC:
-        np.testing.assert_allclose(changes, 0.0, atol=1e-13)
-    np.testing.assert_allclose(rotations, [entry, leaving], atol=5e-15)
-    ways: list[AxisAnglePath] = [axis_angle(entry, corner), axis_angle(corner, leaving)]
-    np.testing.assert_allclose(rates, [2.0 * way.angle * (way.start @ way.axis) for way in ways], atol=1e-13)
-    x = np.linspace(0.01, 0.99, 20)
-    np.testing.assert_allclose(path.at(x)[1], differs_by_steps(path, x)[0], atol=1e-7)
-
-
 # The rates of rotation vectors
 
 
@@ -172,3 +155,7 @@ def test_rates_of_a_rotation_vector_by_differences(size: float) -> None:
     np.testing.assert_allclose(omegas, rates, atol=1e-6)
     np.testing.assert_allclose(alphas, changes, atol=1e-5)
     np.testing.assert_allclose(np.einsum("nij,nj->ni", rate_matrices(thetas), first), omegas)
+    if size < pi:
+        rotations = np.ascontiguousarray(Rotation.from_rotvec(thetas).as_matrix())
+        for found, given in zip(vector_motion(rotations, omegas, alphas), (thetas, first, second), strict=True):
+            np.testing.assert_allclose(found, given, atol=1e-12)

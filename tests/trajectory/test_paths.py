@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -9,16 +10,17 @@ from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation, Slerp
 
-from gelenk.course.motion.fly_over import blended, corner_of
+from gelenk.course.motion.fly_over import blended as flown_over
+from gelenk.course.motion.fly_over import corner_of
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses, transform
-from gelenk.trajectory.paths.curves import QUARTIC
-from gelenk.trajectory.paths.paths import Path, PathSamples, circle, line
-from gelenk.trajectory.paths.spline_paths import blended_lines, spline
+from gelenk.trajectory.paths.corners import blended, blended_lines
+from gelenk.trajectory.paths.paths import Path, PathSamples, PathSequence, circle, line
+from gelenk.trajectory.paths.spline_paths import spline
 from gelenk.trajectory.paths.zyz_paths import zyz_turns
 
-SMOOTH = [QUARTIC] * 3
+RADII = [0.2, 0.1, 0.3]
 
 
 def poses(count: int, seed: int, step: float = 0.7) -> Poses:
@@ -42,16 +44,25 @@ def example(kind: str, seed: int = 1) -> Path:
         "circle by zyz": lambda: circle(Ts[0], Ts[1], Ts[2], "zyz_other"),
         "spline": lambda: spline(poses(6, seed)),
         "spline by zyz": lambda: spline(poses(6, seed), "natural", "zyz"),
-        "blended lines": lambda: blended_lines(poses(5, seed), [0.2, 0.1, 0.3]),
-        "smooth corners": lambda: blended_lines(poses(5, seed), [0.2, 0.1, 0.3], shapes=SMOOTH),
-        "smooth corners by zyz": lambda: blended_lines(
-            poses(5, seed), [0.2, 0.1, 0.3], zyz_turns(poses(5, seed).rotations, [False, True, False, False]), SMOOTH
-        ),
-        "blended lines by zyz": lambda: blended_lines(
-            poses(5, seed), [0.2, 0.1, 0.3], turns=zyz_turns(poses(5, seed).rotations, [False, True, False, False])
-        ),
+        "blended lines": lambda: blended_lines(poses(5, seed), RADII),
+        "smooth corners": lambda: blended_lines(poses(5, seed), RADII, smooth=True),
+        "smooth corners by zyz": lambda: by_zyz(poses(5, seed), smooth=True),
+        "blended lines by zyz": lambda: by_zyz(poses(5, seed), smooth=False),
+        "corners of arcs": lambda: of_arcs(matrices(7, seed)),
     }
     return made[kind]()
+
+
+def by_zyz(waypoints: Poses, *, smooth: bool) -> PathSequence:
+    turns = zyz_turns(waypoints.rotations, [False, True, False, False])
+    legs = [line(*Ts, turn) for Ts, turn in zip(pairwise(waypoints.matrices()), turns, strict=True)]
+    return blended(legs, RADII, [smooth] * 3)
+
+
+def of_arcs(Ts: Array) -> PathSequence:
+    """A line, an arc by each law of orientation, and a line."""
+    arcs = circle(Ts[1], Ts[2], Ts[3]), circle(Ts[3], Ts[4], Ts[5], "zyz_other")
+    return blended([line(Ts[0], Ts[1]), *arcs, line(Ts[5], Ts[6])], RADII, [True] * 3)
 
 
 def angle_of(path: Path) -> float:
@@ -68,7 +79,7 @@ def twists(samples: PathSamples, speeds: Array) -> Array:
 KINDS = (
     *("line", "line by zyz", "turn", "circle", "circle by zyz"),
     *("spline", "spline by zyz", "blended lines", "blended lines by zyz"),
-    *("smooth corners", "smooth corners by zyz"),
+    *("smooth corners", "smooth corners by zyz", "corners of arcs"),
 )
 
 
@@ -338,7 +349,7 @@ def test_a_blended_corner_is_the_fly_over() -> None:
     path = blended_lines(waypoints, [0.25])
     begin, finish = path.breaks
     way = corner_of(waypoints.positions[0], waypoints.positions[1], waypoints.positions[2], 1.0, 1.0)
-    blend = blended(way, "radius", 0.25)
+    blend = flown_over(way, "radius", 0.25)
     on_blend = blend.motion.at(np.linspace(0.0, blend.time, 4001))
     lengths = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(on_blend, axis=0), axis=1))))
     assert finish - begin == pytest.approx(lengths[-1], rel=1e-6)
@@ -365,14 +376,14 @@ def test_the_parabola_has_the_arc_length_of_the_closed_form() -> None:
 
 
 def test_tangent_and_angular_rate_go_on_across_blends() -> None:
-    path = blended_lines(poses(5, 13), [0.2, 0.1, 0.3])
+    path = blended_lines(poses(5, 13), RADII)
     places = np.array(path.breaks)
     assert len(places) == 6
     before, after = path.at(places - 1e-10), path.at(places + 1e-10)
     np.testing.assert_allclose(before.first, after.first, atol=1e-7)
 
 
-@pytest.mark.parametrize("kind", ["smooth corners", "smooth corners by zyz"])
+@pytest.mark.parametrize("kind", ["smooth corners", "smooth corners by zyz", "corners of arcs"])
 def test_curvature_and_angular_rates_go_on_across_smooth_corners(kind: str) -> None:
     path = example(kind, 13)
     places = np.array(path.breaks)
@@ -385,7 +396,7 @@ def test_curvature_and_angular_rates_go_on_across_smooth_corners(kind: str) -> N
 def test_a_smooth_corner_passes_nearer_than_the_parabola() -> None:
     """At u = 1/2, 3/16 of the difference of both legs' ends from the corner, the parabola a quarter."""
     waypoints, radius = poses(3, 11), 0.25
-    path = blended_lines(waypoints, [radius], shapes=[QUARTIC])
+    path = blended_lines(waypoints, [radius], smooth=True)
     begin, finish = path.breaks
     points = path.at(np.linspace(begin, finish, 4001)).poses.positions
     way = corner_of(waypoints.positions[0], waypoints.positions[1], waypoints.positions[2], 1.0, 1.0)

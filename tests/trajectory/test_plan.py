@@ -57,6 +57,13 @@ def joint(target: Array, law: Law = "trapezoidal", limits: SegmentLimits = LIMIT
     return Segment("joint", law, limits, configuration=target, **options)  # type: ignore[arg-type]
 
 
+def arc(start: Array, share: float = 0.5, law: Law = "trapezoidal", **options: object) -> Segment:
+    """Half a circle of 5 cm upwards, by a place at a share of it."""
+    angle = share * np.pi
+    via = moved(start, 0.05 * np.sin(angle), 0.0, 0.05 * (1.0 - np.cos(angle)))
+    return Segment("circle", law, LIMITS, via=via, pose=moved(start, 0.0, 0.0, 0.1), **options)  # type: ignore[arg-type]
+
+
 def check_smoothness(found: Trajectory) -> None:
     """The acceleration is continuous and the jerk within its limits, by the audit."""
     jump, jerk = found.audit.continuity.acceleration, found.audit.jerk
@@ -383,8 +390,8 @@ def test_a_spline_that_swings_beyond_a_limit_ends_at_an_earlier_waypoint() -> No
 @pytest.mark.parametrize(
     ("segments", "field", "reason"),
     [
-        ((line(SIDE, blend_radius=0.1),), "segments.0.blend_radius", "only into a line"),
-        ((line(SIDE, blend_radius=0.1), joint(READY)), "segments.0.blend_radius", "only into a line"),
+        ((line(SIDE, blend_radius=0.1),), "segments.0.blend_radius", "only into one that follows"),
+        ((line(SIDE, blend_radius=0.1), joint(READY)), "segments.0.blend_radius", "only into one that follows"),
         ((line(SIDE, blend_radius=0.1), line(HERE)), "segments.0.blend_radius", "turns back"),
         ((line(SIDE, blend_radius=0.31), line(ABOVE)), "segments.0.blend_radius", "0.3 m long"),
         ((line(SIDE, blend_radius=0.25), line(ABOVE)), "segments.0.blend_radius", "segment 1 is 0.2 m long"),
@@ -396,7 +403,18 @@ def test_a_spline_that_swings_beyond_a_limit_ends_at_an_earlier_waypoint() -> No
         ((line(SIDE, blend_radius=0.1), line(ABOVE, "cubic")), "segments.0.law", "share one law"),
         ((line(SIDE, blend_radius=0.1, duration=2.0), line(ABOVE)), "segments.0.duration", "timed together"),
         ((line(SIDE, blend_time=0.1), line(ABOVE)), "segments.0.blend_time", "tip_velocity"),
-        ((line(SIDE, blend_radius=0.1, orientation="zyz"), line(ABOVE)), "segments.1.orientation", "axis_angle"),
+        ((line(SIDE, blend_radius=0.1), arc(SIDE)), "segments.0.blend_radius", "has 0.0785398 m to its `via`"),
+        (
+            (line(SIDE, blend_radius=0.08), arc(SIDE, 0.9)),
+            "segments.0.blend_radius",
+            "a quarter of its circle",
+        ),
+        ((arc(HERE, blend_radius=0.2), line(ABOVE)), "segments.0.blend_radius", "segment 0 is 0.15708 m long"),
+        (
+            (line(SIDE, blend_radius=0.16, orientation="zyz_other"), line(ABOVE)),
+            "segments.0.blend_radius",
+            "segment 0 turns by more than 180°",
+        ),
         ((line(SIDE, blend_radius=0.1), line(SIDE)), "segments.1.target", "share one position"),
         ((joint(READY + 9.0),), "segments.0.target", "joint panda_joint1 at 9 is outside its limits"),
         (

@@ -17,8 +17,8 @@ from gelenk.trajectory.audit.words import Law
 from gelenk.trajectory.laws.jerk_limited import at_rest, jerk_limited
 from gelenk.trajectory.motion.extremes import peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
+from gelenk.trajectory.paths.corners import blended_lines
 from gelenk.trajectory.paths.paths import circle, line
-from gelenk.trajectory.paths.spline_paths import blended_lines
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.averages import moving_average
 from gelenk.trajectory.timing.path_laws import least_trapezoidal

@@ -9,9 +9,8 @@ from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
 from gelenk.robot.arrays import Array
-from gelenk.trajectory.paths.curves import PARABOLA
 from gelenk.trajectory.paths.orientation_paths import OrientationPath
-from gelenk.trajectory.paths.zyz_paths import ZyzPath, zyz_corner, zyz_spline, zyz_triples, zyz_turns
+from gelenk.trajectory.paths.zyz_paths import ZyzPath, zyz_spline, zyz_triples, zyz_turns
 from tests.trajectory.test_orientation_paths import ENDS, angle_between, differs_by_steps, zyz
 
 KNOTS = np.array([0.0, 0.3, 0.45, 1.0])
@@ -123,15 +122,3 @@ def test_turns_in_a_row_begin_where_the_one_before_ends() -> None:
         np.testing.assert_allclose(before.triple_at(1.0), after.triple_at(0.0), atol=1e-15)
     for turn, pair in zip(turns, pairwise(wanted), strict=True):
         np.testing.assert_allclose(turn.at(ENDS)[0], pair, atol=1e-13)
-        part, x = turn.part(0.2, 0.7), np.linspace(0.0, 1.0, 9)
-        np.testing.assert_allclose(part.at(x)[0], turn.at(0.2 + 0.5 * x)[0], atol=1e-14)
-
-
-def test_over_a_corner_the_rates_are_those_of_both_turns() -> None:
-    before, after = zyz_turns(rotations(3, 8), [False, True])
-    corner = zyz_corner(before.triple_at(0.6), after.triple_at(0.0), after.triple_at(0.4), PARABOLA)
-    turns_by(corner)
-    entry, leaving = before.at(np.array([0.6])), after.at(np.array([0.4]))
-    np.testing.assert_allclose(corner.at(ENDS)[0], [entry[0][0], leaving[0][0]], atol=1e-14)
-    # At both ends u runs as if the corner were reached half way.
-    np.testing.assert_allclose(corner.at(ENDS)[1], [0.8 * entry[1][0], 0.8 * leaving[1][0]], atol=1e-13)

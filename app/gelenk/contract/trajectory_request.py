@@ -153,27 +153,28 @@ class LineSegment(SegmentOptions):
     type: Literal["line"] = Field(description="Straight on.")
     target: Pose = Field(description="Pose of `tip_frame` in `base_frame` at its end.")
     blend_radius: float | None = optional(
-        "Distance from the target at which the motion leaves this line for the next one, without a stop, [m]: along a "
-        "parabola, or with `quintic`, `septic` and `jerk_limited` a quartic of continuous curvature, closer to the "
-        "target. The next segment must be a line.",
+        "Distance from the target at which the motion leaves this line for the next line or circle, without a stop, "
+        "[m]: along a parabola, or at a circle and with `quintic`, `septic` and `jerk_limited` a curve of continuous "
+        "curvature, closer to the target.",
         ge=0,
         le=1e6,
     )
     blend_acceleration: _Bound | None = optional(
-        "Instead of `blend_radius`, a_max of the course's fly-over, [m/s²]: the tip's acceleration in the blend is no "
-        "more. The radius is v ΔT/2 with ΔT = ‖v K_BC - v K_AB‖/a_max, v the smallest `tip_velocity` of the lines that "
-        "are blended. With `trapezoidal` and `time_optimal` the corner then takes ΔT, or longer if the joints need it."
+        "Instead of `blend_radius`, between lines, a_max of the course's fly-over, [m/s²]: the tip's acceleration in "
+        "the blend is no more. The radius is v ΔT/2 with ΔT = ‖v K_BC - v K_AB‖/a_max, v the smallest `tip_velocity` "
+        "of the lines that are blended. With `trapezoidal` and `time_optimal` the corner then takes ΔT, or longer if "
+        "the joints need it."
     )
     blend_time: Duration | None = optional(
-        "Instead of `blend_radius`, ΔT of the course's fly-over, [s]: the radius is v ΔT/2, v the smallest "
-        "`tip_velocity` of the lines that are blended, and the tip's acceleration in the blend at most ‖v K_BC - v "
-        "K_AB‖/ΔT. With `trapezoidal` and `time_optimal` the corner then takes ΔT, or longer if the joints need it."
+        "Instead of `blend_radius`, between lines, ΔT of the course's fly-over, [s]: the radius is v ΔT/2, v the "
+        "smallest `tip_velocity` of the lines that are blended, and the tip's acceleration in the blend at most "
+        "‖v K_BC - v K_AB‖/ΔT. With `trapezoidal` and `time_optimal` the corner then takes ΔT, or longer if the joints "
+        "need it."
     )
     orientation: OrientationLaw = Field(
         default="axis_angle",
         description="How the orientation changes: about one fixed axis in proportion to the length, or the Euler "
-        "angles `zyz` each linear in the length, with `zyz_other` to the other triple of the same target. Blended "
-        "lines all turn about axes, or all by angles.",
+        "angles `zyz` each linear in the length, with `zyz_other` to the other triple of the same target.",
     )
 
 
@@ -185,6 +186,12 @@ class CircleSegment(SegmentOptions):
         description="Pose of `tip_frame` in `base_frame` that the arc passes through, orientation included."
     )
     target: Pose = Field(description="Pose at its end.")
+    blend_radius: float | None = optional(
+        "Distance from the target, along the arc, at which the motion leaves it for the next line or circle, without a "
+        "stop, [m]: at most a quarter of the circle, and on a curve of continuous curvature.",
+        ge=0,
+        le=1e6,
+    )
     orientation: OrientationLaw = Field(default="axis_angle", description=_ORIENTATION_THROUGH)
 
 
@@ -304,9 +311,9 @@ class Motion(ChainOptions, MotionOptions, WithSteps):
         default="trapezoidal",
         description="Of time along each segment: polynomials from rest to rest (`cubic`; `quintic`, acceleration zero "
         "at both ends; `septic`, jerk too), `trapezoidal` velocity, `jerk_limited`, or `time_optimal`: as fast as the "
-        "limits of velocity, acceleration and torque allow at each place. Along blended lines and splines of poses the "
-        "motion is slow only where the path bends, and as smooth as the law: `time_optimal` in place of `cubic` and "
-        "`trapezoidal`, else its moving average; `notes` say so.",
+        "limits of velocity, acceleration and torque allow at each place. Along blended segments and splines of poses "
+        "the motion is slow only where the path bends, and as smooth as the law: `time_optimal` in place of `cubic` "
+        "and `trapezoidal`, else its moving average; `notes` say so.",
     )
     law_fallback: bool = Field(
         default=False,

@@ -30,9 +30,10 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import check_limits, configurations, one_configuration
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.words import Law
-from gelenk.trajectory.problem.problem import OPEN, Following, TrajectoryProblem
+from gelenk.trajectory.problem.problem import BLENDABLE, OPEN, Following, TrajectoryProblem
 from gelenk.trajectory.problem.problem import Segment as Part
 
+_FLY_OVER = ("blend_acceleration", "blend_time")
 _SHORTEST = 1e-6
 """Shortest time between waypoints, [s]."""
 
@@ -143,8 +144,10 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedL
                 orientation=segment.orientation,
             )
         case CircleSegment():
+            _check_blend(segments, index)
             return replace(
                 part,
+                blend_radius=segment.blend_radius or 0.0,
                 via=_matrix(segment.via, f"{place}.via", left_open),
                 pose=_matrix(segment.target, f"{place}.target", left_open),
                 orientation=segment.orientation,
@@ -237,18 +240,21 @@ def _times(segment: SplineSegment, place: str) -> Array:
 
 
 def _check_blend(segments: Sequence[Segment], index: int) -> None:
-    """Refuse a blend before anything but a line, and a blend that is given in two ways."""
-    line, place = segments[index], f"segments.{index}"
-    names = [name for name in ("blend_radius", "blend_acceleration", "blend_time") if getattr(line, name)]
+    """Refuse a blend before anything but a line or a circle, and one that is given in two ways."""
+    place = f"segments.{index}"
+    names = [name for name in ("blend_radius", *_FLY_OVER) if getattr(segments[index], name, None)]
     if not names:
         return
     if len(names) > 1:
         raise InvalidField(f"{place}.{names[1]}", f"is not allowed beside `{names[0]}`: give a blend in one way")
     if index + 1 == len(segments):
-        raise InvalidField(f"{place}.{names[0]}", "the last segment ends at rest: there is no line to blend into")
-    if not isinstance(segments[index + 1], LineSegment):
-        kind = segments[index + 1].type
-        raise InvalidField(f"{place}.{names[0]}", f"the next segment is of type {kind}: a line is blended into a line")
+        raise InvalidField(f"{place}.{names[0]}", "the last segment ends at rest: there is nothing to blend into")
+    kind = segments[index + 1].type
+    if kind not in BLENDABLE:
+        reason = f"the next segment is of type {kind}: a blend leads into a line or a circle"
+        raise InvalidField(f"{place}.{names[0]}", reason)
+    if kind == "circle" and names[0] in _FLY_OVER:
+        raise InvalidField(f"{place}.{names[0]}", "is the fly-over between two lines: here give a `blend_radius`")
 
 
 def _within(chain: Chain, value: Configuration, field: str) -> Array:

@@ -42,6 +42,8 @@ def trajectory_steps(chain: Chain, segments: tuple[Segment, ...], found: Traject
             law = laws.get(report.index)
             laid = () if law is None else (path_law_step(law, "rad" if report.length == 0.0 else "m"),)
             following = segments[report.index + 1] if report.blend is not None else None
+            if following is not None and following.type == "circle":
+                following = None  # The step is that of the fly-over.
             own = (*_of_tip(segment, report, position, following), *laid)
             position = _end(segment)
         steps += titled(own, report.index)

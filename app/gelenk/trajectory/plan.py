@@ -24,7 +24,7 @@ from gelenk.trajectory.motion.extremes import peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
 from gelenk.trajectory.paths.segment_paths import is_blended
 from gelenk.trajectory.problem.parts import PlannedPart, standing
-from gelenk.trajectory.problem.problem import Segment, Trajectory, TrajectoryProblem
+from gelenk.trajectory.problem.problem import BLENDABLE, Segment, Trajectory, TrajectoryProblem
 from gelenk.trajectory.timing.torque_constraints import torque_factor
 from gelenk.trajectory.tip_part import tip_part
 from gelenk.trajectory.tool.placing import placed_tool, stopped
@@ -106,7 +106,7 @@ def _parts(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> list[
 
 
 def _grouped(segments: tuple[Segment, ...]) -> Iterator[tuple[int, tuple[Segment, ...]]]:
-    """Yield single segments and groups of blended lines, each with the index of its first segment."""
+    """Yield single segments and groups of blended ones, each with the index of its first segment."""
     first = 0
     for i, segment in enumerate(segments):
         if is_blended(segment):
@@ -117,16 +117,16 @@ def _grouped(segments: tuple[Segment, ...]) -> Iterator[tuple[int, tuple[Segment
 
 
 def _refuse_unblendable(segments: tuple[Segment, ...], i: int) -> None:
-    """Refuse to blend segment `i` unless it and the next are lines with one law and no durations of their own."""
+    """Refuse to blend segment `i` unless it and the next are lines or circles with one law and no own durations."""
     field = f"segments.{i}.blend_radius"
-    if i + 1 == len(segments) or segments[i].type != "line" or segments[i + 1].type != "line":
-        raise InvalidField(field, "only a line can be blended, and only into a line that follows it")
+    if i + 1 == len(segments) or not {segments[i].type, segments[i + 1].type} <= set(BLENDABLE):
+        raise InvalidField(field, "only a line or a circle can be blended, and only into one that follows it")
     if segments[i].law != segments[i + 1].law:
-        reason = f"lines that are blended share one law: segment {i + 1} has `{segments[i + 1].law}`"
+        reason = f"segments that are blended share one law: segment {i + 1} has `{segments[i + 1].law}`"
         raise InvalidField(f"segments.{i}.law", reason)
     for k in (i, i + 1):
         if segments[k].duration is not None:
-            reason = "lines that are blended are timed together: give the `duration` of the trajectory"
+            reason = "segments that are blended are timed together: give the `duration` of the trajectory"
             raise InvalidField(f"segments.{k}.duration", reason)
 
 

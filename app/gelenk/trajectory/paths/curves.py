@@ -5,18 +5,13 @@ A curve gives its position p(s), its unit tangent dp/ds, and d²p/ds², whose le
 
 import math
 from dataclasses import dataclass
-from typing import Final, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 
-PARABOLA: Final = np.array([[1.0, -2.0, 1.0], [0.0, 0.0, 1.0]])
-"""Corner between two legs: weights A(u) of what is left of the first and B(u) of what the second has begun, in powers
-of u from 0 to 1. Their second derivatives are constant: at a constant rate of u, the course's fly-over."""
-QUARTIC: Final = np.array([[1.0, -2.0, 0.0, 2.0, -1.0], [0.0, 0.0, 0.0, 2.0, -1.0]])
-"""The same where the second derivatives, 12u (1 - u), are zero at both ends: the corner's curvature is continuous."""
 COLLINEAR = 1e-6
 """Sine of the angle at the via point, or at either end, below which three points count as collinear."""
 

@@ -55,10 +55,6 @@ class AxisAnglePath:
         still = np.zeros((len(x), 3))
         return rotations, still + self.angle * (self.start @ self.axis), still
 
-    def part(self, begin: float, finish: float) -> "AxisAnglePath":
-        """Return the part between two values of x as a turn of its own."""
-        return AxisAnglePath(self.at(np.array([begin]))[0][0], self.axis, (finish - begin) * self.angle)
-
 
 def axis_angle(start: Array, end: Array) -> AxisAnglePath:
     """Return the shortest path about one axis from R_i to R_f; shape (3, 3) each.

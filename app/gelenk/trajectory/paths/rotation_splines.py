@@ -1,4 +1,4 @@
-"""Smooth paths through orientations: a spline with continuous angular acceleration, and the turn over a corner.
+"""Smooth paths through orientations: a spline with continuous angular acceleration.
 
 Between two knots R(x) = R_k Exp(θ(x)), where θ is a cubic. The angular velocities at the knots are chosen so that the
 angular acceleration is continuous. This makes the spline C², like a cubic spline of positions; SciPy's `RotationSpline`
@@ -74,17 +74,6 @@ def rotation_spline(rotations: Array, knots: Array) -> RotationVectorPath:
     return RotationVectorPath(rotations[:-1], PiecewisePolynomial(np.asarray(knots, dtype=float), coefficients))
 
 
-def rotation_corner(entry: Array, corner: Array, exit_: Array, weights: Array) -> RotationVectorPath:
-    """Return the turn over a corner, R(u) = R_B Exp(A(u) θ_a + B(u) θ_b), from R_B Exp(θ_a) to R_B Exp(θ_b).
-
-    As with the position, the angular rates at both ends are those of the turns that it connects, and with `QUARTIC` so
-    are their derivatives. The orientations, of shape (3, 3), are those at A', where the blend begins, at B, and at C',
-    where it ends; the weights A and B are `PARABOLA` or `QUARTIC`.
-    """
-    ends = vectors_from_rotations(np.ascontiguousarray(corner.T @ np.array([entry, exit_])))
-    return RotationVectorPath(corner[None], PiecewisePolynomial(np.array([0.0, 1.0]), (weights.T @ ends)[None]))
-
-
 def _solve(steps: Array, widths: Array, inverses: Array, omegas: Array) -> None:
     """Fill in the angular velocities at the inner knots that make the angular acceleration continuous there.
 
@@ -150,6 +139,18 @@ def angular_motion(thetas: Array, rates: Array, second: Array) -> tuple[Array, A
     k1, k2 = coefficients[:2]
     quadratic = _quadratic_part(coefficients, thetas, rates)
     return _applied(k1, k2, thetas, rates), _applied(k1, k2, thetas, second) + quadratic
+
+
+def vector_motion(rotations: Array, omegas: Array, alphas: Array) -> tuple[Array, Array, Array]:
+    """Return θ, θ̇ and θ̈ of R = Exp(θ), ‖θ‖ ≤ π; the inverse of `angular_motion`.
+
+    Shapes (N, 3, 3), and (N, 3) of the others, [rad], [rad/s] and [rad/s²].
+    """
+    thetas = vectors_from_rotations(rotations)
+    inverses = cast(Array, np.linalg.inv(rate_matrices(thetas)))
+    rates = _turned(inverses, omegas)
+    quadratic = _quadratic_part(_coefficients(sizes(thetas)), thetas, rates)
+    return thetas, rates, _turned(inverses, alphas - quadratic)
 
 
 def _quadratic_part(coefficients: _Coefficients, thetas: Array, rates: Array) -> Array:

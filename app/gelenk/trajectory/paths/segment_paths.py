@@ -1,4 +1,4 @@
-"""Paths of the tip, built from a trajectory's segments: lines, circles, splines, and lines blended into one path."""
+"""Paths of the tip, built from a trajectory's segments: lines, circles, splines, and several blended into one."""
 
 import math
 from collections.abc import Sequence
@@ -12,22 +12,27 @@ from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.demands import TipLimits, Zone
-from gelenk.trajectory.audit.words import Law
+from gelenk.trajectory.audit.words import OrientationLaw
 from gelenk.trajectory.laws.laws import LAWS
 from gelenk.trajectory.motion.splines import cubic_spline
-from gelenk.trajectory.paths.curves import PARABOLA, QUARTIC
-from gelenk.trajectory.paths.orientation_paths import axis_angle
-from gelenk.trajectory.paths.paths import POINT, Path, circle, line, refuse_reversal
-from gelenk.trajectory.paths.spline_paths import PolynomialPath, SplineBoundary, Turn, blended_lines, spline
+from gelenk.trajectory.paths.corners import blended
+from gelenk.trajectory.paths.curves import Arc
+from gelenk.trajectory.paths.orientation_paths import AxisAnglePath, OrientationPath, axis_angle
+from gelenk.trajectory.paths.paths import POINT, CurvePath, Path, circle, line, refuse_reversal
+from gelenk.trajectory.paths.spline_paths import PolynomialPath, SplineBoundary, spline
 from gelenk.trajectory.paths.turned_path import TurnedPath
 from gelenk.trajectory.paths.zyz_paths import zyz_turns
 from gelenk.trajectory.problem.parts import in_field
 from gelenk.trajectory.problem.problem import Segment
 
+_WHOLE = 1.0 + 1e-12
+_SHARES = np.linspace(0.0, 1.0, 65)
+"""Places of a stretch at which its turning is summed up."""
+
 
 @dataclass(frozen=True, slots=True)
 class BlendedCorner:
-    """A blend of two lines.
+    """A blend of two lines or arcs.
 
     Attributes:
         radius: Distance from the corner at which the blend begins, [m].
@@ -43,7 +48,7 @@ class BlendedCorner:
 
 @dataclass(frozen=True, slots=True)
 class SegmentsPath:
-    """A path of the tip through one segment, or through blended lines.
+    """A path of the tip through one segment, or through blended ones.
 
     Attributes:
         ends: s at the end of each segment: the middle of its blend, and `path.extent` for the last.
@@ -84,11 +89,7 @@ def _single(start: Array, segment: Segment) -> tuple[Path, tuple[str, ...]]:
         boundary, notes = _tangent_boundary(segment)
         poses = _poses(start, *segment.poses.matrices())
         return spline(poses, boundary, segment.orientation), notes
-    if segment.type == "line":
-        poses = _poses(start, cast(Array, segment.pose))
-        return line(start, poses.matrices()[1], _turns(poses.rotations, [segment], 0)[0]), ()
-    _, via, end = _poses(start, cast(Array, segment.via), cast(Array, segment.pose)).matrices()
-    return circle(start, via, end, segment.orientation), ()
+    return _leg(start, segment), ()
 
 
 def _poses(*Ts: Array) -> Poses:
@@ -111,19 +112,33 @@ def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]
 
 
 def _blended(start: Array, segments: Sequence[Segment], first: int) -> SegmentsPath:
-    poses = _poses(start, *(cast(Array, segment.pose) for segment in segments))
-    blends = _blends(np.diff(poses.positions, axis=0), segments, first)
-    radii, turns = [blend.radius for blend in blends], _turns(poses.rotations, segments, first)
-    path = blended_lines(poses, radii, turns, [_shape(blend, segments[0].law) for blend in blends])
+    legs, Ts = [], _poses(start, *(cast(Array, segment.pose) for segment in segments)).matrices()
+    for i, segment in enumerate(segments):
+        with in_field(f"segments.{first + i}"):
+            legs.append(_leg(Ts[i], segment))
+    blends = _blends(legs, segments, first)
+    smooth = [_is_smooth(blend, segments[i : i + 2]) for i, blend in enumerate(blends)]
+    path = blended(legs, [blend.radius for blend in blends], smooth)
     spans = [span for part, span in zip(path.parts, pairwise(path.ends.tolist()), strict=True) if _is_corner(part)]
     corners = tuple(replace(blend, begin=begin, end=end) for blend, (begin, end) in zip(blends, spans, strict=True))
     ends = (*(0.5 * (begin + end) for begin, end in spans), path.extent)
     return SegmentsPath(path, ends, corners, _zones(corners, segments, path.extent))
 
 
-def _shape(blend: BlendedCorner, law: Law) -> Array:
-    """Return the fly-over's parabola where the blend has an acceleration, or the law lets accelerations jump."""
-    return QUARTIC if LAWS[law].keeps_jerk and math.isinf(blend.acceleration) else PARABOLA
+def _leg(start: Array, segment: Segment) -> CurvePath:
+    """Return the whole line or arc of a segment from a pose."""
+    end = cast(Array, segment.pose)
+    if segment.type == "line":
+        poses = _poses(start, end)
+        return line(start, poses.matrices()[1], _turn(poses.rotations, segment.orientation))
+    T_start, T_via, T_end = _poses(start, cast(Array, segment.via), end).matrices()
+    return circle(T_start, T_via, T_end, segment.orientation)
+
+
+def _is_smooth(blend: BlendedCorner, beside: Sequence[Segment]) -> bool:
+    """Return whether a corner is smooth: at an arc, or if the law keeps jerk, unless an acceleration is given."""
+    has_arc = any(segment.type == "circle" for segment in beside)
+    return has_arc or (LAWS[beside[0].law].keeps_jerk and math.isinf(blend.acceleration))
 
 
 def _is_corner(part: Path) -> bool:
@@ -157,21 +172,14 @@ def _zone(begin: float, end: float, segment: Segment) -> Zone:
     return Zone(begin, end, limits.tip, limits.joints, limits.torque, segment.stated_jerk)
 
 
-def _turns(rotations: Array, segments: Sequence[Segment], first: int) -> Sequence[Turn]:
-    """Return the turns from each orientation to the next; `zyz_other` changes the sign of θ."""
-    by_axis = [segment.orientation == "axis_angle" for segment in segments]
-    if all(by_axis):
-        return [axis_angle(*pair) for pair in pairwise(rotations)]
-    if any(by_axis):
-        reason = "blended lines must all turn by `axis_angle`, or all by ZYZ angles"
-        raise InvalidField(f"segments.{first + by_axis.index(not by_axis[0])}.orientation", reason)
-    return zyz_turns(rotations, [segment.orientation == "zyz_other" for segment in segments])
+def _turn(rotations: Array, law: OrientationLaw) -> OrientationPath:
+    """Return the turn from one orientation to another; shape (2, 3, 3)."""
+    return axis_angle(*rotations) if law == "axis_angle" else zyz_turns(rotations, [law == "zyz_other"])[0]
 
 
-def _blends(legs: Array, segments: Sequence[Segment], first: int) -> list[BlendedCorner]:
-    lengths = np.linalg.norm(legs, axis=1)
-    for i, length in enumerate(lengths):
-        if length <= POINT:
+def _blends(legs: Sequence[CurvePath], segments: Sequence[Segment], first: int) -> list[BlendedCorner]:
+    for i, leg in enumerate(legs):
+        if leg.curve.length <= POINT:
             reason = "a line that is blended with another must have a length: its two ends share one position"
             raise InvalidField(f"segments.{first + i}.target", reason)
     speed = min(segment.limits.tip.speed for segment in segments)
@@ -182,21 +190,40 @@ def _blends(legs: Array, segments: Sequence[Segment], first: int) -> list[Blende
             "blend_radius" if segment.blend_radius > 0.0 else next(n for n in given if getattr(segment, n) is not None)
         )
         field = f"segments.{first + i}.{name}"
-        blend = _blend(segment, speed, legs[i], legs[i + 1], field)
-        refuse_reversal(legs[i], legs[i + 1], field)
-        for which, length in ((i, lengths[i]), (i + 1, lengths[i + 1])):
-            taken = blend.radius + (blends[-1].radius if blends and which == i else 0.0)
-            if taken > length * (1.0 + 1e-12):
-                both = " with the blend before" if taken > blend.radius else ""
-                reason = (
-                    f"segment {first + which} is {length:g} m long, and the blend{both} would take {taken:g} m of it"
-                )
-                raise InvalidField(field, reason)
+        pair = legs[i], legs[i + 1]
+        directions = pair[0].at(np.array([pair[0].extent])).first[0, :3], pair[1].at(np.zeros(1)).first[0, :3]
+        blend = _blend(segment, speed, directions, field)
+        refuse_reversal(*directions, field)
+        before = blends[-1].radius if blends else 0.0
+        for number, leg, taken in ((i, pair[0], (before, blend.radius)), (i + 1, pair[1], (blend.radius, 0.0))):
+            try:
+                _check_room(leg, *taken)
+            except InvalidField as error:
+                raise InvalidField(field, f"segment {first + number} {error.reason}") from None
         blends.append(blend)
     return blends
 
 
-def _blend(segment: Segment, speed: float, leg: Array, following: Array, field: str) -> BlendedCorner:
+def _check_room(leg: CurvePath, begin: float, end: float) -> None:
+    """Refuse blends that take more of both ends of a leg, [m], than there is, or than the corners can follow."""
+    length = leg.extent
+    if begin + end > length * _WHOLE:
+        both = " with the blend before" if begin and end else ""
+        raise InvalidField("", f"is {length:g} m long, and the blend{both} would take {begin + end:g} m of it")
+    if isinstance(leg.curve, Arc):
+        via, quarter = leg.curve.radius * leg.curve.via_angle, 0.5 * math.pi * leg.curve.radius
+        for taken, room in ((begin, via), (end, length - via)):
+            if taken > min(room, quarter) * _WHOLE:
+                bounds = f"{room:g} m to its `via`, and a quarter of its circle is {quarter:g} m"
+                raise InvalidField("", f"has {bounds}: the blend would take {taken:g} m")
+    if not isinstance(leg.orientation, AxisAnglePath):
+        for taken, first in ((begin, 0.0), (end, length - end)):
+            rates = leg.at(first + taken * _SHARES).first[:, 3:]
+            if float(np.linalg.norm(rates, axis=1).mean()) * taken > math.pi:
+                raise InvalidField("", f"turns by more than 180° on the {taken:g} m that the blend would take of it")
+
+
+def _blend(segment: Segment, speed: float, directions: tuple[Array, Array], field: str) -> BlendedCorner:
     """Blend a line into the next: the course's fly-over, with both lines at the tip's speed limit v.
 
     d = v ΔT / 2 and a = ‖v K_BC - v K_AB‖ / ΔT, where ΔT or a is given. Under this limit of acceleration, the fastest
@@ -206,7 +233,7 @@ def _blend(segment: Segment, speed: float, leg: Array, following: Array, field: 
         return BlendedCorner(segment.blend_radius)
     if not math.isfinite(speed):
         raise InvalidField(field, "the blend depends on the speed along the lines: `limits.tip_velocity` is missing")
-    change = speed * math.hypot(*(following / math.hypot(*following) - leg / math.hypot(*leg)))
+    change = speed * math.dist(*directions)
     if segment.blend_acceleration is not None:
         acceleration = segment.blend_acceleration
         time = change / acceleration

@@ -1,13 +1,11 @@
-"""Paths whose position is a polynomial of a parameter u, reparametrised by arc length: splines and blended corners.
+"""Paths whose position is a polynomial of a parameter u, reparametrised by arc length: splines; `corners` has more.
 
 The arc length s(u) = ∫ ‖dp/du‖ du is computed by Gauss quadrature on panels that are halved until the sum no longer
 changes, and inverted by Newton's method within a panel (`arc_length`). Derivatives by s follow exactly from those by u.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -20,23 +18,10 @@ from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.paths.arc_length import arc_lengths, parameters
-from gelenk.trajectory.paths.curves import PARABOLA, Line
-from gelenk.trajectory.paths.orientation_paths import AxisAnglePath, OrientationPath, axis_angle
-from gelenk.trajectory.paths.paths import (
-    POINT,
-    CurvePath,
-    Path,
-    PathSamples,
-    PathSequence,
-    Unit,
-    line,
-    refuse_reversal,
-    through_orientations,
-)
-from gelenk.trajectory.paths.rotation_splines import rotation_corner, sizes
-from gelenk.trajectory.paths.zyz_paths import ZyzPath, zyz_corner
+from gelenk.trajectory.paths.orientation_paths import OrientationPath
+from gelenk.trajectory.paths.paths import POINT, PathSamples, Unit, through_orientations
+from gelenk.trajectory.paths.rotation_splines import sizes
 
-Turn: TypeAlias = AxisAnglePath | ZyzPath
 SplineBoundary: TypeAlias = Literal["natural", "not_a_knot", "periodic"]
 
 _FINEST = 256
@@ -161,67 +146,3 @@ def spline(
     if speeds.min() <= _SLOWEST * speeds.mean():
         raise InvalidField("waypoints", "the spline turns back on the spot at a waypoint, where it has no tangent")
     return path
-
-
-def blended_lines(
-    poses: Poses,
-    radii: Sequence[float],
-    turns: Sequence[Turn] | None = None,
-    shapes: Sequence[Array] | None = None,
-) -> PathSequence:
-    """Return a polyline through poses whose corners are replaced by polynomials of a parameter.
-
-    If the parameter of a parabola advances at a constant rate, it is the fly-over with equal speeds. Position and
-    orientation have continuous first derivatives by s; second derivatives jump where a parabola begins or ends, and are
-    continuous with a quartic, which passes the corner at three quarters of the parabola's distance.
-    `InvalidField` if a leg is shorter than the sum of the radii at its ends, or turns back along the previous one.
-
-    Args:
-        poses: At least two poses; successive ones differ in position.
-        radii: Distance from each inner pose at which its parabola begins and ends, > 0, [m].
-        turns: Turns from each pose to the next, each beginning where the previous one ends, all about axes or all by
-            ZYZ angles; by default each about one axis.
-        shapes: Of each corner, `PARABOLA` or `QUARTIC`; parabolas by default.
-    """
-    Ts = poses.matrices()
-    if turns is None:
-        turns = [axis_angle(*pair) for pair in pairwise(poses.rotations)]
-    legs = [line(Ts[i], Ts[i + 1], turn) for i, turn in enumerate(turns)]
-    cuts = [0.0, *radii, 0.0]
-    parts: list[Path] = []
-    for i, leg in enumerate(legs):
-        taken = cuts[i] + cuts[i + 1]
-        if taken > leg.curve.length * (1.0 + 1e-12) or leg.curve.length <= POINT:
-            raise InvalidField(
-                "blend_radius", f"leg {i} is {leg.curve.length:g} m long, and its blends take {taken:g} m of it"
-            )
-        if i > 0:
-            a, b = (legs[k].curve.at(np.zeros(1))[1][0] for k in (i - 1, i))
-            refuse_reversal(a, b, "blend_radius")
-            shape = PARABOLA if shapes is None else shapes[i - 1]
-            parts.append(_corner(legs[i - 1 : i + 1], turns[i - 1 : i + 1], cuts[i], shape))
-        begin, finish = cuts[i] / leg.curve.length, 1.0 - cuts[i + 1] / leg.curve.length
-        if finish - begin > 1e-12:
-            ends = leg.curve.at(np.array([begin, finish]) * leg.curve.length)[0]
-            parts.append(CurvePath(Line(ends[0], ends[1]), turns[i].part(begin, finish)))
-    return PathSequence(tuple(parts))
-
-
-def _corner(legs: Sequence[CurvePath], turns: Sequence[Turn], radius: float, weights: Array) -> PolynomialPath:
-    """Return the corner between two legs, p(u) = p_B - A(u) a + B(u) b, with the orientation blended likewise."""
-    before, after = legs
-    a = radius * before.curve.at(np.array([before.curve.length]))[1][0]
-    corner, directions, _ = after.curve.at(np.array([0.0]))
-    c = weights.T @ np.array([-a, radius * directions[0]])
-    c[0] += corner[0]
-    turn = _turn_over(turns, 1.0 - radius / before.curve.length, radius / after.curve.length, weights)
-    return PolynomialPath(PiecewisePolynomial(np.array([0.0, 1.0]), c[None]), turn)
-
-
-def _turn_over(turns: Sequence[Turn], entry: float, leaving: float, weights: Array) -> OrientationPath:
-    """Return the turn over the corner of two turns, from x = `entry` on the first to x = `leaving` on the second."""
-    before, after = turns
-    if isinstance(before, ZyzPath) and isinstance(after, ZyzPath):
-        return zyz_corner(before.triple_at(entry), after.triple_at(0.0), after.triple_at(leaving), weights)
-    at_entry, (at_corner, at_leaving) = before.at(np.array([entry]))[0][0], after.at(np.array([0.0, leaving]))[0]
-    return rotation_corner(at_entry, at_corner, at_leaving, weights)

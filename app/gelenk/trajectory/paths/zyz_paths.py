@@ -44,10 +44,6 @@ class ZyzPath:
         """See `OrientationPath`."""
         return _motion(*self.angles.rates_at(x))
 
-    def part(self, begin: float, finish: float) -> "ZyzPath":
-        """Return the part of a turn between two values of x; its angles are linear in x."""
-        return _polynomial(self.triple_at(begin), (finish - begin) * self.angles.coefficients[0, 1])
-
 
 def zyz_turns(rotations: Array, flips: Sequence[bool]) -> list[ZyzPath]:
     """Return the turns from each orientation to the next, each starting with the angles at which the previous one ends.
@@ -63,17 +59,6 @@ def zyz_spline(rotations: Array, knots: Array, flips: Sequence[bool]) -> ZyzPath
     Rotations and flips are those of `zyz_turns`, at x = `knots`, (M + 1,), increasing from 0 to 1.
     """
     return ZyzPath(cubic_spline(np.asarray(knots, dtype=float), zyz_triples(rotations, flips), "natural").motion)
-
-
-def zyz_corner(entry: Array, corner: Array, leaving: Array, weights: Array) -> ZyzPath:
-    """Return the turn over a corner in the angles: c + A(u) (e - c) + B(u) (l - c).
-
-    See `rotation_corner`. The triples, of shape (3,), [rad], are those at A', where the blend begins, at B, and at C',
-    where it ends.
-    """
-    c = weights.T @ np.array([entry - corner, leaving - corner])
-    c[0] += corner
-    return _polynomial(*c)
 
 
 def zyz_triples(rotations: Array, flips: Sequence[bool]) -> Array:

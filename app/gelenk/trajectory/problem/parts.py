@@ -1,4 +1,4 @@
-"""A part of a trajectory, from rest to rest: one segment, or lines blended into one path."""
+"""A part of a trajectory, from rest to rest: one segment, or several blended into one path."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -2,7 +2,7 @@
 
 A trajectory starts at a configuration and runs through segments: the joints move to a configuration or a pose, or the
 tip along a line, a circle or a spline. Each segment has its own time law and limits. The motion stops between two
-segments unless they are blended lines; at its start and its end it may move, if joint motions are there.
+segments unless they are blended; at its start and its end it may move, if joint motions are there.
 """
 
 from dataclasses import dataclass, field, replace
@@ -22,6 +22,9 @@ from gelenk.trajectory.problem.result import Damping, PlanningFailure, SegmentBl
 
 OPEN = np.full((3, 3), np.nan)
 """Orientation of a pose on a tip path that leaves it open: that of the pose before."""
+
+BLENDABLE = ("line", "circle")
+"""Types of segments that can be blended into one another."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,8 +84,9 @@ class Segment:
         configuration: Target of a joint segment; shape (n,), [rad or m].
         pose: T_base_tip at the end of a line, a circle or a joint segment to a pose; shape (4, 4).
         via: T_base_tip in between on a circle; shape (4, 4).
-        blend_radius: Distance from the end of a line at which its blend into the next begins, [m]; 0 for none.
-        blend_acceleration, blend_time: The tip's acceleration [m/s²] or duration [s] in it, instead of a radius.
+        blend_radius: Distance from the end of a line or a circle, along it, at which its blend into the next begins,
+            [m]; 0 for none.
+        blend_acceleration, blend_time: Between lines, the tip's acceleration [m/s²] or a duration [s] in its place.
         orientation: How a tip path turns: about an axis (on a smooth spline if it passes several orientations), or by
             ZYZ Euler angles on either branch.
         configurations: Waypoints of a joint spline after the start; shape (m, n), [rad or m].
