@@ -1,7 +1,7 @@
 """How many lines arms with seven joints follow to the end, of those that any joint path from the start can do.
 
-`python -m tests.trajectory.figures_redundancy [LINES [ARM …]]` prints a row for each arm: lines of 10 to 40 cm from
-configurations at random, how many are followed, how many of the others are feasible by the walk over the whole
+`python -m tests.trajectory.figures_redundancy [LINES [SEED [ARM …]]]` prints a row for each arm: lines of 10 to 40 cm
+from configurations at random, how many are followed, how many of the others are feasible by the walk over the whole
 self-motion in `tests.trajectory.self_motion` (a pose out of reach needs no walk), and the slowest answer.
 """
 
@@ -73,12 +73,13 @@ def _row(lines: Lines) -> tuple[int, int, float]:
 
 
 def main() -> None:
-    count, names = int(sys.argv[1]) if len(sys.argv) > 1 else 100, sys.argv[2:] or ARMS
+    numbers, names = [int(number) for number in sys.argv[1:3]], sys.argv[3:] or ARMS
+    count, seed = numbers + [100, 5][len(numbers) :]
     print(f"{'arm':16} {'lines':>6} {'feasible':>9} {'followed':>9} {'slowest [s of processor]':>25}")
     total = np.zeros(3)
     for name in names:
         Lines(name, 1).followed(*Lines(name, 1).jobs()[0])
-        followed, missed, slowest = _row(Lines(name, count))
+        followed, missed, slowest = _row(Lines(name, count, seed))
         total += count, followed + missed, followed
         print(f"{name:16} {count:6} {followed + missed:9} {followed:9} {slowest:25.2f}", flush=True)
     print(f"{'all':16} {total[0]:6.0f} {total[1]:9.0f} {total[2]:9.0f} {total[2] / max(total[1], 1.0):25.2%}")

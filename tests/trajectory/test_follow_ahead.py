@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 from gelenk.ik.search.task import FULL_POSE, Task
-from gelenk.trajectory.follow.ahead import guides
+from gelenk.trajectory.follow import follow as follow_module
+from gelenk.trajectory.follow.ahead import guides, ways_on
 from gelenk.trajectory.follow.follow import follow
 from gelenk.trajectory.follow.integrate import traced
 from gelenk.trajectory.follow.rate_field import RateField
+from gelenk.trajectory.follow.rows import CountedRows
 from gelenk.trajectory.paths.paths import line
 from gelenk.trajectory.problem.problem import Following
 from tests.robots import robot
@@ -17,13 +19,15 @@ from tests.trajectory.figures_redundancy import Lines
 from tests.trajectory.test_follow import XY, deviations, moved, pinocchio_poses, pose, smallest_sigma
 
 TOLERANCES = (1e-4, 1e-3)
-HARD = 35
-"""A line along which the shortest joint rates of Talos's arm meet a limit after 83 %."""
+HARD = [("talos", 35, 5), pytest.param("simple_humanoid", 75, 71, marks=pytest.mark.slow)]
+"""Lines, by arm, number and seed, along which the shortest joint rates meet a limit after 83 and 53 %; the second only
+goes on if the elbow turns before the tip has moved far."""
 
 
-def test_a_line_is_followed_where_the_shortest_rates_meet_a_limit() -> None:
-    lines = Lines("talos", HARD + 1)
-    path, q = lines.jobs()[HARD]
+@pytest.mark.parametrize(("name", "number", "seed"), HARD)
+def test_a_line_is_followed_where_the_shortest_rates_meet_a_limit(name: str, number: int, seed: int) -> None:
+    lines = Lines(name, number + 1, seed)
+    path, q = lines.jobs()[number]
     plain = traced(RateField(lines.chain, path, FULL_POSE, TOLERANCES, 0.01), q)
     assert plain.ending == "joint_limit"
     assert plain.reached < 0.9 * path.extent
@@ -68,6 +72,36 @@ def test_no_guide_leads_out_of_reach(directions: Task) -> None:
     T = pose(chain, q)
     path = line(T, moved(T, np.array([1.2, 0.0, 0.0]), np.zeros(3)))
     assert list(guides(RateField(chain, path, directions, TOLERANCES, 0.01), q)) == []
+
+
+@pytest.mark.parametrize("directions", [FULL_POSE, Task(("x", "y", "z"))], ids=["pose", "position"])
+def test_the_ways_on_are_those_of_singular_values(directions: Task) -> None:
+    chain, rng = robot("panda").chain(None, None), np.random.default_rng(3)
+    m, n = len(directions), len(chain)
+    J, rates = rng.normal(size=(50, m, n)), rng.normal(size=(50, m))
+    J[:, 0] = J[:, 1] + rng.uniform(0.01, 1.0, 50)[:, None] * J[:, 0]
+    ways, sigmas = ways_on(CountedRows(np.zeros((50, m)), J, rates))
+    for k in range(50):
+        np.testing.assert_allclose(ways[k, 0], np.linalg.pinv(J[k]) @ rates[k], rtol=1e-3)
+        np.testing.assert_allclose(J[k] @ ways[k, 1:].T, 0.0, atol=1e-5)
+        np.testing.assert_allclose(ways[k, 1:] @ ways[k, 1:].T, np.eye(n - m), atol=1e-5)
+    ratios = sigmas / np.linalg.svd(J, compute_uv=False)[:, -1]
+    assert ratios.min() > 6.0 ** (-1.0 / 16.0)
+    assert ratios.max() < 1.001
+
+
+def test_no_guide_is_sought_to_an_end_beyond_the_joint_limits(monkeypatch: pytest.MonkeyPatch) -> None:
+    arm = robot("planar_3r")
+    chain = replace(arm.chain(None, None), lower=np.array([-3.0, 0.5, 0.4]), upper=np.array([3.0, 1.5, 0.8]))
+    q = np.array([0.3, 0.9, 0.6])
+    T = pose(chain, q)
+    # Stretched, which the limits of the second and third joint do not allow.
+    path = line(T, pose(chain, np.array([0.3, 0.0, 0.0])))
+    monkeypatch.setattr(follow_module, "guides", lambda *_: pytest.fail("looked ahead"))
+    stop = follow(arm, chain, path, q, Following(task=XY)).stop
+    assert stop is not None
+    assert "; the end of the path: solvable only beyond the joint limits" in stop.detail
+    assert "looking ahead" not in stop.detail
 
 
 @pytest.mark.slow

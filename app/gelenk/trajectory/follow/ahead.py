@@ -24,13 +24,17 @@ _LEAST_RUNGS, _MOST_RUNGS, _APART = 48, 200, 0.03
 """Number of rungs, and their distance on a long path, [m or rad]."""
 _SIDEWAYS = (0.01, 0.04, 0.1, 0.2, 0.4)
 """Steps along the self-motion from one rung to the next, [rad or m]."""
+_DOUBLINGS = 4
+"""So often steps between rungs double at first: the front is to spread over the self-motion of the start."""
 _SPACING, _MOST = 0.1, 120
 """Distance of configurations on a rung in some joint, [rad or m], and their number."""
+_FILLINGS, _CLOSELY = 4, 5
+"""How often long steps of a way are halved, and Newton's steps onto the path then."""
 _LONGEST = 0.6
 """Longest step of a joint between rungs, [rad or m]."""
 _ONTO, _NEAR, _DAMPING = 2, 1e-3, 1e-9
 """Newton's steps onto the path, the largest error that they may leave [m or rad], and what keeps them finite."""
-_CARES = ((0.1, 4), (0.03, 2), (0.01, 1), (0.0, 0))
+_CARES = ((0.1, 64), (0.1, 16), (0.03, 4), (0.0, 0))
 """Distance from joint limits [rad or m], and rounds of smoothing, of one guide after the other."""
 _OPENING = 0.02
 """Growth of that distance from rung to rung, from that of the start, [rad or m]."""
@@ -40,12 +44,11 @@ def guides(field: RateField, start: Array) -> Iterator[PiecewisePolynomial]:
     """Yield smooth joint paths near exact ones from a configuration, (n,), to the end; none if no way is found."""
     extent = field.path.extent
     count = int(np.clip(np.ceil(extent / _APART), _LEAST_RUNGS, _MOST_RUNGS))
-    # Where steps between rungs are long, the front may shrink to nothing: then once more with twice as many.
-    for places in (np.linspace(0.0, extent, count + 1), np.linspace(0.0, extent, 2 * count + 1)):
-        rungs = _rungs(field, places, start)
-        if len(rungs) == len(places):
-            yield from _ways(field, places, rungs)
-            return
+    steps = np.minimum(2.0 ** np.arange(-_DOUBLINGS, count), 1.0)
+    places = extent * np.concatenate(([0.0], np.cumsum(steps) / steps.sum()))
+    rungs = _rungs(field, places, start)
+    if len(rungs) == len(places):
+        yield from _ways(field, places, rungs)
 
 
 def _ways(field: RateField, places: Array, rungs: list[Array]) -> Iterator[PiecewisePolynomial]:
@@ -61,7 +64,7 @@ def _ways(field: RateField, places: Array, rungs: list[Array]) -> Iterator[Piece
         if len(rows) == len(places):
             way = qs[kept][rows]
             way[:, turning] = np.unwrap(way[:, turning], axis=0)
-            yield _smooth(places, way, rounds)
+            yield _smooth(_filled(field, np.column_stack((places, way))), rounds)
 
 
 def onto(field: RateField, at: PathSamples, qs: Array, steps: int) -> tuple[Array, CountedRows]:
@@ -77,31 +80,37 @@ def onto(field: RateField, at: PathSamples, qs: Array, steps: int) -> tuple[Arra
 
 def _rungs(field: RateField, places: Array, start: Array) -> list[Array]:
     """Return what can be reached at each place, shape (N, n) each, as far as anything can."""
-    qs, directions, rungs = start[None], _directions(field, 0.0, start[None])[1], [start[None]]
+    ways = ways_on(task_rows(field.chain, field.task, field.path.at(places[:1]), start[None]))[0]
+    rungs = [start[None]]
     for s, following in pairwise(places):
-        moved = _spread(field, qs, (following - s) * directions[:, 0], directions[:, 1:])
-        at = field.path.at(np.full(len(moved), following))
-        moved, rows = onto(field, at, moved, _ONTO)
-        near = (np.abs(rows.errors) <= _NEAR).all(axis=1) & _within(field, moved)
-        qs = moved[near]
-        if len(qs):
-            sigmas, directions = _directions(field, following, qs)
-            clear = sigmas >= field.threshold
-            qs, directions = qs[clear], directions[clear]
-        if len(qs) == 0:
+        moved = _spread(field, rungs[-1], (following - s) * ways[:, 0], ways[:, 1:])
+        moved, rows = onto(field, field.path.at(np.full(len(moved), following)), moved, _ONTO)
+        ways, sigmas = ways_on(rows)
+        good = (np.abs(rows.errors) <= _NEAR).all(axis=1) & _within(field, moved) & (sigmas >= field.threshold)
+        if not good.any():
             break
-        rungs.append(qs)
+        ways = ways[good]
+        rungs.append(moved[good])
     return rungs
 
 
-def _directions(field: RateField, s: float, qs: Array) -> tuple[Array, Array]:
-    """Return σ at configurations on a rung, and the rates along the path with a basis of the self-motion."""
-    rows = task_rows(field.chain, field.task, field.path.at(np.full(len(qs), s)), qs)
-    m = rows.rates.shape[1]
-    left, sigmas, right = np.linalg.svd(rows.jacobians)
-    parts = (left.transpose(0, 2, 1) @ rows.rates[:, :, None])[:, :, 0] / np.maximum(sigmas, _DAMPING)
-    rates = (parts[:, None] @ right[:, :m])[:, 0]
-    return sigmas[:, -1], np.concatenate((rates[:, None], right[:, m:]), axis=1)
+def ways_on(rows: CountedRows) -> tuple[Array, Array]:
+    """Return the ways on from configurations, (N, 1 + k, n), and their σ, at most a tenth too small.
+
+    Powers of (JJᵀ)⁻¹ make 1/σ² stand out in their trace; I - Jᵀ(JJᵀ)⁻¹J projects onto the self-motion.
+    """
+    J, transposed = rows.jacobians, rows.jacobians.transpose(0, 2, 1)
+    m, n = J.shape[1:]
+    inverses = np.linalg.inv(J @ transposed + _DAMPING * np.eye(m))
+    ways = [(transposed @ (inverses @ rows.rates[:, :, None]))[:, :, 0]]
+    spare = np.eye(n) - transposed @ (inverses @ J)
+    for _ in range(n - m):
+        pivots, every = np.diagonal(spare, axis1=1, axis2=2).argmax(axis=1), np.arange(len(J))
+        ways.append(spare[every, pivots] / np.sqrt(spare[every, pivots, pivots])[:, None])
+        spare = spare - ways[-1][:, :, None] * ways[-1][:, None]
+    for _ in range(3):
+        inverses = inverses @ inverses
+    return np.stack(ways, axis=1), np.trace(inverses, axis1=1, axis2=2) ** (-1.0 / 16.0)
 
 
 def _spread(field: RateField, qs: Array, steps: Array, spare: Array) -> Array:
@@ -124,15 +133,26 @@ def _within(field: RateField, qs: Array) -> Flags:
     return inside
 
 
-def _smooth(places: Array, way: Array, rounds: int) -> PiecewisePolynomial:
+def _filled(field: RateField, way: Array) -> Array:
+    """Put exact configurations in the middle of long steps of a way, its places first; shape (N, 1 + n)."""
+    for _ in range(_FILLINGS):
+        long = np.flatnonzero((np.abs(np.diff(way[:, 1:], axis=0)) > _SPACING).any(axis=1))
+        middles = 0.5 * (way[long] + way[long + 1])
+        middles[:, 1:] = onto(field, field.path.at(middles[:, 0]), middles[:, 1:], _CLOSELY)[0]
+        way = np.insert(way, long + 1, middles, axis=0)
+    return way
+
+
+def _smooth(way: Array, rounds: int) -> PiecewisePolynomial:
     """Return the uniform cubic B-spline of a way, smoothed between its ends before; it stays in the hull of the way."""
+    share = ((way[1:-1, 0] - way[:-2, 0]) / (way[2:, 0] - way[:-2, 0]))[:, None]
     for _ in range(rounds):
-        way[1:-1] = 0.25 * way[:-2] + 0.5 * way[1:-1] + 0.25 * way[2:]
-    h = places[1] - places[0]
+        way[1:-1, 1:] = 0.5 * (way[1:-1, 1:] + (1.0 - share) * way[:-2, 1:] + share * way[2:, 1:])
     points = np.concatenate((2.0 * way[:1] - way[1:2], way, 2.0 * way[-1:] - way[-2:-1]))
     before, here, after = points[:-2], points[1:-1], points[2:]
-    knots = np.array(
-        [before + 4.0 * here + after, 3.0 * (after - before) / h, 6.0 * (before - 2.0 * here + after) / h**2]
-    )
-    knots /= 6.0
-    return PiecewisePolynomial(places, hermite_pieces(knots[:, :-1], knots[:, 1:], np.diff(places)))
+    values, rates, bends = (before + 4.0 * here + after) / 6.0, 0.5 * (after - before), before - 2.0 * here + after
+    # Places too are a spline of the index: derivatives by the index become those by the place.
+    first = rates[:, 1:] / rates[:, :1]
+    second = (bends[:, 1:] - bends[:, :1] * first) / rates[:, :1] ** 2
+    knots = np.array([values[:, 1:], first, second])
+    return PiecewisePolynomial(values[:, 0], hermite_pieces(knots[:, :-1], knots[:, 1:], np.diff(values[:, 0])))

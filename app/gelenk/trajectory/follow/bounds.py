@@ -11,7 +11,7 @@ import numpy as np
 
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.follow.rate_field import Knot, RateField
-from gelenk.trajectory.follow.step import HULL, INNER, TO_POWERS, Piece, knot_within, piece_between
+from gelenk.trajectory.follow.step import HULL, INNER, TO_POWERS, Piece, knot_within, pieces_between
 
 SLACK = 1e-10
 """Distance beyond a limit at which a joint still counts as within, [rad or m]."""
@@ -143,7 +143,7 @@ def located(
     if end is None:
         return None, found
     at = field.samples(piece.a.s + (end.s - piece.a.s) * INNER, *stretch)
-    return piece_between(field, piece.a, end, at), found
+    return pieces_between(field, [piece.a, end], at)[0], found
 
 
 def _between(good: float, bad: float, room: float, lack: float, closest: float) -> float:

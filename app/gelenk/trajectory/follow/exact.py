@@ -50,7 +50,7 @@ def refined(field: RateField, positions: PiecewisePolynomial) -> tuple[Piecewise
         off, parts = _errors(field, positions)
         if left == 0 or (parts == 1).all():
             break
-        positions = with_exact_knots(field, positions, parts)
+        positions = _with_exact_knots(field, positions, parts)
     return positions, off
 
 
@@ -96,7 +96,7 @@ def _errors(field: RateField, positions: PiecewisePolynomial) -> tuple[Array, In
     return off, np.minimum(wanted, most).astype(np.int64)
 
 
-def with_exact_knots(field: RateField, positions: PiecewisePolynomial, parts: Indices) -> PiecewisePolynomial:
+def _with_exact_knots(field: RateField, positions: PiecewisePolynomial, parts: Indices) -> PiecewisePolynomial:
     """Divide pieces at exact knots; a piece that would then leave the joint limits keeps its own quintic."""
     piece, widths = np.repeat(np.arange(len(parts)), parts), np.diff(positions.breaks)
     breaks = divided(positions.breaks, parts)

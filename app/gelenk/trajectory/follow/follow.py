@@ -22,7 +22,7 @@ from gelenk.trajectory.follow.guided import guided
 from gelenk.trajectory.follow.integrate import Trace, traced
 from gelenk.trajectory.follow.rate_field import RateField
 from gelenk.trajectory.follow.swept import swept
-from gelenk.trajectory.follow.verdict import Stop, never_back, verdict
+from gelenk.trajectory.follow.verdict import Stop, end_is_reached, never_back, verdict
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.paths.paths import Path
@@ -79,7 +79,7 @@ def follow(robot: RobotModel, chain: Chain, path: Path, start: Array, following:
     if whole is not None:
         return _exactly(field, FollowedPath(whole[0], path.extent, None, *whole[1].tolist()))
     trace = traced(field, start)
-    if trace.ending != "complete" and field.is_redundant:
+    if trace.ending != "complete" and field.is_redundant and end_is_reached(robot, field, trace):
         trace = _ahead(field, trace)
     if following.near_singularity == "damp":
         return _damped_path(robot, field, trace)

@@ -7,18 +7,17 @@ import numpy as np
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.follow.ahead import onto
 from gelenk.trajectory.follow.bounds import Crossing
-from gelenk.trajectory.follow.exact import exact_next_to, with_exact_knots
+from gelenk.trajectory.follow.exact import exact_next_to
 from gelenk.trajectory.follow.integrate import Trace, first_crossing
 from gelenk.trajectory.follow.rate_field import SHARE, Knot, RateField
 from gelenk.trajectory.follow.rows import row_derivatives, task_rows
-from gelenk.trajectory.follow.step import INNER, Piece, piece_between
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
-from gelenk.trajectory.motion.time_laws import hermite_pieces
+from gelenk.trajectory.follow.step import INNER, Piece, pieces_between
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, divided
 
 _STEPS = 5
 """Newton's steps from the guide onto the path."""
 _ROUNDS = 6
-"""How often pieces that leave the path are halved."""
+"""How often pieces that leave the path are halved, as long as that halves what they are off."""
 
 
 def guided(field: RateField, start: Array, guide: PiecewisePolynomial) -> Trace:
@@ -45,31 +44,35 @@ def _pieces(
     """Return the pieces between two breaks of the path; None if none are close enough to it."""
     inner = guide.breaks[(guide.breaks > stretch[0]) & (guide.breaks < stretch[1])]
     places = np.concatenate((stretch[:1], inner, stretch[1:]))
-    at, (q, first, second) = field.samples(places, *stretch), guide.rates_at(places)
-    rates, found = exact_next_to(field, at, onto(field, at, q, _STEPS)[0], first, second)
-    if not found.all():
-        return None
-    offset = float(np.abs(rates[0, 0] - start).max())
-    rates[0, 0] = start
-    positions = PiecewisePolynomial(places, hermite_pieces(rates[:, :-1], rates[:, 1:], np.diff(places)))
-    allowed = SHARE * np.array(field.tolerances) + 10.0 * offset
+    worst = np.inf
     for _ in range(_ROUNDS):
-        knots = _knots(field, positions, stretch)
-        pieces = [
-            piece_between(field, a, b, field.samples(a.s + (b.s - a.s) * INNER, *stretch)) for a, b in pairwise(knots)
-        ]
-        off = np.array([(piece.deviations > allowed).any() for piece in pieces])
-        if not off.any():
+        knots = _knots(field, start, guide, places, stretch)
+        if not knots:
+            break
+        inner = places[:-1, None] + np.diff(places)[:, None] * INNER
+        pieces = pieces_between(field, knots, field.samples(inner.ravel(), *stretch))
+        allowed = SHARE * np.array(field.tolerances) + 10.0 * knots[0].offset
+        off = (np.array([piece.deviations for piece in pieces]) / allowed).max(axis=1)
+        if off.max() <= 1.0:
             return pieces
-        positions = with_exact_knots(field, positions, 1 + off)
+        if off.max() > 0.5 * worst:
+            break
+        worst, places = off.max(), divided(places, 1 + (off > 1.0))
     return None
 
 
-def _knots(field: RateField, positions: PiecewisePolynomial, stretch: tuple[float, float]) -> list[Knot]:
-    places = positions.breaks
-    at, (q, dq, ddq) = field.samples(places, *stretch), positions.rates_at(places)
+def _knots(
+    field: RateField, start: Array, guide: PiecewisePolynomial, places: Array, stretch: tuple[float, float]
+) -> list[Knot]:
+    """Return exact knots next to a guide, from the start on; none if one of them is missing."""
+    at, (q, first, second) = field.samples(places, *stretch), guide.rates_at(places)
+    (q, dq, ddq), found = exact_next_to(field, at, onto(field, at, q, _STEPS)[0], first, second)
+    if not found.all():
+        return []
+    offsets = np.zeros(len(q))
+    offsets[0], q[0] = np.abs(q[0] - start).max(), start
     rows = task_rows(field.chain, field.task, at, q)
     _, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
     changes = np.sqrt(np.square(row_derivatives(field.chain, field.task, at, q, dq)[0]).sum(axis=(1, 2)))
-    columns = zip(places.tolist(), q, dq, ddq, sigmas[:, -1].tolist(), right, changes.tolist(), strict=True)
-    return [Knot(*column) for column in columns]
+    s, sigma, change, offset = (values.tolist() for values in (places, sigmas[:, -1], changes, offsets))
+    return [Knot(*row) for row in zip(s, q, dq, ddq, sigma, right, change, offset, strict=True)]

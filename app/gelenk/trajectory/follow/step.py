@@ -5,6 +5,7 @@ the path within a share of the tolerance, and its rates agree with the field.
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import comb, perm
 
 import numpy as np
@@ -83,19 +84,25 @@ def attempt(field: RateField, a: Knot, s: float, stretch: tuple[float, float]) -
     """Return the piece from a knot to a place in the same stretch, whatever its errors; None without an exact knot."""
     at = field.samples(np.append(a.s + (s - a.s) * INNER, s), *stretch)
     b = next_knot(field, a, s, taken(at, slice(-1, None)))
-    return None if b is None else piece_between(field, a, b, taken(at, slice(0, -1)))
+    return None if b is None else pieces_between(field, [a, b], taken(at, slice(0, -1)))[0]
 
 
-def piece_between(field: RateField, a: Knot, b: Knot, at: PathSamples) -> Piece:
-    """Return the quintic between two knots with its errors at the inner samples `at` of the path."""
-    h, data = b.s - a.s, end_conditions(a, b)
-    qs = _VALUES @ data
-    velocities, sigmas = field.velocities(at, qs)
-    fastest = max(float(np.abs(velocities).max()), float(np.abs(data[[1, 4]]).max()) / h, 1e-300)
-    rate_ratio = float(np.abs(_RATES @ data / h - velocities).max()) / (RATE_TOLERANCE * fastest + 20.0 * a.offset / h)
-    deviations = field.errors(at, qs).max(axis=1)
-    ratio = max(rate_ratio, float((deviations / (SHARE * np.array(field.tolerances) + 10.0 * a.offset)).max()))
-    return Piece(a, b, data, np.concatenate(([a.sigma], sigmas, [b.sigma])), deviations, ratio)
+def pieces_between(field: RateField, knots: list[Knot], at: PathSamples) -> list[Piece]:
+    """Return the quintics between M + 1 knots with their errors at the inner samples `at`, seven for each of them."""
+    data = np.array([end_conditions(a, b) for a, b in pairwise(knots)])
+    qs, h = _VALUES @ data, np.diff([knot.s for knot in knots])
+    dqs, sigmas = field.velocities(at, qs.reshape(-1, qs.shape[2]))
+    velocities, offset = dqs.reshape(qs.shape), np.array([knot.offset for knot in knots[:-1]])
+    fastest = np.maximum(np.abs(velocities).max(axis=(1, 2)), np.abs(data[:, [1, 4]]).max(axis=(1, 2)) / h)
+    errors = np.abs(_RATES @ data / h[:, None, None] - velocities).max(axis=(1, 2))
+    ratios = errors / (RATE_TOLERANCE * np.maximum(fastest, 1e-300) + 20.0 * offset / h)
+    deviations = field.errors(at, qs.reshape(-1, qs.shape[2])).reshape(2, len(h), -1).max(axis=2).T
+    off = (deviations / (SHARE * np.array(field.tolerances) + 10.0 * offset[:, None])).max(axis=1)
+    rows = zip(pairwise(knots), data, sigmas.reshape(len(h), -1), deviations, np.maximum(ratios, off), strict=True)
+    return [
+        Piece(a, b, own, np.concatenate(([a.sigma], inner, [b.sigma])), deviation, float(ratio))
+        for (a, b), own, inner, deviation, ratio in rows
+    ]
 
 
 def next_knot(field: RateField, a: Knot, s: float, at: PathSamples) -> Knot | None:

@@ -71,6 +71,11 @@ class _Ended:
     field: RateField
     trace: Trace
 
+    def followable(self, places: Array) -> InverseKinematics:
+        """Solve at places as closely as the path is followed: with too few joints for all directions, approximately."""
+        field = self.field
+        return self.solved(places, *(field.residuals if len(field.chain) < len(field.task) else (_EXACT, _EXACT)))
+
     def solved(self, places: Array, position_tolerance: float, orientation_tolerance: float) -> InverseKinematics:
         field = self.field
         options = Options(
@@ -92,6 +97,11 @@ class _Ended:
         return Stop(reason, s, self.field.path.at(np.array([s])).poses.positions[0], joint, detail)
 
 
+def end_is_reached(robot: RobotModel, field: RateField, trace: Trace) -> bool:
+    """Return whether inverse kinematics finds a configuration within the joint limits at the end of the path."""
+    return _Ended(robot, field, trace).followable(np.array([field.path.extent])).statuses == ["solved"]
+
+
 def verdict(robot: RobotModel, field: RateField, trace: Trace) -> Stop | None:
     """Return why a trace ends before the path does; None if it is complete."""
     if trace.ending == "complete" or trace.crossing is None:
@@ -111,24 +121,34 @@ def never_back(robot: RobotModel, field: RateField, trace: Trace) -> Stop:
 
 def _with_the_rest(ended: _Ended, stop: Stop) -> Stop:
     """Extend a verdict on a branch: what no branch can reach goes before it, what other branches can do after it."""
-    field, (farthest, words) = ended.field, _of_all_branches(ended)
-    spare = "; looking ahead over the self-motion has found no way to the end" if field.is_redundant else ""
-    stop, left = replace(stop, detail=f"{stop.detail}{spare}{words}"), field.path.extent - farthest
+    field = ended.field
+    end = ended.followable(np.array([field.path.extent]))
+    farthest, words = _of_all_branches(ended, end.statuses == ["solved"])
+    stop, left = (
+        replace(stop, detail=f"{stop.detail}{_of_spare_joints(field, end)}{words}"),
+        field.path.extent - farthest,
+    )
     if not left > 0.0:
         return stop
-    places = farthest + left * np.arange(1, _POSES + 1) / _POSES
-    # An arm with too few joints for all directions follows the path only approximately.
-    tolerances = field.residuals if len(field.chain) < len(field.task) else (_EXACT, _EXACT)
-    found = ended.solved(places[-1:], *tolerances)
-    if found.statuses[-1] != "unreachable":
-        found = ended.solved(places[:-1], *tolerances)
+    places, found = farthest + left * np.arange(1, _POSES + 1) / _POSES, end
+    if end.statuses != ["unreachable"]:
+        found = ended.followable(places[:-1])
     missed = [i for i in range(len(found)) if found.statuses[i] == "unreachable"]
     if not missed:
         return stop
     i = missed[-1]
-    what = "the end of the path" if len(found) == 1 else f"the path {ended.place(places[i])}"
+    what = "the end of the path" if found is end else f"the path {ended.place(places[i])}"
     detail = f"{what} is out of reach: {found.failures[i].reason}; {stop.detail}"
     return replace(stop, reason="out_of_reach", detail=detail)
+
+
+def _of_spare_joints(field: RateField, end: InverseKinematics) -> str:
+    """Say what is known of other uses of the spare joints; a path out of reach needs no words on them."""
+    if not field.is_redundant or end.statuses == ["unreachable"]:
+        return ""
+    if end.statuses == ["solved"]:
+        return "; looking ahead over the self-motion has found no way to the end"
+    return f"; the end of the path: {end.failures[0].reason}"
 
 
 def _at_limit(ended: _Ended, s: float) -> Stop:
@@ -184,7 +204,7 @@ def _at_end_of_branch(ended: _Ended, s: float) -> Stop:
     if found.statuses[near] == "outside_limits":
         failure = found.failures[near]
         name = failure.blocking_joints[0].name if failure.blocking_joints else None
-        detail = f"the branch ends {ended.place(s)}, and the path beyond is reached {failure.reason}"
+        detail = f"the branch ends {ended.place(s)}, and the path beyond is {failure.reason}"
         return ended.stop("joint_limit", s, detail, name)
     if found.statuses[near] != "solved":
         is_unreachable = found.statuses[near] == "unreachable"
@@ -228,10 +248,10 @@ def _missing(ended: _Ended, s: float) -> str:
     return f": the joints cannot move the tip further in {' '.join(named)} as the path requires{few}"
 
 
-def _of_all_branches(ended: _Ended) -> tuple[float, str]:
+def _of_all_branches(ended: _Ended, end_is_solved: bool) -> tuple[float, str]:
     """Return how far the branches of the path's first pose lead at best, and a description."""
     field, trace = ended.field, ended.trace
-    if field.is_redundant and closed_form(field.chain, field.task) is None:
+    if field.is_redundant and (not end_is_solved or closed_form(field.chain, field.task) is None):
         return trace.reached, ""
     at = field.path.at(np.zeros(1))
     most = _MOST_SAMPLED if field.is_redundant else _MOST_BRANCHES
