@@ -3,6 +3,7 @@
 import json
 import math
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -473,7 +474,8 @@ def test_torques_with_a_payload(studio: Studio, refusals: set[int]) -> None:
     peak = answer["audit"]["joint_torque"]
     value, ratio, joint, _ = row(studio, "Torque")
     assert float(value.split()[0]) == pytest.approx(abs(peak["value"]), abs=6e-3)
-    assert (float(ratio.split()[0]), joint) == (pytest.approx(100 * peak["ratio"], abs=0.06), peak["joint"])
+    assert float(ratio.split()[0]) == pytest.approx(100 * peak["ratio"], abs=0.06)
+    assert joint == peak["joint"]
     studio.button("Torque").click()
     for i in (0, len(answer["times"]) // 3, -1):
         seek(studio, answer["times"][i])
@@ -490,6 +492,79 @@ def test_torques_with_a_payload(studio: Studio, refusals: set[int]) -> None:
     studio.page.reload()
     studio.wait_for_robot("panda")
     assert studio.state("motion") == motion
+
+
+@pytest.mark.slow
+def test_the_path_of_a_tool(studio: Studio, refusals: set[int], tmp_path: Path) -> None:
+    """Poses from a table; the turns that the service chooses are drawn, and the pose that blocks it is named."""
+    studio.open("trajectory", robot="ur5")
+    studio.page.locator("summary", has_text="Tool path").click()
+    table = tmp_path / "seam.csv"
+
+    def load(*lines: str) -> None:
+        table.write_text("\n".join(lines))
+        studio.field("Poses of the tool, a table").set_input_files([])
+        studio.field("Poses of the tool, a table").set_input_files(table)
+
+    said = studio.page.locator(".folded .segment-error")
+    for lines, problem in (
+        (["0.5,0,0.1"], "line 1 has 3 numbers"),
+        (["", "0.5,0,0.1,pi,0,a"], "first line names no columns"),
+        (["0.5,0,0.1,pi,0,0", "0.5,0,high,pi,0,0"], "line 2: “high” is no number"),
+    ):
+        load(*lines)
+        said.filter(has_text=problem).wait_for()
+    load("2 0 0.1 pi 0 0", "0.5 0.1 0.1 pi 0 0")
+    studio.page.get_by_text("2 poses in place of segments").wait_for()
+    studio.button("Plan").click()
+    said.filter(has_text="way-point 0 is out of reach").wait_for(timeout=COLD * 1000)
+    refusals.add(422)
+
+    load("name; x [m]; y; z; qx; qy; qz; qw", *(f"{y}; 0,5; 0.0{y}; 0.1; 1; 0; 0; 0" for y in range(5)))
+    studio.until("studio.store.value.motion.path.poses.length === 5")
+    answer = plan(studio)
+    poses = [{"position": [0.5, y / 100, 0.1], "quaternion_xyzw": [1, 0, 0, 0]} for y in range(5)]
+    motion = studio.state("motion")
+    assert motion["path"] == {"poses": poses, "free": ["rz"]}
+    expected = [
+        studio.fk("ur5", {"joint_positions": [q], "pose_format": "matrix"})["poses"][0]["matrix"]
+        for q in answer["path"]["joint_positions"]
+    ]
+    for column, axis in enumerate("xyz"):
+        assert lines_along(studio, axis) == pytest.approx(np.array(expected)[:, :3, column], abs=1e-5), axis
+    studio.page.wait_for_timeout(600)
+    studio.page.reload()
+    studio.wait_for_robot("ur5")
+    assert studio.state("motion") == motion
+
+    studio.page.locator("summary", has_text="Tool path").click()
+    load(*(f"{0.5 + 0.2 * i} 0.1 0.1 pi 0 0" for i in range(4)))
+    studio.until("studio.store.value.motion.path.poses.length === 4")
+    studio.button("Begin where the arm is").click()
+    blocked = plan(studio)
+    assert blocked["joint_positions"][0] == pytest.approx(studio.state("motion")["start"])
+    reached = len(blocked["path"]["turns"])
+    assert 0 < reached < 4
+    assert f"Way-point {reached} stops the tip" in (studio.page.locator(".ended").text_content() or "")
+    assert len(lines_along(studio, "muted")) == 4 - reached
+    studio.button("Back to segments").click()
+    assert "path" not in studio.state("motion")
+
+
+def lines_along(studio: Studio, hue: str) -> Any:
+    """The directions of the short lines at the way-points of a tool that have a colour."""
+    ends = studio.run(
+        """(hue) => {
+          const {attributes} = studio.view.scene.getObjectByName(`way-points ${hue}`).geometry;
+          const at = (part) => (i) => [part.getX(i), part.getY(i), part.getZ(i)];
+          const read = (part) => [...Array(part.count).keys()].map(at(part));
+          const {instanceStart: from, instanceEnd: to} = attributes;
+          return [read(from), read(to)];
+        }""",
+        hue,
+    )
+    along = np.subtract(*reversed(ends))
+    return along / np.linalg.norm(along, axis=1, keepdims=True)
 
 
 @pytest.mark.slow

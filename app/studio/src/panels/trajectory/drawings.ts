@@ -59,8 +59,8 @@ function corners(chain: ShownChain, { motion, answer }: Plan, curve: Curve): Pic
   return answer.segments.flatMap(({ index, blend, start_time, limits }, i) => {
     const next = answer.segments[i + 1];
     const speeds = [limits.tip_velocity, next?.limits.tip_velocity].filter((speed) => speed != null);
-    const { target } = motion.segments[index]!;
-    if (!blend || !next || speeds.length < 2 || !isPose(target)) return [];
+    const { target } = motion.segments[index] ?? {};
+    if (!blend || !next || speeds.length < 2 || !target || !isPose(target)) return [];
     const point = (time: number) => position(poseAt(chain, curve.at(time)));
     const corner = position(asMatrix(target));
     const speed = Math.min(...speeds);

@@ -16,6 +16,7 @@ import { Result } from "./result.ts";
 import { MotionMarks } from "./scene.ts";
 import { SegmentList } from "./segments.ts";
 import { Settings } from "./settings.ts";
+import { Tool } from "./tool.ts";
 
 export const trajectoryPanel: Panel = {
   id: "trajectory",
@@ -28,9 +29,10 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const draft = new Draft(store);
   const asked = new RequestView(studio.api);
   const marks = view && new MotionMarks(view);
-  const showPlaces = () => marks?.showPlaces(draft.chain, draft.motion, store.value.unit, list.open);
+  const showPlaces = () => marks?.showPlaces(draft.chain, draft.motion, store.value.plan, store.value.unit, list.open);
   const list = new SegmentList(draft, showPlaces);
   const settings = new Settings(draft);
+  const tool = new Tool(draft);
   const ends = new Ends(draft);
   const loads = new Loads(draft);
   const arm = new Arm(studio);
@@ -38,11 +40,11 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const planner = new Planner(
     draft,
     asked,
-    (places) => loads.fail(ends.fail(list.fail(places))),
+    (places) => loads.fail(ends.fail(tool.fail(list.fail(places)))),
     () => result.begin(),
   );
   host.append(
-    section("Motion", list.host, arm.host, settings.host, ends.host, loads.host, planner.host),
+    section("Motion", list.host, tool.host, arm.host, settings.host, ends.host, loads.host, planner.host),
     result.host,
     asked.host,
   );
@@ -51,12 +53,14 @@ function open(host: HTMLElement, studio: Studio): () => void {
       draft.begin();
       list.update();
       settings.update(plan && belongs(plan.motion, draft.chain) ? plan.answer.limits : null);
+      list.host.hidden = draft.motion.path !== undefined;
+      tool.update();
       ends.update();
       loads.update();
       planner.update();
       result.update();
     }),
-    store.watch(["model", "base", "tip", "motion", "unit", "dark"], showPlaces),
+    store.watch(["model", "base", "tip", "motion", "plan", "unit", "dark"], showPlaces),
     store.watch(["unit", "dark"], () => result.drawWay()),
     store.watch(["dark", "options"], () => result.drawProfiles()),
     store.watch(["joint"], ({ joint }) => result.point(joint)),

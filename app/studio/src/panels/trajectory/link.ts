@@ -2,7 +2,7 @@
 
 import { isPose } from "../../robot/pose.ts";
 import { DIRECTIONS } from "../../types.ts";
-import { type Motion, type Place, RATES, type Segment, TYPES } from "./motion.ts";
+import { AXES, type Motion, type Place, RATES, type Segment, type ToolPath, TYPES } from "./motion.ts";
 
 const NUMBERS = ["duration", "velocity_scale", "acceleration_scale"] as const;
 const TOLERANCES = ["path_tolerance", "orientation_tolerance", "min_singular_value"] as const;
@@ -23,6 +23,8 @@ export function asMotion(value: unknown): Motion | null {
     (motion.task === undefined || isTask(motion.task)) &&
     isFlag(motion.compare_timing) &&
     isFlag(motion.torques) &&
+    isFlag(motion.approach) &&
+    (motion.path === undefined || isToolPath(motion.path)) &&
     (motion.payload === undefined || isPayload(motion.payload)) &&
     areLimits(motion.limits);
   return isMotion ? motion : null;
@@ -60,6 +62,14 @@ function isPlace(value: unknown, joints: number): value is Place {
 function isTask(value: unknown): boolean {
   if (!Array.isArray(value) || value.length === 0) return false;
   return JSON.stringify(DIRECTIONS.filter((direction) => value.includes(direction))) === JSON.stringify(value);
+}
+
+function isToolPath(value: unknown): boolean {
+  if (!isObject(value) || !hasNumbers(value, ["steps"])) return false;
+  const { poses, free } = value as Partial<ToolPath>;
+  return (
+    Array.isArray(poses) && poses.every(isPose) && Array.isArray(free) && free.every((axis) => AXES.includes(axis))
+  );
 }
 
 function isPayload(value: unknown): boolean {

@@ -55,6 +55,11 @@ export interface Segment extends Pace {
   blends?: boolean;
 }
 
+export type ToolPath = NonNullable<TrajectoryRequest["path"]>;
+/** Those of the tip about which a tool may turn. */
+export const AXES = ["rx", "ry", "rz"] as const satisfies ToolPath["free"];
+export type FreeAxis = (typeof AXES)[number];
+
 /** What the tip carries; its centre of mass is at the tip if left out. */
 export type Payload = Pick<NonNullable<TrajectoryRequest["payload"]>, "mass" | "center">;
 
@@ -74,6 +79,10 @@ export interface Motion extends Pace, Partial<Rates> {
   orientation_tolerance?: number;
   min_singular_value?: number;
   near_singularity?: NearSingularity;
+  /** Of a tool, in place of the segments, which wait. */
+  path?: ToolPath;
+  /** Whether a motion along it begins at the start, else at its first pose. */
+  approach?: boolean;
   payload?: Payload;
   /** Whether the motors' torques are told. */
   torques?: boolean;
@@ -181,7 +190,8 @@ export function asPoseOf(place: Place, chain: ShownChain): Pose {
 }
 
 /** What keeps a motion from being asked for; null for one that is whole. */
-export function missing({ segments }: Motion): string | null {
+export function missing({ path, segments }: Motion): string | null {
+  if (path) return null;
   if (segments.length === 0) return "Move the arm, then add its pose as the first segment.";
   const open = segments.findIndex(isOpen);
   return open < 0 ? null : `Segment ${open + 1} lacks its target: move the arm, then press “Circle target”.`;
@@ -189,8 +199,10 @@ export function missing({ segments }: Motion): string | null {
 
 /** The body of the call. */
 export function request(motion: Motion): object {
-  const { robot: _, ...call } = motion;
-  return call;
+  const { robot: _, approach, ...call } = motion;
+  if (!call.path) return call;
+  const { segments: __, start, ...along } = call;
+  return approach ? { ...along, start } : along;
 }
 
 /** Without the fields that are undefined or null. */

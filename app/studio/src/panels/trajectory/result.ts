@@ -11,6 +11,7 @@ import { Player } from "./player.ts";
 import { Profiles } from "./profiles.ts";
 import { Saving } from "./saving.ts";
 import { type MotionMarks, tipPath } from "./scene.ts";
+import { choiceText } from "./tool.ts";
 import { Torques } from "./torques.ts";
 import { auditTable, failureBox, timingTable } from "./verdict.ts";
 
@@ -106,6 +107,7 @@ export class Result {
     this.#title.textContent = `Motion of ${answer.duration.toFixed(3)} s`;
     const failure = failureBox(answer, go);
     const timing = timingTable(answer);
+    const choice = choiceText(answer, degrees);
     const notes = [
       ...answer.notes,
       ...answer.segments.flatMap(({ index, notes }) => notes.map((note) => `Segment ${index + 1}: ${note}`)),
@@ -113,6 +115,7 @@ export class Result {
     this.#ended.hidden = failure === null;
     this.#ended.replaceChildren(...(failure ? [failure] : []));
     this.#body.replaceChildren(
+      ...(choice ? [choice] : []),
       auditTable(answer, chain.joints, degrees, go),
       ...(timing ? [timing] : []),
       ...(notes.length ? [remarks(notes)] : []),

@@ -124,7 +124,7 @@ export function timingTable({ timing }: TrajectoryAnswer): HTMLElement | null {
 
 /** Why the motion ends early, and where. */
 export function failureBox(answer: TrajectoryAnswer, go: (time: number) => void): HTMLElement | null {
-  const { failure, completed_fraction } = answer;
+  const { failure, completed_fraction, path } = answer;
   if (!failure) return null;
   const { reason, segment, time: at, position, detail } = failure;
   const where = position.map((value) => fixed(value, 3)).join(", ");
@@ -132,7 +132,11 @@ export function failureBox(answer: TrajectoryAnswer, go: (time: number) => void)
     "div",
     { class: "problem ended", role: "alert" },
     element("strong", {}, `Done to ${percent(completed_fraction)}, then ${REASONS[reason]}`),
-    element("p", {}, `Segment ${segment + 1} cannot go on with the tip at (${where}) m: ${detail}.`),
+    element(
+      "p",
+      {},
+      `${path ? `Way-point ${path.turns.length}` : `Segment ${segment + 1}`} stops the tip at (${where}) m: ${detail}.`,
+    ),
     button(`Go to ${fixed(at, 3)} s`, () => go(at), { class: "button small" }),
   );
 }
