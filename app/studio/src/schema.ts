@@ -41,6 +41,7 @@ export type CircleSegment = {
   type: "circle";
   via: Pose;
   target: Pose;
+  blend_radius?: number | null;
   orientation?: "axis_angle" | "zyz" | "zyz_other";
 };
 
