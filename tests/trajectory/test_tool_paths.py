@@ -11,6 +11,7 @@ from scipy.sparse.csgraph import dijkstra
 from scipy.spatial.transform import Rotation, RotationSpline
 
 from gelenk.errors import InvalidField
+from gelenk.ik.search.bounds import mid_range
 from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
 from gelenk.robot.arrays import Array
@@ -38,9 +39,13 @@ def chain_of(name: str = ARM) -> Chain:
     return one.chain(*one.default_chain)
 
 
-def seam(count: int = 12, turn: float = 1.0, rise: float = 0.03, q: Array = AT) -> Poses:
+def velocity_of(chain: Chain) -> Array:
+    return VELOCITY if len(chain) == 6 else np.append(VELOCITY, 2.0)
+
+
+def seam(count: int = 12, turn: float = 1.0, rise: float = 0.03, q: Array = AT, name: str = ARM) -> Poses:
     """Poses along most of a circle of 30 cm from where the tip is at a configuration, leaning and turning about z."""
-    position, rotation = (each[0] for each in chain_poses(chain_of().flat, q[None]))
+    position, rotation = (each[0] for each in chain_poses(chain_of(name).flat, q[None]))
     u = np.linspace(0.0, 1.0, count)
     offsets = np.column_stack((0.15 * (np.cos(5.6 * u) - 1.0), 0.15 * np.sin(5.6 * u), rise * np.sin(9.0 * u)))
     leaning = Rotation.from_rotvec(np.column_stack((0.2 * np.sin(5.0 * u), 0.1 * u, 0.0 * u)))
@@ -49,12 +54,17 @@ def seam(count: int = 12, turn: float = 1.0, rise: float = 0.03, q: Array = AT) 
     return Poses(position + offsets, np.ascontiguousarray(rotations))
 
 
-def planned(poses: Poses, axis: Array = Z, start: Array | None = None, law: str = "time_optimal") -> Trajectory:
-    limits = SegmentLimits(VELOCITY, 4.0 * VELOCITY, 40.0 * VELOCITY)
+def planned(
+    poses: Poses, axis: Array = Z, start: Array | None = None, law: str = "time_optimal", name: str = ARM
+) -> Trajectory:
+    velocity = velocity_of(chain_of(name))
+    limits = SegmentLimits(velocity, 4.0 * velocity, 40.0 * velocity)
     path = Segment("spline", law, limits, poses=poses)  # type: ignore[arg-type]
     segments = (path,) if start is None else (replace(path, type="joint", poses=None), path)
-    problem = TrajectoryProblem(AT if start is None else start, segments, tool=FreeTool(axis, 24))
-    return plan(robot(ARM), chain_of(), problem)
+    problem = TrajectoryProblem(
+        mid_range(chain_of(name)) if start is None else start, segments, tool=FreeTool(axis, 24)
+    )
+    return plan(robot(name), chain_of(name), problem)
 
 
 def test_derivatives_of_a_turned_path_are_its_differences() -> None:
@@ -76,11 +86,12 @@ def test_regular_configurations_are_those_of_the_singular_values() -> None:
         assert (regular(flat, qs, least) == (sizes >= least)).all()
 
 
-def _least_travel(poses: Poses, places: Array) -> float:
+def _least_travel(poses: Poses, places: Array, name: str = ARM, fixed: dict[str, float] | None = None) -> float:
     """The least joint travel over all branches on the way, by Dijkstra's algorithm; margins of the planner's widths."""
-    one, chain = robot(ARM), chain_of()
-    at = spline(poses).at(places).poses
-    found = inverse_kinematics(one, chain, at, AT[None], Options(every=True, method="analytic"))
+    one, chain = robot(name), chain_of(name)
+    at, velocity = spline(poses).at(places).poses, velocity_of(chain)
+    options = Options(every=True, method="analytic", fixed_joints=fixed or {})
+    found = inverse_kinematics(one, chain, at, mid_range(chain)[None], options)
     margin = np.minimum(0.01, 0.01 * (chain.upper - chain.lower))
     clear = ((found.qs >= chain.lower + margin) & (found.qs <= chain.upper - margin)).all(axis=1)
     rows, columns, costs = [], [], []
@@ -89,14 +100,14 @@ def _least_travel(poses: Poses, places: Array) -> float:
         own = np.flatnonzero(clear & (found.owners == i))
         before = np.array([size]) if i == 0 else np.flatnonzero(clear & (found.owners == i - 1))
         for b in own:
-            steps = np.zeros((1, 6)) if i == 0 else found.qs[b] - found.qs[before]
+            steps = np.zeros((1, len(chain))) if i == 0 else found.qs[b] - found.qs[before]
             short = (np.abs(steps) <= 0.5).all(axis=1)
-            costs += (np.linalg.norm(steps / VELOCITY, axis=1) + 1.0)[short].tolist()
+            costs += (np.linalg.norm(steps / velocity, axis=1) + 1.0)[short].tolist()
             rows += before[short].tolist()
             columns += [b] * int(short.sum())
     graph = coo_array((costs, (rows, columns)), shape=(size + 1, size + 1)).tocsr()
     distances = dijkstra(graph, indices=size)[:size]
-    return float(distances[found.owners == len(places) - 1].min()) - len(places)
+    return float(distances[found.owners == len(places) - 1].min(initial=np.inf)) - len(places)
 
 
 def test_no_sequence_of_branches_travels_less_than_the_one_chosen() -> None:
@@ -184,9 +195,47 @@ def test_a_first_pose_out_of_reach_is_refused_or_leaves_the_joints_at_rest() -> 
     assert (still.motion.duration, still.completed_fraction, still.failure.segment) == (0.0, 0.0, 0)
 
 
-def test_arms_without_six_joints_and_paths_that_stand_still_are_refused() -> None:
-    with pytest.raises(InvalidField, match="has 7 joints"):
-        tool_sequence(chain_of("panda"), seam(), FreeTool(Z, 36), np.ones(7), 0.01)
+PANDA = np.array([0.1, -0.4, 0.1, -2.0, 0.2, 1.8, 0.5])
+
+
+@pytest.mark.slow
+def test_one_of_seven_joints_is_held_where_the_others_travel_least() -> None:
+    poses = seam(5, q=PANDA, name="panda")
+    chain = chain_of("panda")
+    found = tool_sequence(chain, poses, FreeTool(NONE, 36), velocity_of(chain), 0.0)
+    qs = np.array(found.choice.joint_positions)
+    (j,) = np.flatnonzero(np.ptp(qs, axis=0) == 0.0)
+    name = chain.joint_names[j]
+    least = _least_travel(poses, found.turn.places, "panda", {name: qs[0, j]})
+    assert found.choice.joint_travel == pytest.approx(least, rel=1e-9)
+    for value in np.linspace(chain.lower[j], chain.upper[j], 14)[[3, 8, 11]]:
+        assert _least_travel(poses, found.turn.places, "panda", {name: float(value)}) >= least - 1e-9
+
+
+@pytest.mark.parametrize("axis", [X, Z])
+def test_seven_joints_lead_the_tool_as_they_were_chosen(axis: Array) -> None:
+    found = planned(seam(5, q=PANDA, name="panda"), axis, PANDA if axis is Z else None, name="panda")
+    assert found.audit.passed
+    assert found.failure is None
+    assert found.choice is not None
+    chosen = np.array(found.choice.joint_positions)
+    turned = Rotation.from_matrix(seam(5, q=PANDA, name="panda").rotations) * Rotation.from_rotvec(
+        np.outer(found.choice.turns, axis)
+    )
+    tips = pinocchio_poses(robot("panda"), chain_of("panda"), chosen)
+    np.testing.assert_allclose(tips.rotations, turned.as_matrix(), atol=1e-9)
+    began = found.segments[-1].start_time
+    motion = found.motion.at(np.linspace(began, found.motion.duration, 400))
+    gaps = np.abs(motion[:, None] - chosen).max(axis=2).min(axis=0)
+    assert gaps.max() < 0.05
+    assert (np.ptp(motion, axis=0) < 1e-3).any()
+
+
+def test_arms_without_a_closed_form_and_paths_that_stand_still_are_refused() -> None:
+    for name, lacks in (("planar_2r", "has 2 joints"), ("baxter", "has none with one of its seven joints held")):
+        count = len(chain_of(name))
+        with pytest.raises(InvalidField, match=lacks):
+            tool_sequence(chain_of(name), seam(), FreeTool(Z, 36), np.ones(count), 0.01)
     poses = seam(4)
     still = Poses(poses.positions[[0, 0, 1]], poses.rotations[:3])
     with pytest.raises(InvalidField, match="share one position") as error:

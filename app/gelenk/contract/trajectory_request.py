@@ -298,7 +298,8 @@ class Motion(ChainOptions, MotionOptions, WithSteps):
     )
     path: ToolPath | None = optional(
         "Instead of `segments`, the path of a tool that may turn about one of its axes; of arms with six joints whose "
-        "inverse kinematics has a closed form. From rest to rest, and in all directions (no `task`)."
+        "inverse kinematics has a closed form, or with seven if it has one once a joint is held: that joint stays "
+        "where it is best along the path. From rest to rest, and in all directions (no `task`)."
     )
     payload: CarriedLoad | None = optional("A load carried by the tip during the whole motion; it counts for torques.")
     gravity: Gravity = Field(

@@ -46,7 +46,8 @@ def tip_part(
     """
     positions, rotations = chain_poses(chain.flat, start[None])
     path = path_through(Poses(positions, rotations).matrices()[0], segments, first)
-    joints = follow(robot, chain, path.path, start, problem.following)
+    turn = segments[0].turn
+    joints = follow(robot, chain, path.path, start, problem.following, None if turn is None else turn.guide)
     part = _TipPart(chain, problem.following, segments, first, path, joints)
     if joints.reached <= 0.0:
         return PlannedPart(standing(start), (), Demands(), *part.failure())

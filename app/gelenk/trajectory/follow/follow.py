@@ -56,8 +56,17 @@ class FollowedPath:
     bend_errors: Array | None = None
 
 
-def follow(robot: RobotModel, chain: Chain, path: Path, start: Array, following: Following) -> FollowedPath:
+def follow(
+    robot: RobotModel,
+    chain: Chain,
+    path: Path,
+    start: Array,
+    following: Following,
+    guide: PiecewisePolynomial | None = None,
+) -> FollowedPath:
     """Find the joint path that leads the tip along a path, from a configuration, (n,), at the path's first pose.
+
+    Spare joints stay near a guide, if there is one and they can.
 
     Raises:
         InvalidField: The tolerances require too many knots.
@@ -75,6 +84,9 @@ def follow(robot: RobotModel, chain: Chain, path: Path, start: Array, following:
     tolerances = following.position_tolerance, following.orientation_tolerance
     threshold = 0.0 if following.near_singularity == "slow_down" else following.min_singular_value
     field = RateField(chain, path, following.task, tolerances, threshold)
+    trace = None if guide is None else guided(field, start, guide)
+    if trace is not None and trace.ending == "complete":
+        return _exactly(field, _joint_path(trace, None))
     whole = swept(field, start)
     if whole is not None:
         return _exactly(field, FollowedPath(whole[0], path.extent, None, *whole[1].tolist()))

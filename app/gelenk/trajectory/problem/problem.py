@@ -63,11 +63,15 @@ class FreeTool:
 
 @dataclass(frozen=True, slots=True)
 class ToolTurn:
-    """Turns of the tip about an axis of its own, (3,), at places of a path, (R,), [m]; shape (R,), [rad]."""
+    """Turns of the tip about an axis of its own, (3,), at places of a path, (R,), [m]; shape (R,), [rad].
+
+    `guide` is the joints' motion along the path, near which spare joints stay.
+    """
 
     axis: Array
     places: Array
     turns: Array
+    guide: PiecewisePolynomial | None = None
 
     @property
     def is_blocked(self) -> bool:

@@ -86,7 +86,7 @@ class ToolChoice(Result):
 
     Attributes:
         joint_travel: Σ ‖Δq_j/v_j‖ along the path, with the joints' velocity limits v, [s]: no sequence of the turns and
-            branches tried has less, and the turns in between were then used.
+            branches tried has less, with one of seven joints held; the turns in between were then used.
         turns: Of the tip about its free axis, counted on beyond ±π, [rad].
         branches: Names of the choices that make up the branch, as in `ik`.
         joint_positions: One row per pose, [rad or m].

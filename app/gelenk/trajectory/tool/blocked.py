@@ -1,24 +1,45 @@
 """Why a sequence of a tool's poses goes no further."""
 
+from dataclasses import replace
+
 import numpy as np
 
+from gelenk.errors import counted
 from gelenk.ik.closed.closed_form import ClosedForm
 from gelenk.ik.search.bounds import mid_range
+from gelenk.ik.verdict.fixed import HeldChain
 from gelenk.robot.arrays import Array
 from gelenk.robot.notations import rotations_from_vectors
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.words import StopReason
 from gelenk.trajectory.problem.result import PlanningFailure
-from gelenk.trajectory.tool.singularity import regular
+from gelenk.trajectory.tool.candidates import clear_of_singularities
+
+_REASONS = ("out_of_reach", "joint_limit", "singularity", "branch_change")
+"""From what stops soonest to what does last."""
 
 
 def blocked(
+    forms: list[ClosedForm], pose: Poses, axis: Array, turns: Array, least: float, place: tuple[int, bool]
+) -> PlanningFailure:
+    """Return why a pose, the first that no form can reach, is not: by the form that comes furthest.
+
+    `place` is the last pose of the request up to there, and whether it is this one; the limits are those of the forms.
+    The failure's segment and time are left at zero.
+    """
+    found = [_blocked(form, pose, axis, turns, least, place) for form in forms]
+    furthest = max(found, key=lambda failure: _REASONS.index(failure.reason))
+    chain = forms[0].chain
+    if isinstance(chain, HeldChain):
+        (name,) = set(chain.whole.joint_names) - set(chain.joint_names)
+        detail = f"{furthest.detail}; {name} was held, at {counted(len(forms), 'value')}"
+        return replace(furthest, detail=detail)
+    return furthest
+
+
+def _blocked(
     form: ClosedForm, pose: Poses, axis: Array, turns: Array, least: float, place: tuple[int, bool]
 ) -> PlanningFailure:
-    """Return why a pose, the first that cannot be reached, is not; its segment and time are left at zero.
-
-    `place` is the last pose of the request up to there, and whether it is this one; the limits are those of the form.
-    """
     near, is_own = place
     where = f"way-point {near}" if is_own else f"the path between way-points {near} and {near + 1}"
     targets = Poses(
@@ -35,7 +56,7 @@ def blocked(
     elif len(inside) == 0:
         reason, (joint, beyond) = "joint_limit", _nearest_to_limits(form, anywhere)
         detail = f"{where} is beyond the joint limits{at}: in the best case {joint} by {beyond:.4g}"
-    elif not regular(form.chain.flat, inside, least).any():
+    elif not clear_of_singularities(form, inside, least).any():
         reason = "singularity"
         detail = f"{where} is near a singularity{at}: the smallest singular value is below {least:g}"
     else:

@@ -1,6 +1,6 @@
 """All configurations with the tip at poses turned about an axis of its own, clear of limits and singularities."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -8,6 +8,7 @@ from gelenk.ik.closed.branch_kernels import BranchTable
 from gelenk.ik.closed.closed_form import ClosedForm
 from gelenk.ik.search.bounds import mid_range
 from gelenk.ik.search.search import in_pieces
+from gelenk.ik.verdict.fixed import widened
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.notations import rotations_from_vectors
 from gelenk.robot.poses import Poses
@@ -16,9 +17,6 @@ from gelenk.trajectory.tool.singularity import regular
 
 _PIECE = 1024
 """Targets that one thread solves at a time."""
-_CLEAR, _CLEAR_SHARE = 0.01, 0.01
-"""Distance from the joint limits, [rad or m], and at most this share of the range: so much do joints swing out between
-two rungs."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,14 +26,6 @@ class TurnedCandidates:
     rungs: Rungs
     turns: Array
     codes: Indices
-
-
-def clear_of_limits(form: ClosedForm) -> ClosedForm:
-    """Return the closed form with limits that leave a margin."""
-    chain = form.chain
-    with np.errstate(invalid="ignore"):
-        margin = np.fmin(_CLEAR, _CLEAR_SHARE * (chain.upper - chain.lower))
-    return replace(form, chain=replace(chain, lower=chain.lower + margin, upper=chain.upper - margin))
 
 
 def candidates(form: ClosedForm, poses: Poses, axis: Array, turns: Array, least: float) -> TurnedCandidates:
@@ -54,7 +44,7 @@ def candidates(form: ClosedForm, poses: Poses, axis: Array, turns: Array, least:
     def solve(part: slice) -> None:
         each = Poses(targets.positions[part], targets.rotations[part])
         table = form.solve(each, mid_range(form.chain)[None])
-        clear = regular(form.chain.flat, table.qs, least)
+        clear = clear_of_singularities(form, table.qs, least)
         owners = np.repeat(rows[part], np.diff(table.firsts))
         found[part.start] = table.qs[clear], table.codes[clear], owners[clear]
 
@@ -68,3 +58,9 @@ def solved_near(form: ClosedForm, targets: Poses, qs: Array) -> tuple[BranchTabl
     """Return the solution of each target nearest to a configuration, and which targets have one."""
     table = form.solve(targets, qs, most=1)
     return table, np.diff(table.firsts) > 0
+
+
+def clear_of_singularities(form: ClosedForm, qs: Array, least: float) -> Flags:
+    """Flag configurations at which all joints of the arm, also a held one, leave σ at least at `least`; shape (N,)."""
+    whole, qs = widened(form.chain, qs)
+    return regular(whole.flat, qs, least)

@@ -2,26 +2,31 @@
 
 The path through the poses is divided into rungs, the poses among them. On each one all branches at all turns are
 candidates, and the cheapest way through them is found (`ladder`): no other choice among them has less joint travel.
-Then the turns in between are used (`smoothing`).
+Of seven joints one is held on the way, at the best of some values (`forms`). Then the turns in between are used
+(`smoothing`).
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from gelenk.errors import InvalidField, counted
-from gelenk.ik.closed.closed_form import ClosedForm, closed_form, elimination
+from gelenk.errors import InvalidField
+from gelenk.ik.closed.closed_form import ClosedForm
 from gelenk.ik.search.bounds import free_variables, mid_range
+from gelenk.ik.verdict.fixed import narrowed, widened
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.notations import rotations_from_vectors
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.follow.ladder import Metric, way_up
+from gelenk.trajectory.motion.splines import cubic_spline
 from gelenk.trajectory.paths.spline_paths import PolynomialPath, spline
 from gelenk.trajectory.problem.problem import FreeTool, ToolTurn
 from gelenk.trajectory.problem.result import PlanningFailure, ToolChoice
 from gelenk.trajectory.tool.blocked import blocked
-from gelenk.trajectory.tool.candidates import TurnedCandidates, candidates, clear_of_limits, solved_near
+from gelenk.trajectory.tool.candidates import TurnedCandidates, candidates, solved_near
+from gelenk.trajectory.tool.forms import forms_of
 from gelenk.trajectory.tool.smoothing import TurnedRungs, smoothed
 
 _TURN = 2.0 * np.pi
@@ -48,6 +53,15 @@ class ToolSequence:
     share: float = 1.0
 
 
+class _Way(NamedTuple):
+    """A way by a form: turns, (R,), [rad], the form's configurations, (R, n), [rad or m], and the cost."""
+
+    form: ClosedForm
+    turns: Array
+    qs: Array
+    cost: float
+
+
 def tool_sequence(
     chain: Chain, poses: Poses, tool: FreeTool, velocity: Array, least: float, start: Array | None = None
 ) -> ToolSequence:
@@ -62,24 +76,26 @@ def tool_sequence(
     Raises:
         InvalidField: The arm has no closed form, or there is no path through the poses.
     """
-    form = clear_of_limits(_form(chain))
     path = _path(poses)
     places, own = _rungs(path.knots)
     along = path.at(places).poses
     turns: Array = np.linspace(0.0, _TURN, tool.steps if tool.axis.any() else 1, endpoint=False)
-    found = candidates(form, along, tool.axis, turns, least)
-    rows, qs = _best(form.chain, found, 1.0 / velocity, start)
-    count = len(rows)
-    rungs = TurnedRungs(_first(along, count), places[:count], np.unwrap(found.turns[rows]), qs)
+    forms = forms_of(chain, tool.axis, start)
+    ways = (_best(form, candidates(form, along, tool.axis, turns, least), 1.0 / velocity, start) for form in forms)
+    best = max(ways, key=lambda way: (len(way.qs), -way.cost))
+    form, count, weights = best.form, len(best.qs), narrowed(best.form.chain, 1.0 / velocity[None])[0]
+    rungs = TurnedRungs(_first(along, count), places[:count], best.turns, best.qs)
     if count > 1 and tool.axis.any():
-        rungs = smoothed(form, rungs, tool.axis, 1.0 / velocity, least)
-    turn = ToolTurn(tool.axis, rungs.places, rungs.turns)
-    choice = _choice(form, rungs, tool, own[own < count], velocity)
-    first = rungs.qs[0] if count else None
+        rungs = smoothed(form, rungs, tool.axis, weights, least)
+    qs = widened(form.chain, rungs.qs)[1]
+    guide = cubic_spline(rungs.places, qs, "natural").motion if count > 1 and len(chain) > 6 else None
+    turn = ToolTurn(tool.axis, rungs.places, rungs.turns, guide)
+    choice = _choice(form, rungs, tool, own[own < count], weights)
+    first = qs[0] if count else None
     if count == len(places):
         return ToolSequence(first, turn, choice)
     near = int(np.searchsorted(own, count, side="right")) - 1
-    failure = blocked(form, _one(along, count), tool.axis, turns, least, (near, bool(own[near] == count)))
+    failure = blocked(forms, _one(along, count), tool.axis, turns, least, (near, bool(own[near] == count)))
     return ToolSequence(first, turn, choice, failure, float(places[max(count - 1, 0)] / places[-1]))
 
 
@@ -88,14 +104,6 @@ def _path(poses: Poses) -> PolynomialPath:
         return spline(poses)
     except InvalidField as error:
         raise InvalidField("path.poses", error.reason) from None
-
-
-def _form(chain: Chain) -> ClosedForm:
-    form = (closed_form(chain) or elimination(chain)) if len(chain) == 6 else None
-    if form is None:
-        lacks = f"has {counted(len(chain), 'joint')}" if len(chain) != 6 else "has no closed form"
-        raise InvalidField("path", f"is for six joints whose inverse kinematics has a closed form: this chain {lacks}")
-    return form
 
 
 def _rungs(knots: Array) -> tuple[Array, Indices]:
@@ -114,24 +122,28 @@ def _one(poses: Poses, i: int) -> Poses:
     return Poses(poses.positions[i : i + 1], poses.rotations[i : i + 1])
 
 
-def _best(chain: Chain, found: TurnedCandidates, weights: Array, start: Array | None) -> tuple[Indices, Array]:
-    """Return the cheapest rows and their configurations, (R, n), without jumps by whole turns.
+def _best(form: ClosedForm, found: TurnedCandidates, weights: Array, start: Array | None) -> _Way:
+    """Return the cheapest way, without jumps by whole turns; `weights` and `start` are those of the whole chain.
 
     A joint that turns through its whole range may pass from one end to the other by a whole turn, as long as all of its
     way then fits between its limits; if it does not, these are distinct.
     """
+    chain = form.chain
     turning = free_variables(chain) & (chain.upper - chain.lower >= _TURN)
+    firsts, own = found.rungs.qs[: found.rungs.firsts[1]], narrowed(chain, weights[None])[0]
     for wraps in (turning, np.zeros_like(turning)):
-        metric = Metric(weights, np.full(len(chain), _LONGEST), wraps)
-        firsts = found.rungs.qs[: found.rungs.firsts[1]]
-        costs = np.zeros(len(firsts))
+        metric = Metric(own, np.full(len(chain), _LONGEST), wraps)
+        costs, near = np.zeros(len(firsts)), mid_range(chain)
         if start is not None:
-            costs = np.linalg.norm(weights * _differences(firsts - start, wraps), axis=1)
-        rows, _ = way_up(found.rungs, metric, costs)
-        qs = _unwound(chain, found.rungs.qs[rows], wraps, mid_range(chain) if start is None else start)
+            near = narrowed(chain, start[None])[0]
+            nearest = widened(chain, near + _differences(firsts - near, wraps))[1]
+            costs = np.linalg.norm(weights * (nearest - start), axis=1)
+        rows, cost = way_up(found.rungs, metric, costs)
+        qs = _unwound(chain, found.rungs.qs[rows], wraps, near)
         if qs is not None:
-            return rows, qs
-    return rows, found.rungs.qs[rows]
+            break
+    qs = found.rungs.qs[rows] if qs is None else qs
+    return _Way(form, np.unwrap(found.turns[rows]), qs, cost)
 
 
 def _differences(differences: Array, turning: Flags) -> Array:
@@ -151,13 +163,13 @@ def _unwound(chain: Chain, qs: Array, turning: Flags, near: Array) -> Array | No
     return ways if fits.all() else None
 
 
-def _choice(form: ClosedForm, rungs: TurnedRungs, tool: FreeTool, own: Indices, velocity: Array) -> ToolChoice:
+def _choice(form: ClosedForm, rungs: TurnedRungs, tool: FreeTool, own: Indices, weights: Array) -> ToolChoice:
     """Return turns, branches and configurations at the poses that are reached, and the joint travel."""
     if len(own) == 0:
         return ToolChoice(0.0, (), (), ())
     qs, turns = rungs.qs[own], rungs.turns[own]
     rotations = rungs.poses.rotations[own] @ rotations_from_vectors(turns[:, None] * tool.axis)
     table, _ = solved_near(form, Poses(rungs.poses.positions[own], rotations), qs)
-    travel = float(np.linalg.norm(np.diff(rungs.qs, axis=0) / velocity, axis=1).sum())
+    travel = float(np.linalg.norm(weights * np.diff(rungs.qs, axis=0), axis=1).sum())
     branches = tuple(form.branch(code) for code in table.codes.tolist())
-    return ToolChoice(travel, tuple(turns.tolist()), branches, tuple(tuple(q) for q in qs.tolist()))
+    return ToolChoice(travel, tuple(turns.tolist()), branches, tuple(map(tuple, widened(form.chain, qs)[1].tolist())))

@@ -14,8 +14,7 @@ from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.notations import rotations_from_vectors
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.motion.tridiagonal import Tridiagonal, solution
-from gelenk.trajectory.tool.candidates import solved_near
-from gelenk.trajectory.tool.singularity import regular
+from gelenk.trajectory.tool.candidates import clear_of_singularities, solved_near
 
 _ROUNDS = 20
 _FARTHEST = 0.3
@@ -96,6 +95,6 @@ def _turned(
     qs = rungs.qs.copy()
     qs[solved] = table.qs
     predicted = np.abs(qs - rungs.qs).max(axis=1) <= _LARGEST
-    solved &= predicted & regular(form.chain.flat, qs, least)
+    solved &= predicted & clear_of_singularities(form, qs, least)
     keep = solved[:, None]
     return replace(rungs, turns=np.where(solved, turns, rungs.turns), qs=np.where(keep, qs, rungs.qs)), solved
