@@ -89,19 +89,21 @@ def bounds_of(chain: Chain, own: OwnVelocities, layers: Mapping[str, MotionOptio
 
     `layers` are options that contain limits, by the prefix of their fields; later ones override earlier ones.
     """
-    values, source = own.values, np.where(own.known, "robot", "assumed")
-    rows, sources = [], {}
+    values: list[float] = own.values.tolist()
+    source: list[LimitSource] = ["robot" if is_known else "assumed" for is_known in own.known.tolist()]
+    rows: list[Array] = []
+    sources: dict[str, tuple[LimitSource, ...]] = {}
     for quantity, rate in zip(QUANTITIES, (None, ACCELERATION_RATE, JERK_RATE), strict=True):
         if rate is not None:
-            values, source = values * rate, np.full(len(chain), "assumed", dtype=source.dtype)
+            values, source = [rate * value for value in values], ["assumed"] * len(chain)
         for prefix, options in layers.items():
             given = None if options.limits is None else getattr(options.limits, quantity)
             if given is not None:
-                found = joint_row(chain, given, f"{prefix}limits.{quantity}")
-                counts = np.isfinite(found)
-                values, source = np.where(counts, found, values), np.where(counts, "request", source)
-        rows.append(values)
-        sources[quantity] = tuple(source.tolist())
+                found = joint_row(chain, given, f"{prefix}limits.{quantity}").tolist()
+                values = [one if math.isfinite(one) else old for one, old in zip(found, values, strict=True)]
+                source = ["request" if math.isfinite(one) else old for one, old in zip(found, source, strict=True)]
+        rows.append(np.array(values))
+        sources[quantity] = tuple(source)
     latest = list(layers.values())[::-1]
     faster, harder = (_first(latest, name, 1.0) for name in ("velocity_scale", "acceleration_scale"))
     limits = [options.limits for options in latest if options.limits is not None]

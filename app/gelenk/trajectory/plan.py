@@ -41,6 +41,8 @@ _WORTH_A_NOTE = 1.001
 """Least factor on the time of a part that its notes mention."""
 _MOST_REASONS = 4
 """Largest number of reasons that a refusal lists."""
+_CUBIC = 3
+"""Degree from which on a polynomial has a jerk."""
 _MOMENT = 1e-9
 """Duration that stands for zero in an audit, [s]."""
 
@@ -153,7 +155,8 @@ def _factor(parts: list[PlannedPart], problem: TrajectoryProblem) -> float:
 
 def _with_stated_jerk(part: PlannedPart, problem: TrajectoryProblem) -> PlannedPart:
     """Slow a part down to requested jerk limits that its law does not keep; `InvalidField` if its times are given."""
-    if part.demands.keeps_jerk or part.motion.duration == 0.0:
+    has_jerk = part.motion.coefficients.shape[1] > _CUBIC
+    if part.demands.keeps_jerk or part.motion.duration == 0.0 or not has_jerk:
         return part
     stretches = [(motion, zone.stated_jerk) for motion, zone in part.stretches()]
     jerks = [(np.abs(peaks(motion, 3).values) / stated).max() for motion, stated in stretches if stated is not None]

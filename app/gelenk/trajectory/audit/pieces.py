@@ -146,21 +146,24 @@ def extremes(pieces: Pieces, order: int, absolute: bool = False) -> tuple[Array,
 def _at_ends(pieces: Pieces, order: int, absolute: bool, best: Array, where: Indices, at: Array) -> Array:
     """Find the extremes at the pieces' ends, and return a bound of the values within each piece, (M, n).
 
-    From the chord between its ends, τᵏ is nowhere further than min((k - 1)/4, 1).
+    Nowhere is τᵏ above the chord between its ends, nor further below it than min((k - 1)/4, 1).
     """
     count, size, n = pieces.scaled.shape
     bounds, factors = np.zeros((count, n)), np.array([_factor(k, order) for k in range(size)])
     for piece in range(count):
         scale = _reciprocal(pieces.widths[piece], order)
         for joint in range(n):
-            start, end, bulge = 0.0, 0.0, 0.0
+            start, end, rise, dip = 0.0, 0.0, 0.0, 0.0
             for k in range(order, size):
                 c = scale * factors[k] * pieces.scaled[piece, k, joint]
                 start = c if k == order else start
                 end += c
-                bulge += min(max(0.25 * (k - order - 1), 0.0), 1.0) * abs(c)
-            start, end = (abs(start), abs(end)) if absolute else (start, end)
-            bounds[piece, joint] = max(start, end) + bulge
+                sag = min(max(0.25 * (k - order - 1), 0.0), 1.0) * c
+                rise, dip = rise - min(sag, 0.0), dip + max(sag, 0.0)
+            bounds[piece, joint] = max(start, end) + rise
+            if absolute:
+                bounds[piece, joint] = max(bounds[piece, joint], dip - min(start, end))
+                start, end = abs(start), abs(end)
             if start > best[joint] + _ROUNDING * abs(best[joint]) or piece == 0:
                 best[joint], where[joint], at[joint] = start, piece, 0.0
             if end > best[joint] + _ROUNDING * abs(best[joint]):
@@ -291,6 +294,12 @@ def joint_jumps(pieces: Pieces) -> tuple[Array, Array]:
     for order in range(4):
         values[order], times[order] = largest_jumps(pieces, order)
     return values, times
+
+
+@compiled
+def even_positions(pieces: Pieces, count: int) -> Array:
+    """Evaluate positions at evenly spread times, from the start to the end; shape (count, n)."""
+    return positions_at(pieces, np.linspace(pieces.starts[0], pieces.starts[-1] + pieces.widths[-1], count))
 
 
 @compiled

@@ -18,7 +18,7 @@ from gelenk.robot.compilation import compiled
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.kernels import smallest_singular_values, tip_rates
 from gelenk.trajectory.audit.peaks import ROUNDS, highest, narrowed, promising, tried, triples
-from gelenk.trajectory.audit.pieces import Pieces, positions_at, rate_bounds, travel, values_at
+from gelenk.trajectory.audit.pieces import Pieces, even_positions, positions_at, rate_bounds, travel, values_at
 from gelenk.trajectory.audit.result import SmallestSingularValue
 
 PathOfTime: TypeAlias = Callable[[Array], Poses]
@@ -156,7 +156,7 @@ def least_singular_value(
 
 def poses_at(pieces: Pieces, chain: Chain, count: int) -> tuple[Array, Poses]:
     """Return configurations, shape (count, n), and poses at evenly spread times, for an independent check."""
-    qs = positions_at(pieces, np.linspace(pieces.starts[0], pieces.starts[-1] + pieces.widths[-1], count))
+    qs = even_positions(pieces, count)
     return qs, Poses(*chain_poses(chain.flat, qs))
 
 

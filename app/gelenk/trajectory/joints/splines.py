@@ -121,11 +121,12 @@ class JointSpline:
         return standing(self.points.positions[0]), 0
 
     def _is_scaled(self) -> bool:
+        if not LAWS[self.segment.law].scales_splines:
+            return False
         path = self.path
         chords = np.diff(path.at(path.breaks), axis=0) / np.diff(path.breaks)[:, None]
         ends = path.derivative().at(path.breaks[[0, -1]])
-        is_at_rest = np.abs(ends).max(initial=0.0) <= _STILL * np.abs(chords).max(initial=0.0)
-        return LAWS[self.segment.law].scales_splines and bool(is_at_rest)
+        return bool(np.abs(ends).max(initial=0.0) <= _STILL * np.abs(chords).max(initial=0.0))
 
     def _scaling_at_times(self) -> Scaling:
         """Return the scaling of the spline in time; jerk is limited only if acceleration does not jump at its ends."""

@@ -47,9 +47,9 @@ def knots(start: Array, waypoints: Array | None, times: Array | None, velocity: 
     if waypoints is None or len(waypoints) == 0:
         raise InvalidField("waypoints", "at least one is needed: the start is the first knot, and a spline needs two")
     positions = np.concatenate((start[None], waypoints))
-    too_large = np.argwhere(~(np.abs(positions) <= LARGEST))
-    if len(too_large) > 0:
-        k = int(too_large[0, 0])
+    is_sensible = np.abs(positions) <= LARGEST
+    if not is_sensible.all():
+        k = int(np.argwhere(~is_sensible)[0, 0])
         raise InvalidField("start" if k == 0 else f"waypoints.{k - 1}", f"must be of magnitude ≤ {LARGEST:g}")
     if times is None:
         return Knots(_spaced(positions, velocity), positions)
@@ -86,10 +86,10 @@ def check_within(chain: Chain, configurations: Array, field: str) -> None:
 
     The field names the first one: an index takes the place of `{}`.
     """
-    outside = np.argwhere(~((configurations >= chain.lower - WITHIN) & (configurations <= chain.upper + WITHIN)))
-    if len(outside) == 0:
+    is_within = (configurations >= chain.lower - WITHIN) & (configurations <= chain.upper + WITHIN)
+    if is_within.all():
         return
-    k, j = (int(i) for i in outside[0])
+    k, j = (int(i) for i in np.argwhere(~is_within)[0])
     raise InvalidField(
         field.format(k),
         f"joint {chain.joint_names[j]} at {configurations[k, j]:.10g} is outside its limits "

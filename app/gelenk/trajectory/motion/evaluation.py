@@ -59,11 +59,10 @@ def composed(pieces: Array, laws: Array) -> Array:
         found[i, 0] = pieces[i, -1]
         for k in range(size - 2, -1, -1):
             for power in range((size - 1 - k) * d, 0, -1):
-                for j in range(n):
-                    value = 0.0
-                    for q in range(max(1, power - (size - 2 - k) * d), min(d, power) + 1):
-                        value += laws[i, q] * found[i, power - q, j]
-                    found[i, power, j] = value
+                found[i, power] = 0.0
+                for q in range(max(1, power - (size - 2 - k) * d), min(d, power) + 1):
+                    for j in range(n):
+                        found[i, power, j] += laws[i, q] * found[i, power - q, j]
             found[i, 0] = pieces[i, k]
     return found
 
@@ -93,3 +92,49 @@ def reached(breaks: Array, coefficients: Array, values: Array, places: Array) ->
             t = following
         times[i] = breaks[piece] + t
     return times
+
+
+@compiled
+def hermite(starts: Array, ends: Array, durations: Array, conditions: Array) -> Array:
+    """Return polynomials with given derivatives at both ends, (m, M, n) each; shape (M, 2m, n).
+
+    The conditions, (m, m), lead from what the start leaves of the m at λ = 1 to the coefficients of λᵐ … λ²ᵐ⁻¹.
+    """
+    m, count, n = starts.shape
+    found, left = np.zeros((count, 2 * m, n)), np.empty(m)
+    for i in range(count):
+        h = durations[i]
+        for j in range(n):
+            scale = 1.0
+            for k in range(m):
+                found[i, k, j] = starts[k, i, j] * scale
+                scale *= h / (k + 1.0)
+            left[0] = ends[0, i, j] - starts[0, i, j] - found[i, 1:m, j].sum()
+            for d in range(1, m):
+                left[d] = ends[d, i, j] * h**d
+                for k in range(d, m):
+                    factor = 1.0
+                    for step in range(d):
+                        factor *= k - step
+                    left[d] -= factor * found[i, k, j]
+            for k in range(m):
+                for d in range(m):
+                    found[i, m + k, j] += conditions[k, d] * left[d]
+            for k in range(1, 2 * m):
+                found[i, k, j] /= h**k
+    return found
+
+
+@compiled
+def eliminated(lower: Array, diagonal: Array, upper: Array, b: Array) -> Array:
+    """Solve a tridiagonal, diagonally dominant system by Gauss's elimination; x has the shape (N, n) of b."""
+    pivots, x = diagonal.copy(), b.copy()
+    for i in range(1, len(x)):
+        factor = lower[i] / pivots[i - 1]
+        pivots[i] -= factor * upper[i - 1]
+        x[i] -= factor * x[i - 1]
+    for i in range(len(x) - 1, -1, -1):
+        if i + 1 < len(x):
+            x[i] -= upper[i] * x[i + 1]
+        x[i] /= pivots[i]
+    return x

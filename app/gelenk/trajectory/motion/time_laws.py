@@ -58,12 +58,10 @@ def hermite_pieces(starts: Array, ends: Array, durations: Array) -> Array:
         starts, ends: Position, velocity, … at both ends of each piece, two to four of them; shape (m, M, n).
         durations: Shape (M,), [s].
     """
-    m, h = len(starts), durations[:, None]
-    lower = [starts[k] * h**k / factorial(k) for k in range(m)]
-    left = _left_at_end(lower, [ends[k] * h**k for k in range(m)], ends[0] - starts[0])
-    upper = np.tensordot(_END_CONDITIONS[m], left, axes=1)
-    powers = h ** np.arange(2 * m)
-    return np.moveaxis(np.concatenate([np.array(lower), upper]), 0, 1) / powers[:, :, None]
+    from gelenk.trajectory.motion.evaluation import hermite  # noqa: PLC0415 - a client has no compiler
+
+    first, last, lasting = (np.ascontiguousarray(rows, dtype=float) for rows in (starts, ends, durations))
+    return hermite(first, last, lasting, _END_CONDITIONS[len(starts)])
 
 
 def _left_at_end(lower: list[Array], ends: list[Array], displacement: Array) -> Array:
