@@ -301,12 +301,15 @@ def test_pictures(client: TestClient, robot: str, q: list[float], kind: str, sta
     assert npy_call.content == answer.content
 
 
-@pytest.mark.parametrize(("robot", "qs"), [("planar_2r", []), ("panda", [READY, READY])])
-def test_a_picture_in_space_shows_one_configuration(client: TestClient, robot: str, qs: list[list[float]]) -> None:
-    answer = client.post(PATH.format(robot), json={"joint_positions": qs}, headers={"accept": SVG})
+@pytest.mark.parametrize(("field", "body"), [("joint_positions", {"joint_positions": []}), ("task", {"task": ["rx"]})])
+def test_a_picture_needs_a_configuration_and_several_a_translation(
+    client: TestClient, field: str, body: dict[str, Any]
+) -> None:
+    call = {"joint_positions": [READY, READY], **body}
+    answer = client.post(PATH.format("panda"), json=call, headers={"accept": SVG})
     assert answer.status_code == 422
-    assert answer.headers["content-type"] == "application/problem+json"
-    assert "one configuration" in answer.json()["detail"]
+    assert f"#/{field}" in answer.text
+    assert "one or more configurations" in answer.json()["detail"]
 
 
 def test_postures_of_a_planar_arm_are_drawn(client: TestClient) -> None:

@@ -1,4 +1,4 @@
-"""Pictures of a planar arm's postures: that they show the arm and its ellipses where they are."""
+"""Pictures of an arm's postures: that they show the arm and its ellipses where they are."""
 
 import numpy as np
 import pytest
@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse
 
 from gelenk.kinematics.ellipsoids.manipulability import manipulability
+from gelenk.kinematics.simd.kernels import chain_jacobians
 from gelenk.plots.figure import PictureFormat
 from gelenk.plots.motion.postures import postures_picture
 from gelenk.robot.arrays import Array
@@ -56,3 +57,18 @@ def test_of_many_configurations_a_dozen_are_drawn(monkeypatch: pytest.MonkeyPatc
 
 def test_a_stretched_arm_is_drawn_too(monkeypatch: pytest.MonkeyPatch) -> None:
     assert drawn(monkeypatch, "planar_2r", np.array([[0.3, 0.0], [0.3, np.pi]])).axes
+
+
+def test_an_arm_in_space_is_projected(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Along y, in which it extends least; half the height of an ellipse is what a unit of joint speed gives in z."""
+    qs = np.array([[0.0, -0.8, 0.0, -2.3, 0.0, 1.6, 0.8], [0.0, -0.2, 0.0, -1.6, 0.0, 1.4, 0.8]])
+    axes = drawn(monkeypatch, "panda", qs).axes[0]
+    assert (axes.get_xlabel()[0], axes.get_ylabel()[0]) == ("x", "z")
+    machine = robot("panda")
+    _, _, Js = chain_jacobians(machine.chain(None, None).flat, qs)
+    ellipses = [one for one in axes.patches if isinstance(one, Ellipse)]
+    turns = [np.radians(one.angle) for one in ellipses]
+    heights = [np.hypot(one.width * np.sin(a), one.height * np.cos(a)) for one, a in zip(ellipses, turns, strict=True)]
+    wanted = [float(np.linalg.norm(J[2])) for J in Js]
+    ratios = np.array(sorted(set(np.round(heights, 9)))) / sorted(wanted)
+    np.testing.assert_allclose(ratios, ratios[0], rtol=1e-6)

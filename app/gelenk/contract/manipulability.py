@@ -261,9 +261,9 @@ ENDPOINT = RobotEndpoint(
 
     `polytopes` replaces the norm by the limits of each joint. With `Accept: image/svg+xml` or `image/png` one
     configuration is drawn: the arm and the ellipses of translation at its tip, a planar arm in its plane, any
-    other in three projections; of several configurations, a planar arm's postures along a motion with their velocity
-    ellipses. `directions` are arrows there, and `polytopes` outlines, of a translation in a plane
-    alone. Jacobians are recomputed through Pinocchio before anything is sent (a sample of a
+    other in three projections; of several configurations, the postures along a motion with their velocity ellipses,
+    of an arm in space in one projection. `directions` are arrows there, and `polytopes` outlines, of a translation in
+    a plane alone. Jacobians are recomputed through Pinocchio before anything is sent (a sample of a
     large batch), and the ellipsoids are put together again and compared with JJᵀ.
     """,
     options=ManipulabilityOptions,
@@ -271,7 +271,7 @@ ENDPOINT = RobotEndpoint(
     "largest first, then those of the rotation, then those of the combined part; as many of each as the chain has "
     "at almost every configuration.",
     picture="The arm at one configuration with the velocity and the force ellipse of its tip's translation; "
-    "the scales are beside it. A planar arm at several: its postures, each with its velocity ellipse.",
+    "the scales are beside it. At several: its postures, each with its velocity ellipse.",
     example={
         "joint_positions": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]],
         "directions": [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],

@@ -261,12 +261,11 @@ def _add_polytopes(
 def _postures(
     loaded: LoadedRobot, chain: Chain, qs: Array, translation: Ellipsoids | None, kind: PictureFormat
 ) -> bytes:
-    from gelenk.plots.ellipsoids import plane_of  # noqa: PLC0415
     from gelenk.plots.motion.postures import postures_picture  # noqa: PLC0415
 
-    if translation is None or len(qs) == 0 or plane_of(chain, translation) is None:
-        reason = f"an image of an arm that moves in space shows one configuration; these are {len(qs)}"
-        raise InvalidField("joint_positions", reason)
+    if translation is None or len(qs) == 0:
+        reason = f"an image shows the velocities of the tip at one or more configurations; these are {len(qs)}"
+        raise InvalidField("task" if len(qs) else "joint_positions", reason)
     return postures_picture(loaded.record.name, chain, qs, translation, kind)
 
 

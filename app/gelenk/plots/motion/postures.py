@@ -1,4 +1,4 @@
-"""Picture of a planar arm's postures along a motion, each with the velocity ellipse at its tip."""
+"""Picture of an arm's postures along a motion, each with the velocity ellipse at its tip."""
 
 from typing import Any
 
@@ -21,11 +21,15 @@ _SMALLER = 0.5
 
 
 def postures_picture(name: str, chain: Chain, qs: Array, translation: Ellipsoids, kind: style.PictureFormat) -> bytes:
-    """Draw the arm at several configurations, (N, n), on one scale, and the way of its tip; all lie in one plane."""
+    """Draw the arm at several configurations, (N, n), at least one, on one scale, and the way of its tip.
+
+    An arm in space is projected along the axis of the base in which it extends least; so are its ellipsoids.
+    """
+    points = np.array([arm_line(chain, q)[0] for q in qs])
     plane = plane_of(chain, translation)
     if plane is None:
-        raise ValueError("postures are drawn in a plane, and this arm moves in space")
-    lines = np.array([arm_line(chain, q)[0] for q in qs]) @ plane.T
+        plane = np.delete(np.eye(3), np.ptp(points.reshape(-1, 3), axis=0).argmin(), axis=0)
+    lines = points @ plane.T
     extent = max(float(np.ptp(lines.reshape(-1, 2), axis=0).max()), 1e-3)
     scale = drawn_scale(translation.sigmas.ravel(), _SMALLER * extent)
     figure = style.new_figure(6.4, 6.9)
