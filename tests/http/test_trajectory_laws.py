@@ -234,3 +234,24 @@ def test_corners_at_circles_stay_within_their_radius_and_are_smooth(client: Test
         fine, coarse = (np.abs(np.diff(positions[::step], 3, axis=0)).max() / step**2 for step in (2, 4))
         assert fine < 0.7 * coarse
         assert told["audit"]["continuity"]["acceleration"]["value"] < 1e-6
+
+
+@pytest.mark.quick(2)
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("tight", [{"limits": {"tip_velocity": 0.03}}, {"velocity_scale": 0.1}])
+def test_a_spline_is_slow_only_on_the_way_to_a_waypoint_that_says_so(
+    client: TestClient, law: str, tight: dict[str, Any]
+) -> None:
+    pose, limits = tip(client), {"tip_velocity": 0.3}
+    waypoints = [shifted(pose, x, z) for x, z in ((-0.08, 0.02), (-0.16, 0.0), (-0.24, 0.03))]
+    spline = {"type": "spline", "waypoints": waypoints, "waypoint_options": [None, tight, {}]}
+    call = {"start": START, "segments": [spline], "law": law, "sample_period": 0.002, "limits": limits}
+    told = client.post("/v1/robots/ur5/trajectory", json=call).json()
+    positions, times = np.array([one["position"] for one in told["tip_poses"]]), np.array(told["times"])
+    begin, end = (times[np.linalg.norm(positions - at["position"], axis=1).argmin()] for at in waypoints[:2])
+    speeds = np.linalg.norm(np.diff(positions, axis=0), axis=1) / np.diff(times)
+    within = (times[:-1] > begin + 0.002) & (times[1:] < end - 0.002)
+    assert 0.027 < speeds[within].max() < 0.0301
+    assert speeds[times[1:] < begin].max() > 0.06
+    assert speeds[times[:-1] > end].max() > 0.06
+    assert told["audit"]["passed"]

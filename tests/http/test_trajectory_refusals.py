@@ -24,6 +24,7 @@ JOINT = {"type": "joint", "target": BESIDE}
 LINE = {"type": "line", "target": pose(0.1)}
 CIRCLE = {"type": "circle", "via": pose(0.05, 0.05), "target": pose(0.1)}
 SPLINE = {"type": "spline", "waypoints": [BESIDE, READY]}
+POSES = {"type": "spline", "waypoints": [pose(0.1), pose(0.2, 0.1)]}
 BLENDED = {**LINE, "blend_radius": 0.02}
 
 
@@ -94,6 +95,18 @@ def places(problem: dict[str, Any]) -> list[str]:
         ({"segments": [{**SPLINE, "times": [0.0, 1.0]}]}, "#/segments/0/times/0", "greater than"),
         ({"segments": [{**SPLINE, "times": [1.0, 9.0], "duration": 9.0}]}, "#/segments/0/duration", "`times`"),
         ({"segments": [{**SPLINE, "boundary": "loose"}]}, "#/segments/0/boundary", "'clamped', 'natural'"),
+        ({"segments": [{**SPLINE, "waypoint_options": [None, None]}]}, "#/segments/0/waypoint_options", "are of poses"),
+        ({"segments": [{**POSES, "waypoint_options": [None]}]}, "#/segments/0/waypoint_options", "1 entry for 2"),
+        (
+            {"segments": [{**POSES, "waypoint_options": [None, {"limits": {"joint_torque": 9.0}}]}]},
+            "#/segments/0/waypoint_options/1/limits/joint_torque",
+            "along a whole segment",
+        ),
+        (
+            {"segments": [{**POSES, "waypoint_options": [{"limits": {"joint_jerk": [1.0]}}, None]}]},
+            "#/segments/0/waypoint_options/0/limits/joint_jerk",
+            "panda_joint1",
+        ),
         ({"segments": [BLENDED]}, "#/segments/0/blend_radius", "last segment"),
         ({"segments": [BLENDED, JOINT]}, "#/segments/0/blend_radius", "type joint"),
         ({"segments": [{**LINE, "blend_time": 0.1}, JOINT]}, "#/segments/0/blend_time", "type joint"),

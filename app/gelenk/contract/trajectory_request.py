@@ -210,6 +210,11 @@ class SplineSegment(SegmentOptions):
         "Time of each, after the segment's start, increasing, [s]; if left out, found from the limits.",
         max_length=MAX_WAYPOINTS,
     )
+    waypoint_options: list[MotionOptions | None] | None = optional(
+        "Of poses, limits and scales on the way to each waypoint, one entry for each; what is left out, or all of it "
+        "with null, is taken from the segment. Limits of torque hold along the whole segment.",
+        max_length=MAX_WAYPOINTS,
+    )
     boundary: Boundary = Field(
         default="clamped",
         description="End conditions: `clamped`, at rest; `natural`, without acceleration; `not_a_knot`; "

@@ -12,6 +12,7 @@ from gelenk.contract.trajectory_request import (
     CircleSegment,
     JointSegment,
     LineSegment,
+    MotionOptions,
     Segment,
     SplineSegment,
     TrajectoryRequest,
@@ -64,7 +65,7 @@ def parse(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedPr
     overall, *segment_bounds = with_torques(robot, chain, call, (overall, *bounds))
     state = None if call.at is None else state_of(robot, chain, call.at, lambda *former: parse(*former).problem)
     if call.path is None:
-        segments = tuple(_segment(chain, call, i, segment_bounds[i]) for i in range(len(requested)))
+        segments = tuple(_segment(chain, call, i, segment_bounds[i], own) for i in range(len(requested)))
     else:
         part = Part("spline", _tip_law(call, None, "law"), overall.limits, stated_jerk=_stated(overall))
         segments = tool_segments(call, call.path, part)
@@ -116,7 +117,7 @@ def _task(call: TrajectoryRequest) -> Task:
     return Task(tuple(direction for direction in DIRECTIONS if direction in call.task))
 
 
-def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedLimits) -> Part:
+def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedLimits, own: OwnVelocities) -> Part:
     segments = call.segments or ()
     segment, place = segments[index], f"segments.{index}"
     left_open = None if _task(call).has_rotations else OPEN
@@ -154,7 +155,8 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedL
             )
         case SplineSegment():
             _check_blends(segment, part, place)
-            part = replace(part, boundary=segment.boundary, blends=segment.blends)
+            ways = _ways(chain, own, {"": call, f"{place}.": segment}, segment, part)
+            part = replace(part, boundary=segment.boundary, blends=segment.blends, ways=ways)
             return _spline(chain, segment, part, place, left_open)
 
 
@@ -218,6 +220,30 @@ def _spline(chain: Chain, segment: SplineSegment, part: Part, place: str, left_o
             "kind, so divide them among two segments",
         )
     return replace(part, poses=poses_from(poses, field, left_open), times=times, orientation=segment.orientation)
+
+
+def _ways(
+    chain: Chain, own: OwnVelocities, layers: dict[str, MotionOptions], segment: SplineSegment, part: Part
+) -> tuple[Part, ...]:
+    """Return the limits on the way to each waypoint as parts; none if they are those of the segment."""
+    if segment.waypoint_options is None:
+        return ()
+    field = f"{list(layers)[-1]}waypoint_options"
+    count, number = len(segment.waypoint_options), len(segment.waypoints)
+    if not isinstance(segment.waypoints[0], Pose):
+        reason = "are of poses; for configurations give `limits` to segments that end at them"
+        raise InvalidField(field, reason)
+    if count != number:
+        raise InvalidField(field, f"has {counted(count, 'entry')} for {counted(number, 'waypoint')}")
+    ways = []
+    for k, options in enumerate(segment.waypoint_options):
+        place = f"{field}.{k}."
+        if options is not None and options.limits is not None and options.limits.joint_torque is not None:
+            raise InvalidField(f"{place}limits.joint_torque", "holds along a whole segment: give it there")
+        bounds = bounds_of(chain, own, layers if options is None else {**layers, place: options})
+        limits = replace(bounds.limits, torque=part.limits.torque)
+        ways.append(replace(part, limits=limits, stated_jerk=_stated(bounds)))
+    return tuple(ways)
 
 
 def _times(segment: SplineSegment, place: str) -> Array:

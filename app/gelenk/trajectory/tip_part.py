@@ -68,10 +68,15 @@ class _TipPart:
     path: SegmentsPath
     joints: FollowedPath
 
+    @property
+    def limited(self) -> Sequence[Segment]:
+        """The segments, or the ways between waypoints, that have limits of their own."""
+        return self.segments[0].ways or self.segments
+
     @cached_property
     def limits(self) -> SegmentLimits:
         """The loosest limits; `SegmentsPath.zones` has the tighter ones."""
-        limits = [segment.limits for segment in self.segments]
+        limits = [one.limits for one in self.limited]
         if len(limits) == 1:
             return limits[0]
         tip = TipLimits(*(max(getattr(one.tip, name) for one in limits) for name in TipLimits.__slots__))
@@ -124,7 +129,7 @@ class _TipPart:
             position = max(position, _SLACK * joints.path_deviation)
             orientation = max(orientation, _SLACK * joints.orientation_deviation)
         start, end = joints.positions.at(np.array([0.0, joints.reached]))
-        stated = [one.stated_jerk for one in self.segments]
+        stated = [one.stated_jerk for one in self.limited]
         return Demands(
             JointLimits(limits.velocity, limits.acceleration, limits.jerk),
             limits.tip,

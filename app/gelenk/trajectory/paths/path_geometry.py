@@ -201,9 +201,10 @@ def geometry_of(
     tip_motion: TipMotion | None = None,
     zones: tuple[Zone, ...] = (),
 ) -> LimitedPath:
-    """Combine limits with a path of the joints, which is also cut at the breaks of the tip's path."""
+    """Combine limits with a path of the joints, which is also cut at the breaks of the tip's path and of zones."""
     breaks = joints.breaks
-    extra = np.array([] if path is None else path.breaks)
+    ends = [end for zone in zones for end in (zone.begin, zone.end)]
+    extra = np.array([*(() if path is None else path.breaks), *ends])
     nearest = np.abs(extra[:, None] - breaks).min(axis=1) if len(extra) else extra
     extra = extra[(extra > breaks[0]) & (extra < breaks[-1]) & (nearest > _SAME * (breaks[-1] - breaks[0]))]
     if len(extra):

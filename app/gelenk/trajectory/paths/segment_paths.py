@@ -52,7 +52,8 @@ class SegmentsPath:
 
     Attributes:
         ends: s at the end of each segment: the middle of its blend, and `path.extent` for the last.
-        zones: Where there are limits of its own: in blends that set one, and on segments and the blends beside them.
+        zones: Where there are limits of its own: in blends that set one, on segments and the
+            blends beside them, and on the way to waypoints.
     """
 
     path: Path
@@ -71,7 +72,10 @@ def path_through(start: Array, segments: Sequence[Segment], first: int) -> Segme
         return _blended(start, segments, first)
     with in_field(f"segments.{first}"):
         path, notes = _single(start, segments[0])
-    return SegmentsPath(path, (path.extent,), notes=notes)
+    ways = segments[0].ways
+    knots = cast(PolynomialPath, path).knots.tolist() if ways else []
+    zones = tuple(_zone(*ends, way) for ends, way in zip(pairwise(knots), ways, strict=True))
+    return SegmentsPath(path, (path.extent,), zones=zones, notes=notes)
 
 
 def is_blended(segment: Segment) -> bool:

@@ -96,6 +96,7 @@ class Segment:
         configurations: Waypoints of a joint spline after the start; shape (m, n), [rad or m].
         poses: Waypoints of a Cartesian spline after the start; all of them, if the tip turns along it.
         turn: How the tip turns about an axis of its own along a spline of poses.
+        ways: Limits and stated jerk on the way to each of these waypoints, if they have their own, as m segments.
         times: Time of each waypoint, counted from the start of the segment; shape (m,), [s].
         blends: Whether joints pass beside the waypoints on straight lines with parabolic blends, not on a spline.
         stated_jerk: Requested jerk limits, which hold for every law; ∞ where none was requested; shape (n,),
@@ -116,6 +117,7 @@ class Segment:
     orientation: OrientationLaw = "axis_angle"
     configurations: Array | None = None
     poses: Poses | None = None
+    ways: tuple["Segment", ...] = ()
     times: Array | None = None
     boundary: Boundary = "clamped"
     blends: bool = False
