@@ -17,7 +17,7 @@ from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline
 from gelenk.trajectory.paths.path_geometry import geometry_of
 from gelenk.trajectory.plan import plan
-from gelenk.trajectory.problem.problem import Segment, SegmentLimits, TrajectoryProblem
+from gelenk.trajectory.problem.problem import Segment, SegmentLimits, Trajectory, TrajectoryProblem
 from gelenk.trajectory.timing.torque_constraints import torque_factor, torque_rows
 from tests.robots import robot
 from tests.trajectory import figures_torques
@@ -108,6 +108,35 @@ def test_a_motion_keeps_torques_and_is_slower_for_them(law: Law, kind: str) -> N
     assert duration > free
     assert 0.99 < ratio <= 1.0 + 1e-9
     assert largest_ratio(motion, torque) <= 1.0 + 1e-9
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize("law", ["time_optimal", "jerk_limited"])
+def test_of_blended_lines_each_keeps_its_own_torques(law: Law) -> None:
+    corner = moved(pose(READY), 0.0, 0.25, 0.0)
+
+    def planned(second: TorqueLimits) -> Trajectory:
+        limits = [replace(FAST, torque=torque) for torque in (limits_of("panda"), second)]
+        first = Segment("line", law, limits[0], pose=corner, blend_radius=0.05)
+        lines = (first, Segment("line", law, limits[1], pose=moved(corner, 0.0, 0.0, -0.25)))
+        return plan(PANDA, ARM, TrajectoryProblem(READY, lines))
+
+    free = planned(limits_of("panda"))
+    q = free.motion.at(np.linspace(0.0, free.motion.duration, 200))
+    torque = limits_of("panda", 1.05 * np.abs(limits_of("panda").parts(q, 0.0 * q, 0.0 * q)[1]).max(axis=0) + 0.5)
+    found = planned(torque)
+    blend, audited = found.segments[0].blend, found.audit.joint_torque
+    assert blend is not None
+    assert audited is not None
+    begin, end = blend.start_time, found.motion.duration
+    before, after = found.motion.between(0.0, begin), found.motion.between(begin, end)
+    ratios = [
+        float((np.abs(torque.recomputed(*part.rates_at(np.linspace(*part.breaks[[0, -1]], 2001)))) / torque.most).max())
+        for part in (before, after)
+    ]
+    assert ratios[0] > 1.1
+    assert ratios[1] <= 1.0 + 1e-9
+    assert audited.ratio == pytest.approx(1.0, abs=0.02)
 
 
 def test_the_audit_finds_a_torque_beyond_its_limit_between_samples() -> None:
