@@ -125,7 +125,11 @@ def some_segments(rng: np.random.Generator, kind: str, start: Array, arm: Arm) -
         case "spline":
             return [{"type": "spline", "waypoints": poses(int(rng.integers(2, 6)))}]
         case "blended":
-            lines = [{"type": "line", "target": pose} for pose in poses(int(rng.integers(2, 5)), 0.12)]
+            ways = [(poses(2, 0.12), rng.random() < 0.3) for _ in range(int(rng.integers(2, 5)))]
+            lines = [
+                {"type": "circle", "via": via, "target": pose} if is_arc else {"type": "line", "target": pose}
+                for (via, pose), is_arc in ways
+            ]
             return [line | {"blend_radius": float(rng.uniform(0.002, 0.015))} for line in lines[:-1]] + lines[-1:]
         case "several":
             kinds = rng.choice(["joint", "line", "circle"], 3)
