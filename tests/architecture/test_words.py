@@ -24,7 +24,7 @@ NEVER_ONE = {
     *("self._lost lines", "len(self.joints) joints", "len(joints) joints", "self.representation angles"),
     *("self.unfinished jobs", "self.allowed requests"),
     *("depth[deepest] joints", "len(found) elements", "len(name) characters", "len(attributes) attributes"),
-    *("len(value) characters", "len(grounds) links", "peak.ratio times", "count waypoints"),
+    *("len(value) characters", "len(grounds) links", "peak.ratio times", "enforced.ratio times", "count waypoints"),
     *("factor times", "bound.ratio times", "jerk.ratio times", "ratios[k, j] times"),
     *("len(names) meshes", "len(parts) - 1 folders", "len(path.trace) configurations", "voxels voxels"),
     *("rotations orientations", "hard files", "10.0 ** abs(power) times"),

@@ -506,6 +506,12 @@ export type MotionNumbers = {
   gravity_vector: number[];
 };
 
+export type MotionOptions = {
+  limits?: TrajectoryLimits | null;
+  velocity_scale?: number | null;
+  acceleration_scale?: number | null;
+};
+
 export type NearestInfo = { joint_positions: number[]; pose: Pose; position_error: number; orientation_error: number };
 
 export type NearestSingularityInfo = {
@@ -741,6 +747,7 @@ export type SplineSegment = {
   type: "spline";
   waypoints: (number[] | JointValues | Pose)[];
   times?: number[] | null;
+  waypoint_options?: (MotionOptions | null)[] | null;
   boundary?: "clamped" | "natural" | "not_a_knot" | "periodic" | "assigned";
   blends?: boolean;
   orientation?: "axis_angle" | "zyz" | "zyz_other";

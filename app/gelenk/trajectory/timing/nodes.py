@@ -27,7 +27,7 @@ _SWITCH = 0.02
 """Change of u, as a fraction of the largest |u|, that counts as a switch."""
 
 
-class Measures(NamedTuple):
+class UnitPath(NamedTuple):
     """A path of M pieces, scaled to 0 ≤ s ≤ 1, and how far it leads.
 
     Attributes:
@@ -45,7 +45,7 @@ class Measures(NamedTuple):
 
 
 @compiled
-def measures(breaks: Array, coefficients: Array) -> Measures:
+def measures(breaks: Array, coefficients: Array) -> UnitPath:
     """Scale a path and measure it."""
     count, size, n = coefficients.shape
     length = breaks[-1] - breaks[0]
@@ -63,7 +63,7 @@ def measures(breaks: Array, coefficients: Array) -> Measures:
                 largest = max(largest, number) if math.isfinite(number) else np.inf
     still = _STILL * np.abs(slopes).max() if slopes.size else 0.0
     ends = [not (np.abs(slope) > still).any() for slope in (slopes[0, 0], slopes[1, -1])]
-    return Measures(unit, scaled, travels, largest, np.array(ends))
+    return UnitPath(unit, scaled, travels, largest, np.array(ends))
 
 
 @compiled

@@ -25,7 +25,7 @@ from gelenk.trajectory.motion.evaluation import composed, evaluated
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut
 from gelenk.trajectory.timing.nodes import (
     LARGEST_PATH,
-    Measures,
+    UnitPath,
     even_counts,
     even_nodes,
     finer_nodes,
@@ -123,7 +123,7 @@ def time_optimal(
 
 
 def _task(
-    path: PiecewisePolynomial, size: Measures, limits: Array, further: Rows | None, slower: Slower | None
+    path: PiecewisePolynomial, size: UnitPath, limits: Array, further: Rows | None, slower: Slower | None
 ) -> _Task:
     longest = size.travels.max(axis=1)
     if longest.min() <= _STILL * longest.max():
