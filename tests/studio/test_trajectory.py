@@ -688,6 +688,24 @@ def test_task_blends_and_the_shortest_time(studio: Studio) -> None:
 
 
 @pytest.mark.slow
+def test_a_circle_is_blended_into_a_line_by_its_radius(studio: Studio) -> None:
+    """The circle of three places, 0.2 m around one in the middle, then a line; no picture of a fly-over is offered."""
+    places = ([0.9, 0.9, 0.0], [0.7, 1.1, 0.0], [0.5, 1.1, 0.0])
+    via, end, after = ({"position": position, "rpy": [0, 0, 0]} for position in places)
+    segments = [{"type": "circle", "via": via, "target": end}, {"type": "line", "target": after}]
+    motion = {"robot": "planar_2r", "base_frame": "base", "tip_frame": "tool", "start": [0.3, 0.8], "task": ["x", "y"]}
+    studio.open("trajectory", robot="planar_2r", motion=json.dumps({**motion, "segments": segments}))
+    studio.until("studio.store.value.plan", COLD)
+    studio.page.locator(".segment-head").nth(1).click()
+    studio.type("Segment 1, blend", "0.05")
+    assert studio.page.get_by_label("Segment 1, blend by").count() == 0
+    answer = plan(studio)
+    assert studio.state("motion")["segments"][0]["blend_radius"] == 0.05
+    assert answer["segments"][0]["blend"]["radius"] == 0.05
+    assert studio.button("Corner 1 drawn").count() == 0
+
+
+@pytest.mark.slow
 def test_pictures_of_a_plan(studio: Studio) -> None:
     corner, end = ({"position": position, "rpy": [0, 0, 0]} for position in ([0.9, 1.1, 0.0], [0.5, 1.1, 0.0]))
     lines = [{"type": "line", "target": corner, "blend_radius": 0.05}, {"type": "line", "target": end}]

@@ -60,7 +60,8 @@ function corners(chain: ShownChain, { motion, answer }: Plan, curve: Curve): Pic
     const next = answer.segments[i + 1];
     const speeds = [limits.tip_velocity, next?.limits.tip_velocity].filter((speed) => speed != null);
     const { target } = motion.segments[index] ?? {};
-    if (!blend || !next || speeds.length < 2 || !target || !isPose(target)) return [];
+    const isFlyOver = [index, index + 1].every((each) => motion.segments[each]?.type === "line");
+    if (!blend || !next || !isFlyOver || speeds.length < 2 || !target || !isPose(target)) return [];
     const point = (time: number) => position(poseAt(chain, curve.at(time)));
     const corner = position(asMatrix(target));
     const speed = Math.min(...speeds);

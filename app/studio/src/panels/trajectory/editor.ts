@@ -61,7 +61,7 @@ export class Editor {
     this.host.append(
       element("div", { class: "settings" }, this.#type(), this.#law()),
       ...this.#places(),
-      ...(type === "line" ? [this.#line()] : []),
+      ...(type === "line" || type === "circle" ? [this.#path(type)] : []),
       type === "spline"
         ? element("div", { class: "settings" }, ...this.#spline(), ...this.#pace())
         : element("div", { class: "settings thirds" }, ...this.#pace()),
@@ -205,12 +205,12 @@ export class Editor {
     );
   }
 
-  /** A line's blend into the next one, and how it turns. */
-  #line(): HTMLElement {
+  /** The blend of a line or a circle into the next segment, and how it turns. A circle's blend is known by its radius. */
+  #path(type: "line" | "circle"): HTMLElement {
     let kind: Blend = blendOf(this.#segment);
     const write = (value: number | undefined) =>
       this.#edit({ ...Object.fromEntries(BLENDS.map(({ value: name }) => [name, undefined])), [kind]: value });
-    const size = optional("Blend into next line", `${this.#name}, blend`, "", "none", write);
+    const size = optional("Blend into the next", `${this.#name}, blend`, "", "none", write);
     const by = choice("by", `${this.#name}, blend by`, BLENDS, (chosen) => {
       const value = this.#segment[kind];
       kind = chosen;
@@ -225,7 +225,7 @@ export class Editor {
       this.#edit({ orientation }),
     );
     const orientation = this.#follow(turns, (segment) => segment.orientation ?? "axis_angle");
-    return element("div", { class: "settings thirds" }, size.host, by.host, orientation);
+    return element("div", { class: "settings thirds" }, size.host, ...(type === "line" ? [by.host] : []), orientation);
   }
 
   /** Of what, how it ends, and when its waypoints are passed. */
