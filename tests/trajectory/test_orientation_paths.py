@@ -12,7 +12,8 @@ from gelenk.trajectory.paths.orientation_paths import (
     axis_angle,
     travelled,
 )
-from gelenk.trajectory.paths.rotation_splines import angular_motion, rate_matrices, rotation_spline, vector_motion
+from gelenk.trajectory.paths.rotation_rates import angular_motion, rate_matrices
+from gelenk.trajectory.paths.rotation_splines import rotation_spline, vector_motion
 from gelenk.trajectory.paths.zyz_paths import zyz_turns
 
 HALF = np.array([0.5])
