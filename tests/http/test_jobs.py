@@ -10,12 +10,14 @@ import urllib.error
 import urllib.request
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 from starlette.testclient import TestClient
 
+from gelenk.contract.jobs import JobInfo
 from gelenk.http.jobs import jobs as jobs_module
+from gelenk.http.jobs.long_works import LONG_WORK
 from gelenk.main import create_app
 from gelenk.settings import Settings
 from tests.test_faults import called
@@ -34,7 +36,7 @@ def posted(client: TestClient, call: dict[str, Any]) -> str:
     return str(answer.headers["location"])
 
 
-def ended(ask: Callable[[], dict[str, Any]], seconds: float = 20.0) -> dict[str, Any]:
+def ended(ask: Callable[[], dict[str, Any]], seconds: float = 120.0) -> dict[str, Any]:
     deadline = time.monotonic() + seconds
     while (job := ask())["state"] in {"queued", "running"}:
         assert time.monotonic() < deadline, job
@@ -207,6 +209,10 @@ def test_a_job_goes_on_when_a_process_is_killed(client: TestClient) -> None:
     for process in processes:
         os.kill(process, signal.SIGKILL)
     assert ended(lambda: client.get(location).json())["state"] == "succeeded"
+
+
+def test_each_operation_that_runs_as_a_job_is_a_kind_of_job() -> None:
+    assert set(get_args(JobInfo.model_fields["kind"].annotation)) == set(LONG_WORK)
 
 
 @pytest.mark.parametrize("method", ["GET", "DELETE"])

@@ -31,7 +31,7 @@ class JobInfo(Answer):
     """State and progress of a job."""
 
     id: str = Field(description="Name by which the job is requested.")
-    kind: Literal["workspace", "ik", "trajectory"] = Field(description="The operation.")
+    kind: Literal["workspace", "ik", "trajectory", "trajectories"] = Field(description="The operation.")
     state: Literal["queued", "running", "succeeded", "failed", "cancelled"] = Field(
         description="State of the job; the last three are final."
     )

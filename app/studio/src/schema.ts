@@ -343,7 +343,7 @@ export type JobError = { type: string; detail: string; facts: Record<string, unk
 
 export type JobInfo = {
   id: string;
-  kind: "workspace" | "ik" | "trajectory";
+  kind: "workspace" | "ik" | "trajectory" | "trajectories";
   state: "queued" | "running" | "succeeded" | "failed" | "cancelled";
   progress: number;
   created: string;

@@ -160,12 +160,17 @@ def _form(fields: type[BaseModel] | None) -> dict[str, Any]:
 def _contents(descriptions: Mapping[str, str]) -> dict[str, Any]:
     """Return further media types of a body by their descriptions; those without one are left out."""
     return {
-        kind: {
-            "schema": {"type": "string", **({} if kind == CSV else {"format": "binary"}), "description": description}
-        }
+        kind: {"schema": {**_content_type(kind), "description": description}}
         for kind, description in descriptions.items()
         if description
     }
+
+
+def _content_type(kind: str) -> dict[str, str]:
+    """Return what a body of a media type is once it is read: an object, a text, or bytes."""
+    if kind.endswith(("json", "yaml")):
+        return {"type": "object"}
+    return {"type": "string"} if kind == CSV else {"type": "string", "format": "binary"}
 
 
 def _npy_body(description: str, options: type[BaseModel]) -> dict[str, Any]:
