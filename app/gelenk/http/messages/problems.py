@@ -4,7 +4,9 @@ A problem never repeats the payload: a client's names are shortened and escaped 
 """
 
 import logging
+import re
 from collections.abc import Mapping, Sequence
+from functools import cache
 from http import HTTPStatus
 from typing import Any
 
@@ -18,6 +20,7 @@ from starlette.responses import Response
 from starlette.routing import compile_path
 
 from gelenk import errors
+from gelenk.contract.endpoints import ROUTES
 
 MEDIA_TYPE = "application/problem+json"
 
@@ -191,13 +194,15 @@ def _http(request: Request, error: HTTPException) -> Response:
 
 
 def _allowed_methods(request: Request) -> list[str]:
-    """Return the methods that the OpenAPI document has for a path; a single route knows only its own."""
+    """Return the methods of all routes to a path; a single route knows only its own."""
     path = request.url.path.removeprefix(request.app.root_path)
-    allowed: set[str] = set()
-    for template, operations in request.app.openapi()["paths"].items():
-        if compile_path(template)[0].fullmatch(path):
-            allowed |= {method.upper() for method in operations}
+    allowed = {method for pattern, method in _patterns() if pattern.fullmatch(path)}
     return sorted(allowed | ({"HEAD"} if "GET" in allowed else set()))
+
+
+@cache
+def _patterns() -> list[tuple[re.Pattern[str], str]]:
+    return [(compile_path(f"/{route.path}")[0], route.method.upper()) for route in ROUTES.values()]
 
 
 def _place(error: errors.KinematicsError) -> str | None:
