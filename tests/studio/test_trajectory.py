@@ -398,7 +398,7 @@ def test_what_cannot_be_done_says_why_and_where(studio: Studio, refusals: set[in
     studio.button("Plan").click()
     error = studio.page.locator(".segment-error:visible")
     error.wait_for(timeout=COLD * 1000)
-    assert "no line to blend into" in (error.text_content() or "")
+    assert "nothing to blend into" in (error.text_content() or "")
     refusals.add(422)
     studio.type("Segment 1, blend", "")
     studio.type("Segment 1, target, x", "1.5")
