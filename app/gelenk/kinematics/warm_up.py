@@ -36,7 +36,7 @@ from gelenk.robot.notations import (
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.batch import plan_batch
 from gelenk.trajectory.follow.ladder import Metric, Rungs, way_up
-from gelenk.trajectory.follow.nearest import beside, field_rates, nearest, walked
+from gelenk.trajectory.follow.nearest import beside, nearest, walked
 from gelenk.trajectory.paths.arc_length import arc_lengths, parameters
 from gelenk.trajectory.paths.rotation_splines import rotation_spline
 from gelenk.trajectory.plan import plan
@@ -122,7 +122,6 @@ def _motions() -> None:
     nearest(flat, np.zeros(3), np.eye(3), *np.zeros((3, 6)))
     samples = np.zeros((1, 3)), np.eye(3)[None], np.zeros((1, 6)), np.zeros((1, 6))
     walked(flat, np.zeros(1), *samples, np.zeros(6))
-    field_rates(flat, *rates[:2])
     beside(flat, *samples, rates, 1)
     rotation_spline(rotations_from_vectors(0.1 * np.arange(12.0).reshape(4, 3)), np.arange(4.0)).at(np.zeros(1))
     edges, slope = np.array([0.0, 1.0]), np.ones((1, 1, 3))

@@ -10,7 +10,6 @@ from gelenk.trajectory.follow.bounds import Crossing
 from gelenk.trajectory.follow.exact import exact_next_to
 from gelenk.trajectory.follow.integrate import Trace, first_crossing
 from gelenk.trajectory.follow.rate_field import SHARE, Knot, RateField
-from gelenk.trajectory.follow.rows import row_derivatives, task_rows
 from gelenk.trajectory.follow.step import INNER, Piece, pieces_between
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, divided
 
@@ -69,10 +68,5 @@ def _knots(
     (q, dq, ddq), found = exact_next_to(field, at, onto(field, at, q, _STEPS)[0], first, second)
     if not found.all():
         return []
-    offsets = np.zeros(len(q))
-    offsets[0], q[0] = np.abs(q[0] - start).max(), start
-    rows = task_rows(field.chain, field.task, at, q)
-    _, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
-    changes = np.sqrt(np.square(row_derivatives(field.chain, field.task, at, q, dq)[0]).sum(axis=(1, 2)))
-    s, sigma, change, offset = (values.tolist() for values in (places, sigmas[:, -1], changes, offsets))
-    return [Knot(*row) for row in zip(s, q, dq, ddq, sigma, right, change, offset, strict=True)]
+    offset, q[0] = float(np.abs(q[0] - start).max()), start
+    return field.knots(places, at, np.array((q, dq, ddq)), offset)

@@ -157,7 +157,7 @@ def _settled(flat: FlatChain, position: Array, rotation: Array, start: Array, J:
 @compiled
 def walked(
     flat: FlatChain, places: Array, positions: Array, rotations: Array, twists: Array, bends: Array, start: Array
-) -> tuple[bool, Array, Array]:
+) -> tuple[bool, Array]:
     """Follow a path from a configuration at its first sample from sample to sample, as `step.next_knot` does.
 
     Args:
@@ -166,11 +166,10 @@ def walked(
         start: Shape (n,), [rad or m].
 
     Returns:
-        Whether each sample has a configuration, far from singularities; q, q' and q'', shape (3, N, n); and the norm of
-        dJ/ds, shape (N,).
+        Whether each sample has a configuration, far from singularities; and q, q' and q'', shape (3, N, n).
     """
     n, J, L = len(start), np.empty((6, len(start))), np.empty((6, 6))
-    rates, changes = np.zeros((3, len(places), n)), np.zeros(len(places))
+    rates = np.zeros((3, len(places), n))
     for i in range(len(places)):
         h = places[i] - places[max(i - 1, 0)]
         q, dq, ddq = (
@@ -187,15 +186,15 @@ def walked(
                 wanted = rates[0, i] + off
             found, settled = _settled(flat, positions[i], rotations[i], wanted, J, L)
             if not found:
-                return False, rates, changes
+                return False, rates
             rates[0, i] = settled
-            changes[i] = _add_rates(flat, J, L, twists[i], bends[i], rates[:, i])
-    return True, rates, changes
+            _add_rates(flat, J, L, twists[i], bends[i], rates[:, i])
+    return True, rates
 
 
 @compiled
-def _add_rates(flat: FlatChain, J: Array, L: Array, twist: Array, bend: Array, rates: Array) -> float:
-    """Write q' and q'' below q, by the formula of `rate_field`; return the norm of dJ/ds."""
+def _add_rates(flat: FlatChain, J: Array, L: Array, twist: Array, bend: Array, rates: Array) -> None:
+    """Write q' and q'' below q, by the formula of `rate_field`."""
     n, lam = J.shape[1], weights(L, twist)
     dq = J.T @ lam
     dq += J.T @ weights(L, twist - J @ dq)
@@ -207,18 +206,6 @@ def _add_rates(flat: FlatChain, J: Array, L: Array, twist: Array, bend: Array, r
     for _ in range(2):
         ddq += J.T @ weights(L, missing - J @ ddq)
     rates[1], rates[2] = dq, ddq
-    return float(np.sqrt((dJ * dJ).sum()))
-
-
-@compiled
-def field_rates(flat: FlatChain, twists: Array, qs: Array) -> tuple[Array, Array]:
-    """Return the shortest rates q' = J⁺ξ, NaN near a singularity, shape (N, n), and the Jacobians, (N, 6, n)."""
-    _, _, Js = chain_jacobians(flat, qs)
-    rates, L = np.full(qs.shape, np.nan), np.empty((6, 6))
-    for i in range(len(qs)):
-        if factored(Js[i], L):
-            rates[i] = Js[i].T @ weights(L, twists[i])
-    return rates, Js
 
 
 @compiled

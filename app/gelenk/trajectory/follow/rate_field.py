@@ -101,6 +101,16 @@ class RateField:
         ddq = _acceleration(rows, left, sigmas, right, dq, dJ, dxi)[0]
         return Knot(s, q, dq[0], ddq, float(sigmas[0, -1]), right[0], float(np.sqrt(np.sum(dJ * dJ))))
 
+    def knots(self, places: Array, at: PathSamples, rates: Array, offset: float = 0.0) -> list[Knot]:
+        """Return the knots at places, (N,), with the q, q' and q'' given, (3, N, n); `offset` is that of the first."""
+        q, dq, ddq = rates
+        rows = task_rows(self.chain, self.task, at, q)
+        _, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
+        changes = np.sqrt(np.square(row_derivatives(self.chain, self.task, at, q, dq)[0]).sum(axis=(1, 2)))
+        s, sigma, change = (values.tolist() for values in (places, sigmas[:, -1], changes))
+        offsets = [offset, *[0.0] * (len(s) - 1)]
+        return [Knot(*row) for row in zip(s, q, dq, ddq, sigma, right, change, offsets, strict=True)]
+
     def first_knot(self, s: float, at: PathSamples, q: Array) -> Knot:
         """Return the knot at a configuration that is nearly on the path."""
         rows = task_rows(self.chain, self.task, at, q[None])
