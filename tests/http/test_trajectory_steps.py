@@ -93,6 +93,14 @@ def test_an_arc_has_its_centripetal_term(client: TestClient) -> None:
     assert c2 * T**2 - c3 * T**3 == pytest.approx(content["segments"][0]["length"])
 
 
+@pytest.mark.parametrize(("law", "kind"), [("trapezoidal", "A parabola"), ("quintic", "A curve of fourth degree")])
+def test_a_corner_is_what_its_law_makes_of_it(client: TestClient, law: str, kind: str) -> None:
+    lines = [{"type": "line", "target": at(0.9, 1.1), "blend_radius": 0.05}, {"type": "line", "target": at(0.5, 1.1)}]
+    content, _ = worked(client, "planar_2r", start=[0.3, 0.8], segments=lines, task=["x", "y"], law=law)
+    (corner,) = (step for step in content["steps"] if "Blend into" in step["title"])
+    assert corner["text"].startswith(kind)
+
+
 def test_blends_and_many_pieces(client: TestClient) -> None:
     content, text = worked(client, **{**BY_NAME["trajectory"].example, "sample_period": 0.5})
     blend = content["segments"][1]["blend"]

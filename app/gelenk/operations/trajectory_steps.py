@@ -43,7 +43,7 @@ def trajectory_steps(chain: Chain, segments: tuple[Segment, ...], found: Traject
             laid = () if law is None else (path_law_step(law, "rad" if report.length == 0.0 else "m"),)
             following = segments[report.index + 1] if report.blend is not None else None
             if following is not None and following.type == "circle":
-                following = None  # The step is that of the fly-over.
+                following = None  # The step is that of a corner of lines.
             own = (*_of_tip(segment, report, position, following), *laid)
             position = _end(segment)
         steps += titled(own, report.index)
@@ -91,4 +91,5 @@ def _of_tip(segment: Segment, report: SegmentReport, start: Array, following: Se
         return (line,)
     directions = tuple(way / np.linalg.norm(way) for way in (end - start, _end(following) - end))
     time = report.blend.end_time - report.blend.start_time
-    return line, corner_step(end, (directions[0], directions[1]), report.blend.radius, time)
+    is_smooth = LAWS[segment.law].keeps_jerk and report.blend.acceleration is None
+    return line, corner_step(end, (directions[0], directions[1]), report.blend.radius, time, is_smooth=is_smooth)

@@ -151,12 +151,19 @@ def arc_segment_step(arc: Arc) -> Step:
     )
 
 
-def corner_step(corner: Array, directions: tuple[Array, Array], radius: float, duration: float) -> Step:
+def corner_step(
+    corner: Array, directions: tuple[Array, Array], radius: float, duration: float, *, is_smooth: bool
+) -> Step:
     """Return the blend of two lines around a corner, (3,), with their unit vectors and a radius d, [m]."""
     before, after = directions
+    parabola = _("A parabola that begins and ends at the distance d from the corner B, without a stop.")
+    quartic = _(
+        "A curve of fourth degree that begins and ends at the distance d from the corner B, without a stop; its "
+        "curvature does not jump."
+    )
     return step(
         _("Blend into the next line"),
-        _("A parabola that begins and ends at the distance d from the corner B, without a stop."),
+        quartic if is_smooth else parabola,
         rf"B = {vector(corner)},\quad d = {tex(radius, 'm')},\quad \Delta T = {tex(duration, 's')}",
         rf"A' = B - d\,K_{{AB}} = {vector(corner - radius * before)}",
         rf"C' = B + d\,K_{{BC}} = {vector(corner + radius * after)}",

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.robot.arrays import Array, Indices
-from gelenk.trajectory.motion.evaluation import composed
+from gelenk.trajectory.motion.evaluation import composed, reached
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut, derivatives, divided
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 
@@ -102,8 +102,6 @@ def in_time(joints: PiecewisePolynomial, law: PiecewisePolynomial) -> PiecewiseP
 
 def times_at(law: PiecewisePolynomial, s: Array) -> Array:
     """Return when a non-decreasing law reaches places between its ends; shape (N,), [s]."""
-    from gelenk.trajectory.motion.evaluation import reached  # noqa: PLC0415 - a client has no compiler
-
     breaks, places = np.ascontiguousarray(law.breaks), np.ascontiguousarray(s, dtype=float)
     found: Array = reached(breaks, np.ascontiguousarray(law.coefficients), law.at(breaks)[:, 0].copy(), places)
     return found

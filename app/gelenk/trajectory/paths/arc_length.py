@@ -1,5 +1,7 @@
 """Compiled arc length of a curve p(u), and its inverse."""
 
+import math
+
 import numpy as np
 
 from gelenk.robot.arrays import Array
@@ -40,7 +42,7 @@ def _speed(velocity: Array, u: float) -> float:
     x, y, z = 0.0, 0.0, 0.0
     for k in range(len(velocity) - 1, -1, -1):
         x, y, z = x * u + velocity[k, 0], y * u + velocity[k, 1], z * u + velocity[k, 2]
-    return np.sqrt(x * x + y * y + z * z)  # type: ignore[no-any-return]
+    return math.sqrt(x * x + y * y + z * z)
 
 
 @compiled

@@ -79,7 +79,7 @@ def path_through(start: Array, segments: Sequence[Segment], first: int) -> Segme
 
 
 def is_blended(segment: Segment) -> bool:
-    """Return whether a line is blended into the next segment, without a stop."""
+    """Return whether a segment is blended into the next, without a stop."""
     given = (segment.blend_time, segment.blend_acceleration)
     return segment.blend_radius > 0.0 or any(one is not None for one in given)
 

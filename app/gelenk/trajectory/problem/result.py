@@ -21,14 +21,14 @@ class Damping(Result):
 
 @dataclass(frozen=True, slots=True)
 class SegmentBlend(Result):
-    """How a line was blended into the next.
+    """How a segment was blended into the next.
 
     Attributes:
-        radius: Distance from the corner at which the motion leaves the line, [m].
+        radius: Distance from the corner at which the motion leaves the segment, [m].
         start_time: When it begins, [s].
         end_time: When it ends, [s].
         acceleration: Limit of the tip's in it, [m/s²]; null where `blend_radius` was given, and only the limits of the
-            lines count.
+            segments count.
     """
 
     radius: float
