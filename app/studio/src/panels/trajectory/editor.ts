@@ -205,7 +205,7 @@ export class Editor {
     );
   }
 
-  /** The blend of a line or a circle into the next segment, and how it turns. A circle's blend is known by its radius. */
+  /** The blend of a line or a circle into the next segment, and how it turns. A circle's blend is given by its radius. */
   #path(type: "line" | "circle"): HTMLElement {
     let kind: Blend = blendOf(this.#segment);
     const write = (value: number | undefined) =>
