@@ -53,6 +53,11 @@ def example(kind: str, seed: int = 1) -> Path:
     return made[kind]()
 
 
+def columns(at: PathSamples) -> Array:
+    """All numbers of samples side by side; shape (N, 24)."""
+    return np.hstack((at.poses.positions, at.poses.rotations.reshape(-1, 9), at.first, at.second))
+
+
 def by_zyz(waypoints: Poses, *, smooth: bool) -> PathSequence:
     turns = zyz_turns(waypoints.rotations, [False, True, False, False])
     legs = [line(*Ts, turn) for Ts, turn in zip(pairwise(waypoints.matrices()), turns, strict=True)]
@@ -373,6 +378,15 @@ def test_the_parabola_has_the_arc_length_of_the_closed_form() -> None:
         return float(x * math.hypot(x, h) + h * h * math.asinh(x / h)) / c
 
     assert path.parts[1].extent == pytest.approx(integral(x1) - integral(x0), rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", ["blended lines", "corners of arcs"])
+def test_places_in_any_order_are_those_one_by_one(kind: str) -> None:
+    path = example(kind)
+    s = np.random.default_rng(4).permutation(np.concatenate((np.linspace(0.0, path.extent, 40), path.breaks)))
+    many, ones = columns(path.at(s)), [columns(path.at(place)) for place in s[:, None]]
+    np.testing.assert_array_equal(many, np.concatenate(ones))
+    assert len(path.at(np.empty(0)).first) == 0
 
 
 def test_tangent_and_angular_rate_go_on_across_blends() -> None:

@@ -33,11 +33,12 @@ from gelenk.robot.notations import (
     rotations_from_zyz,
     vectors_from_rotations,
 )
+from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.batch import plan_batch
 from gelenk.trajectory.follow.ladder import Metric, Rungs, way_up
 from gelenk.trajectory.follow.nearest import beside, nearest, walked
-from gelenk.trajectory.paths.arc_length import arc_lengths, parameters
+from gelenk.trajectory.paths.corners import blended_lines
 from gelenk.trajectory.paths.rotation_splines import rotation_spline
 from gelenk.trajectory.plan import plan
 from gelenk.trajectory.problem.problem import Segment, SegmentLimits, TrajectoryProblem
@@ -124,8 +125,8 @@ def _motions() -> None:
     walked(flat, np.zeros(1), *samples, np.zeros(6))
     beside(flat, *samples, rates, 1)
     rotation_spline(rotations_from_vectors(0.1 * np.arange(12.0).reshape(4, 3)), np.arange(4.0)).at(np.zeros(1))
-    edges, slope = np.array([0.0, 1.0]), np.ones((1, 1, 3))
-    parameters(edges, slope, edges, arc_lengths(edges, slope, edges, edges), edges, edges)
+    corner = Poses(np.eye(3), np.array([np.eye(3)] * 3))
+    blended_lines(corner, [0.1]).at(np.linspace(0.0, 2.0, 3))
     metric = Metric(np.ones(3), np.ones(3), np.zeros(3, dtype=bool))
     way_up(Rungs(np.zeros((2, 3)), np.arange(3)), metric, np.zeros(1))
     regular(chain.flat, qs, 0.0)

@@ -11,6 +11,7 @@ import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
+from gelenk.trajectory.paths.sampling import on_line
 
 COLLINEAR = 1e-6
 """Sine of the angle at the via point, or at either end, below which three points count as collinear."""
@@ -30,13 +31,7 @@ class Line:
 
     def at(self, s: Array) -> tuple[Array, Array, Array]:
         """Return position [m], unit tangent and d²p/ds² [1/m] at arc lengths [m]; shape (N,) → three of (N, 3)."""
-        length = self.length
-        direction = (self.end - self.start) / length if length > 0.0 else np.zeros(3)
-        still = np.zeros((len(s), 3))
-        # Measure from the nearer end, so that both ends are exact.
-        near = s <= 0.5 * length
-        from_start, from_end = self.start + s[:, None] * direction, self.end + (s - length)[:, None] * direction
-        return np.where(near[:, None], from_start, from_end), still + direction, still
+        return on_line(self.start, self.end, self.length, s)
 
 
 @dataclass(frozen=True, slots=True)

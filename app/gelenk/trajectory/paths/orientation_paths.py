@@ -14,7 +14,8 @@ from typing import Protocol
 import numpy as np
 
 from gelenk.robot.arrays import Array
-from gelenk.robot.notations import rotations_from_vectors, vectors_from_rotations
+from gelenk.robot.notations import vectors_from_rotations
+from gelenk.trajectory.paths.sampling import about_axis
 
 NO_TURN = 1e-14
 """Angle below which two orientations count as equal, [rad]: rounding alone can cause it, and its axis is undefined."""
@@ -51,9 +52,7 @@ class AxisAnglePath:
 
     def at(self, x: Array) -> tuple[Array, Array, Array]:
         """See `OrientationPath`."""
-        rotations = self.start @ rotations_from_vectors(x[:, None] * (self.angle * self.axis))
-        still = np.zeros((len(x), 3))
-        return rotations, still + self.angle * (self.start @ self.axis), still
+        return about_axis(np.ascontiguousarray(self.start), self.angle * self.axis, x)
 
 
 def axis_angle(start: Array, end: Array) -> AxisAnglePath:

@@ -8,19 +8,22 @@ orientation are planned separately, both as functions of s.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Literal, Protocol, TypeAlias
 
 import numpy as np
 
 from gelenk.errors import InvalidField
-from gelenk.robot.arrays import Array
+from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.words import OrientationLaw
 from gelenk.trajectory.paths.curves import Curve, Line, arc_through
 from gelenk.trajectory.paths.orientation_paths import OrientationPath, axis_angle
 from gelenk.trajectory.paths.rotation_splines import rotation_spline
+from gelenk.trajectory.paths.sampling import in_proportion
 from gelenk.trajectory.paths.zyz_paths import zyz_spline
 
 Unit: TypeAlias = Literal["m", "rad"]
@@ -86,14 +89,14 @@ class CurvePath:
 
     def at(self, s: Array) -> PathSamples:
         """See `Path`."""
-        extent = self.extent
+        length = self.curve.length
+        is_turn = length <= POINT
+        extent = self.orientation.angle if is_turn else length
         per_s = 1.0 / extent if extent > 0.0 else 0.0
-        x, length = s * per_s, self.curve.length
-        stretch = length * per_s
-        positions, tangents, bends = self.curve.at(x * length if self.unit == "rad" else s)
+        x = s * per_s
+        positions, tangents, bends = self.curve.at(x * length if is_turn else s)
         rotations, rates, changes = self.orientation.at(x)
-        first = np.hstack((tangents * stretch, rates * per_s))
-        second = np.hstack((bends * stretch**2, changes * per_s**2))
+        first, second = in_proportion(tangents, bends, rates, changes, length * per_s, per_s)
         return PathSamples(Poses(positions, rotations), first, second)
 
 
@@ -156,24 +159,27 @@ class PathSequence:
 
     def at(self, s: Array) -> PathSamples:
         """See `Path`; at a junction, the later part counts."""
-        ends, count = self.ends, len(s)
-        place = np.searchsorted(ends[1:-1], s, side="right")
-        if count > 0 and place.min() == place.max():
-            part: Path = self.parts[int(place[0])]
-            return part.at(s - ends[place[0]])
-        poses = Poses(np.empty((count, 3)), np.empty((count, 3, 3)))
-        first, second = np.empty((count, 6)), np.empty((count, 6))
-        for i in np.unique(place):
-            rows = place == i
-            samples = self.parts[i].at(s[rows] - ends[i])
-            poses.positions[rows], poses.rotations[rows] = samples.poses.positions, samples.poses.rotations
-            first[rows], second[rows] = samples.first, samples.second
-        return PathSamples(poses, first, second)
+        ends = self.ends
+        order = np.argsort(s, kind="stable")
+        cuts = [0, *np.searchsorted(s[order], ends[1:-1]).tolist(), len(s)]
+        spans = [(i, begin, end) for i, (begin, end) in enumerate(pairwise(cuts)) if begin < end]
+        if len(spans) < 2:
+            i = spans[0][0] if spans else 0
+            return self.parts[i].at(s - ends[i])
+        return _in_order([self.parts[i].at(s[order[begin:end]] - ends[i]) for i, begin, end in spans], order)
 
     @cached_property
     def ends(self) -> Array:
         """Values of s at the start and at the end of each part; shape (M + 1,), [m or rad]."""
         return np.concatenate(([0.0], np.cumsum([part.extent for part in self.parts])))
+
+
+def _in_order(samples: Sequence[PathSamples], order: Indices) -> PathSamples:
+    """Join samples, and undo the order in which they were taken."""
+    back = np.argsort(order)
+    parts = [(one.poses.positions, one.poses.rotations, one.first, one.second) for one in samples]
+    positions, rotations, first, second = (np.concatenate(part)[back] for part in zip(*parts, strict=True))
+    return PathSamples(Poses(positions, rotations), first, second)
 
 
 def refuse_reversal(a: Array, b: Array, field: str) -> None:

@@ -14,10 +14,11 @@ import numpy as np
 
 from gelenk.robot.arrays import Array
 from gelenk.robot.compilation import compiled
-from gelenk.robot.notations import rotations_from_vectors, vectors_from_rotations
+from gelenk.robot.notations import vectors_from_rotations
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.paths.orientation_paths import travelled
-from gelenk.trajectory.paths.rotation_rates import angular_motion, quadratic_parts, rate_matrices
+from gelenk.trajectory.paths.rotation_rates import quadratic_parts, rate_matrices
+from gelenk.trajectory.paths.sampling import by_vectors
 
 _ITERATIONS = 60
 _CONVERGED = 1e-13
@@ -37,11 +38,8 @@ class RotationVectorPath:
 
     def at(self, x: Array) -> tuple[Array, Array, Array]:
         """See `OrientationPath`."""
-        piece = np.searchsorted(self.vectors.breaks[1:-1], x, side="right")
-        thetas, rates, second = self.vectors.rates_at(x)
-        rotations = self.starts[piece] @ rotations_from_vectors(thetas)
-        omegas, alphas = angular_motion(thetas, rates, second)
-        return rotations, _turned(rotations, omegas), _turned(rotations, alphas)
+        vectors, starts = self.vectors, np.ascontiguousarray(self.starts)
+        return by_vectors(starts, vectors.breaks, np.ascontiguousarray(vectors.coefficients), x)
 
 
 def rotation_spline(rotations: Array, knots: Array) -> RotationVectorPath:

@@ -21,6 +21,7 @@ from gelenk.trajectory.paths.arc_length import arc_lengths, parameters
 from gelenk.trajectory.paths.orientation_paths import OrientationPath
 from gelenk.trajectory.paths.paths import POINT, PathSamples, Unit, through_orientations
 from gelenk.trajectory.paths.rotation_splines import sizes
+from gelenk.trajectory.paths.sampling import by_arc_length
 
 SplineBoundary: TypeAlias = Literal["natural", "not_a_knot", "periodic"]
 
@@ -64,15 +65,10 @@ class PolynomialPath:
         u = self._parameters(s)
         width = self.position.duration
         x = np.minimum(np.maximum((u - self.position.breaks[0]) / width, 0.0), 1.0)
-        positions, first, second = self.position.rates_at(u)
-        rotations, rates, changes = self.orientation.at(x)
-        rates, changes = rates / width, changes / width**2
-        speeds = sizes(first)[:, None]
-        tangents = first / np.maximum(speeds, np.finfo(float).tiny)
-        growth = np.einsum("ij,ij->i", tangents, second)[:, None]
-        by_s = np.hstack((tangents, rates / speeds))
-        bends = np.hstack((second - growth * tangents, changes - growth * rates / speeds)) / speeds**2
-        return PathSamples(Poses(positions, rotations), by_s, bends)
+        positions, velocities, bends = self.position.rates_at(u)
+        rotations, turns, changes = self.orientation.at(x)
+        first, second = by_arc_length(velocities, bends, turns, changes, width)
+        return PathSamples(Poses(positions, rotations), first, second)
 
     @cached_property
     def _table(self) -> tuple[Array, Array]:
