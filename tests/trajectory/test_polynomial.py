@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import PPoly
 
+from gelenk.trajectory.motion.extremes import largest_ratio
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
 
 
@@ -32,6 +33,20 @@ def test_values_with_two_derivatives_at_once(pieces: int, degree: int, n: int) -
     for order, values in enumerate(motion.rates_at(times)):
         assert values.shape == (len(times), n)
         np.testing.assert_allclose(values, by_scipy(motion)(times, nu=order), rtol=1e-12, atol=1e-10)
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
+@pytest.mark.parametrize(("pieces", "degree", "n"), [(1, 0, 1), (1, 1, 2), (4, 2, 3), (5, 7, 6), (9, 10, 2)])
+def test_the_largest_ratio_by_brute_force(pieces: int, degree: int, n: int, order: int) -> None:
+    motion, limits = some(pieces, degree, n, 5), np.random.default_rng(6).uniform(0.5, 2.0, (pieces, n))
+    inside = np.linspace(1e-9, 1.0 - 1e-9, 3001)
+    times = (motion.breaks[:-1, None] + inside * np.diff(motion.breaks)[:, None]).ravel()
+    rates = np.abs(by_scipy(motion)(times, nu=order)).reshape(pieces, -1, n)
+    for one in (limits[0], limits):
+        ratios = (rates / np.broadcast_to(one, (pieces, n))[:, None]).max(axis=(0, 1))
+        largest, coordinate = largest_ratio(motion, order, one)
+        assert largest == pytest.approx(ratios.max(), rel=1e-4)
+        assert coordinate == ratios.argmax()
 
 
 def test_scaling_in_time_scales_the_derivatives() -> None:

@@ -20,7 +20,7 @@ from gelenk.trajectory.audit.demands import Demands
 from gelenk.trajectory.audit.result import Audit, Peak, TipPeaks
 from gelenk.trajectory.joint_part import joint_part
 from gelenk.trajectory.joints.moving_ends import given_rates
-from gelenk.trajectory.motion.extremes import peaks
+from gelenk.trajectory.motion.extremes import largest_ratio
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
 from gelenk.trajectory.paths.segment_paths import is_blended
 from gelenk.trajectory.problem.parts import PlannedPart, standing
@@ -42,7 +42,7 @@ _WORTH_A_NOTE = 1.001
 _MOST_REASONS = 4
 """Largest number of reasons that a refusal lists."""
 _CUBIC = 3
-"""Degree from which on a polynomial has a jerk."""
+"""Degree from which on a polynomial has a jerk, and the order of the jerk."""
 _MOMENT = 1e-9
 """Duration that stands for zero in an audit, [s]."""
 
@@ -159,7 +159,7 @@ def _with_stated_jerk(part: PlannedPart, problem: TrajectoryProblem) -> PlannedP
     if part.demands.keeps_jerk or part.motion.duration == 0.0 or not has_jerk:
         return part
     stretches = [(motion, zone.stated_jerk) for motion, zone in part.stretches()]
-    jerks = [(np.abs(peaks(motion, 3).values) / stated).max() for motion, stated in stretches if stated is not None]
+    jerks = [largest_ratio(motion, _CUBIC, stated)[0] for motion, stated in stretches if stated is not None]
     factor = float(np.cbrt(max(jerks, default=0.0)))
     if factor <= 1.0:
         return part

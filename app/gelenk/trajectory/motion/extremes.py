@@ -36,6 +36,16 @@ def peaks_by_order(motion: PiecewisePolynomial, highest: int = 3) -> dict[int, P
     return {order: peaks(motion, order) for order in range(1, highest + 1)}
 
 
+def largest_ratio(motion: PiecewisePolynomial, order: int, limits: Array) -> tuple[float, int]:
+    """Find the largest ratio of a derivative's magnitude to its limits, (n,) or (M, n); and the coordinate's index."""
+    from gelenk.trajectory.motion.stationary import largest  # noqa: PLC0415 - a client has no compiler
+
+    c = np.ascontiguousarray(motion.coefficients)
+    bounds = np.ascontiguousarray(np.broadcast_to(limits, (len(c), c.shape[2])))
+    found: tuple[float, int] = largest(c, np.diff(motion.breaks), order, bounds)
+    return found
+
+
 def candidates(motion: PiecewisePolynomial) -> tuple[Array, Array]:
     """Return the times at which a motion can be extreme, and its values there; shape (M, k, n) each.
 

@@ -7,7 +7,7 @@ code that plays, samples, scales or audits a motion needs to handle no other.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from math import comb, factorial
+from math import comb, factorial, perm
 
 import numpy as np
 
@@ -34,10 +34,9 @@ class PiecewisePolynomial:
     def derivative(self, order: int = 1) -> "PiecewisePolynomial":
         """Return the time derivative of a given order."""
         c = self.coefficients
-        for _ in range(order):
-            powers = np.arange(1, c.shape[1])[:, None]
-            c = c[:, 1:] * powers if c.shape[1] > 1 else np.zeros_like(c)
-        return PiecewisePolynomial(self.breaks, c)
+        factors = np.array([perm(k, order) for k in range(order, c.shape[1])])[:, None]
+        rates = c[:, order:] * factors if len(factors) else np.zeros_like(c[:, :1])
+        return PiecewisePolynomial(self.breaks, rates)
 
     def between(self, begin: float, end: float) -> "PiecewisePolynomial":
         """Return the pieces whose middle lies between two times, [s]."""

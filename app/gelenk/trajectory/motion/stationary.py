@@ -1,4 +1,8 @@
-"""Compiled search for the zeros of a derivative."""
+"""Compiled search for the zeros of a derivative, and for the largest value of many polynomials.
+
+A polynomial lies between its least and its largest Bernstein coefficient. So only those whose coefficients exceed the
+largest value found so far are examined closely.
+"""
 
 import numpy as np
 
@@ -7,6 +11,7 @@ from gelenk.robot.compilation import compiled, inlined
 
 _STEPS, _EXACT = 60, 1e-15
 """Most steps to a zero, and the last one's length."""
+_SAME = 1e-12
 
 
 @compiled
@@ -73,3 +78,67 @@ def _zero_between(c: Array, order: int, low: float, high: float, below: float) -
             return following
         x = following
     return x
+
+
+@compiled
+def largest(c: Array, durations: Array, order: int, limits: Array) -> tuple[float, int]:
+    """Return the largest ratio of a derivative's magnitude to its limit, at least 0, and the coordinate's index.
+
+    Args:
+        c: Coefficients of polynomials in time; shape (M, d + 1, n).
+        durations: Of the pieces; shape (M,).
+        limits: Shape (M, n).
+    """
+    pieces, size, n = c.shape
+    best, column, count = 0.0, 0, max(size - order, 1)
+    rates, work = np.zeros((pieces, n, count)), np.empty(count)
+    for i in range(pieces):
+        for j in range(n):
+            _store_ratios(c[i, :, j], durations[i], order, limits[i, j], rates[i, j])
+            at_ends = max(abs(rates[i, j, 0]), abs(rates[i, j].sum()))
+            best, column = (at_ends, j) if at_ends > best else (best, column)
+    for i in range(pieces):
+        for j in range(n):
+            if _hull(rates[i, j], work) > best * (1.0 + _SAME):
+                value = _highest(rates[i, j])
+                best, column = (value, j) if value > best else (best, column)
+    return best, column
+
+
+@inlined
+def _store_ratios(c: Array, duration: float, order: int, limit: float, ratios: Array) -> None:
+    """Write a derivative's coefficients, in fractions of a piece and of the limit."""
+    power = 1.0 / limit
+    for k in range(order, len(c)):
+        factor = power
+        for i in range(order):
+            factor *= k - i
+        ratios[k - order] = factor * c[k]
+        power *= duration
+
+
+@compiled
+def _highest(c: Array) -> float:
+    """Return the largest magnitude of a polynomial where it is stationary between 0 and 1, or at 0."""
+    slope, zeros, highest = np.zeros(max(len(c) - 1, 1)), np.zeros(max(len(c) - 2, 0)), 0.0
+    for k in range(1, len(c)):
+        slope[k - 1] = k * c[k]
+    _zeros(slope, zeros)
+    for zero in zeros:
+        highest = max(highest, abs(_derivative(c, 0, zero)))
+    return highest
+
+
+@inlined
+def _hull(c: Array, work: Array) -> float:
+    """Return the largest magnitude of the Bernstein coefficients."""
+    degree, binomial, most = len(c) - 1, 1.0, 0.0
+    for k in range(degree + 1):
+        work[k] = c[k] / binomial
+        binomial *= (degree - k) / (k + 1.0)
+    for k in range(degree):
+        for i in range(degree, k, -1):
+            work[i] += work[i - 1]
+    for value in work:
+        most = max(most, abs(value))
+    return most

@@ -1,8 +1,4 @@
-"""Largest ratios of a motion along a path to its limits: exact for the joints, from refined samples for the tip.
-
-A polynomial lies between its least and its largest Bernstein coefficient. So only pieces and joints whose coefficients
-exceed the largest value found by sampling are examined closely.
-"""
+"""Largest ratios of a motion along a path to its limits: exact for the joints, from refined samples for the tip."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,8 +7,8 @@ from typing import TypeAlias, cast
 import numpy as np
 
 from gelenk.robot.arrays import Array, Indices
-from gelenk.trajectory.motion.extremes import candidates
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, derivatives
+from gelenk.trajectory.motion.extremes import largest_ratio
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, derivatives
 from gelenk.trajectory.paths.path_geometry import (
     JOINTS,
     ORDERS,
@@ -27,8 +23,6 @@ from gelenk.trajectory.paths.path_geometry import (
 Ratios: TypeAlias = Callable[[Indices, Array], Array]
 """Maps pieces and times since their start to the tip's ratios; shape (N,) each → (N, 4)."""
 
-_ROUNDING = 1e-12
-_PROBES = np.linspace(0.0, 1.0, 9)
 _SAMPLES = 600
 _LEAST_SAMPLES = 4
 _CANDIDATES = 16
@@ -93,29 +87,10 @@ def peaks_of(
     bounds = geometry.joint_bounds(piece)
     for order in range(3 if with_jerk else 2):
         if with_joints:
-            found[order], joints[order] = _largest(motion.derivative(order + 1), bounds[:, order])
+            found[order], joints[order] = largest_ratio(motion, order + 1, bounds[:, order])
     if geometry.limits_tip:
         found[JOINTS:] = _of_tip(geometry, motion, geometry.tip_bounds(piece))
     return PathPeaks(found, joints)
-
-
-def _largest(values: PiecewisePolynomial, limits: Array) -> tuple[float, int]:
-    """Return the largest ratio of a magnitude to its limits, (M, n), and the index of its coordinate."""
-    if limits.size == 0:
-        return 0.0, 0
-    powers = np.diff(values.breaks)[:, None] ** np.arange(values.coefficients.shape[1])
-    c = values.coefficients * powers[:, :, None] / limits[:, None]
-    bounds = np.abs(bernstein(c)).max(axis=1)
-    probes = np.abs(_PROBES[:, None] ** np.arange(c.shape[1]) @ c).max(axis=1)
-    joint = int(probes.max(axis=0).argmax())
-    least = float(probes.max())
-    piece, column = np.nonzero(bounds > least * (1.0 + _ROUNDING))
-    if len(piece) == 0:
-        return least, joint
-    chosen = PiecewisePolynomial(np.arange(len(piece) + 1.0), c[piece, :, column][:, :, None])
-    largest = np.abs(candidates(chosen)[1]).max(axis=(1, 2))
-    i = int(largest.argmax())
-    return (float(largest[i]), int(column[i])) if largest[i] > least else (least, joint)
 
 
 def _of_tip(geometry: LimitedPath, motion: PiecewisePolynomial, bounds: Array) -> Array:
