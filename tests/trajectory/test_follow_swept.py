@@ -8,7 +8,7 @@ from gelenk.robot.arrays import Array
 from gelenk.trajectory.follow.exact import refined
 from gelenk.trajectory.follow.follow import _joint_path
 from gelenk.trajectory.follow.integrate import traced
-from gelenk.trajectory.follow.nearest import beside, factored, weights
+from gelenk.trajectory.follow.nearest import beside, factored, rates_at, weights
 from gelenk.trajectory.follow.rate_field import RateField
 from gelenk.trajectory.follow.swept import swept
 from gelenk.trajectory.problem.problem import Following
@@ -38,9 +38,10 @@ def test_it_is_the_path_traced_from_knot_to_knot(name: str, kind: str) -> None:
         if whole is None:
             continue
         found += 1
-        assert all((piece.deviations <= field.tolerances).all() for piece in whole.pieces)
+        assert (whole[1] <= field.tolerances).all()
         s = np.linspace(0.0, field.path.extent, 300)
-        one, other = (refined(field, _joint_path(each, None).positions)[0].at(s) for each in (whole, trace))
+        quintics = whole[0], _joint_path(trace, None).positions
+        one, other = (refined(field, each)[0].at(s) for each in quintics)
         # Of a redundant arm, the same path of the tip leaves open how the spare joint drifts.
         assert np.abs(one - other).max() < (5e-4 if field.is_redundant else 1e-5)
     assert found
@@ -79,6 +80,20 @@ def test_rates_beside_given_ones_are_exact_and_keep_the_spare_motion(name: str) 
         spare = np.eye(len(q)) - np.linalg.pinv(J) @ J
         assert spare @ dq == pytest.approx(spare @ given[1, i], abs=1e-9)
         assert spare @ ddq == pytest.approx(spare @ given[2, i], abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["panda", "ur5"])
+def test_rates_by_elimination_are_the_shortest_and_sigma_is_bounded_from_below(name: str) -> None:
+    machine = robot(name)
+    chain = machine.chain(None, None)
+    qs = np.array(starts(chain, FULL_POSE, 9))
+    rates, sigmas = rates_at(chain.flat, np.tile(TWIST, (len(qs), 1)), qs)
+    for q, rate, bound in zip(qs, rates, sigmas, strict=True):
+        J = judged(machine, chain, q)[1]
+        least = np.linalg.svd(J, compute_uv=False)[-1]
+        assert rate == pytest.approx(np.linalg.pinv(J) @ TWIST, abs=1e-8)
+        assert 1.0 / np.linalg.norm(np.linalg.pinv(J)) == pytest.approx(bound, rel=1e-8)
+        assert bound <= least <= np.sqrt(6.0) * bound
 
 
 def test_elimination_solves_and_notices_a_lost_rank() -> None:

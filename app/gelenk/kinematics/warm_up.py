@@ -37,7 +37,7 @@ from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.batch import plan_batch
 from gelenk.trajectory.follow.ladder import Metric, Rungs, way_up
-from gelenk.trajectory.follow.nearest import beside, nearest, walked
+from gelenk.trajectory.follow.nearest import beside, nearest, rates_at, walked
 from gelenk.trajectory.paths.corners import blended_lines
 from gelenk.trajectory.paths.rotation_splines import rotation_spline
 from gelenk.trajectory.plan import plan
@@ -124,6 +124,7 @@ def _motions() -> None:
     samples = np.zeros((1, 3)), np.eye(3)[None], np.zeros((1, 6)), np.zeros((1, 6))
     walked(flat, np.zeros(1), *samples, np.zeros(6))
     beside(flat, *samples, rates, 1)
+    rates_at(flat, samples[2], rates[0])
     rotation_spline(rotations_from_vectors(0.1 * np.arange(12.0).reshape(4, 3)), np.arange(4.0)).at(np.zeros(1))
     corner = Poses(np.eye(3), np.array([np.eye(3)] * 3))
     blended_lines(corner, [0.1]).at(np.linspace(0.0, 2.0, 3))

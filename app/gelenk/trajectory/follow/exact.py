@@ -80,12 +80,12 @@ def path_error(joints: PiecewisePolynomial, off: Array | None, timing: Timed, ge
 def _errors(field: RateField, positions: PiecewisePolynomial) -> tuple[Array, Indices]:
     """Return the largest error of q'' in each piece, (M, n), and the number of parts to divide it into, (M,)."""
     widths, extent = np.diff(positions.breaks), field.path.extent
-    places = (positions.breaks[:-1] + _PROBES[:, None] * widths).ravel()
+    places = (positions.breaks[:-1, None] + _PROBES * widths[:, None]).ravel()
     rates = positions.rates_at(places)
     exact, near = exact_next_to(field, field.path.at(places), *rates)
     errors = np.where(near[:, None], np.abs(exact[2] - rates[2]), np.inf)
     q, first, second, off = (
-        np.abs(values).reshape(len(_PROBES), len(widths), -1).max(axis=0) for values in (*rates, errors)
+        np.abs(values).reshape(len(widths), len(_PROBES), -1).max(axis=1) for values in (*rates, errors)
     )
     bend = np.maximum(second.max(axis=1), first.max(axis=1) / extent)
     allowed = TOLERANCE * bend + _ROUNDING * (1.0 + q.max(axis=1)) / widths**2

@@ -86,7 +86,10 @@ def follow(
     field = RateField(chain, path, following.task, tolerances, threshold)
     trace = None if guide is None else guided(field, start, guide)
     if trace is None or trace.ending != "complete":
-        trace = swept(field, start) or traced(field, start)
+        whole = swept(field, start)
+        if whole is not None:
+            return _exactly(field, FollowedPath(whole[0], path.extent, None, *whole[1].tolist()))
+        trace = traced(field, start)
     if trace.ending != "complete" and field.is_redundant and end_is_reached(robot, field, trace):
         trace = _ahead(field, trace)
     if following.near_singularity == "damp":

@@ -90,19 +90,42 @@ def attempt(field: RateField, a: Knot, s: float, stretch: tuple[float, float]) -
 def pieces_between(field: RateField, knots: list[Knot], at: PathSamples) -> list[Piece]:
     """Return the quintics between M + 1 knots with their errors at the inner samples `at`, seven for each of them."""
     data = np.array([end_conditions(a, b) for a, b in pairwise(knots)])
-    qs, h = _VALUES @ data, np.diff([knot.s for knot in knots])
-    dqs, sigmas = field.velocities(at, qs.reshape(-1, qs.shape[2]))
-    velocities, offset = dqs.reshape(qs.shape), np.array([knot.offset for knot in knots[:-1]])
-    fastest = np.maximum(np.abs(velocities).max(axis=(1, 2)), np.abs(data[:, [1, 4]]).max(axis=(1, 2)) / h)
-    errors = np.abs(_RATES @ data / h[:, None, None] - velocities).max(axis=(1, 2))
-    ratios = errors / (RATE_TOLERANCE * np.maximum(fastest, 1e-300) + 20.0 * offset / h)
-    deviations = field.errors(at, qs.reshape(-1, qs.shape[2])).reshape(2, len(h), -1).max(axis=2).T
-    off = (deviations / (SHARE * np.array(field.tolerances) + 10.0 * offset[:, None])).max(axis=1)
-    rows = zip(pairwise(knots), data, sigmas.reshape(len(h), -1), deviations, np.maximum(ratios, off), strict=True)
+    qs, h = values_within(data), np.diff([knot.s for knot in knots])
+    dqs, sigmas = field.velocities(at, qs)
+    offset = np.array([knot.offset for knot in knots[:-1]])
+    ratios, deviations = judged(field, at, (data, h), (qs, dqs), offset)
+    rows = zip(pairwise(knots), data, sigmas.reshape(len(h), -1), deviations, ratios, strict=True)
     return [
         Piece(a, b, own, np.concatenate(([a.sigma], inner, [b.sigma])), deviation, float(ratio))
         for (a, b), own, inner, deviation, ratio in rows
     ]
+
+
+def values_within(data: Array) -> Array:
+    """Return the configurations at the inner samples of M quintics by their end conditions; shape (7M, n)."""
+    qs: Array = (_VALUES @ data).reshape(-1, data.shape[2])
+    return qs
+
+
+def judged(
+    field: RateField, at: PathSamples, quintics: tuple[Array, Array], within: tuple[Array, Array], offset: Array
+) -> tuple[Array, Array]:
+    """Return the largest ratio of an error of each of M quintics to what is allowed, (M,), and deviations, (M, 2).
+
+    Args:
+        at: The path at the inner samples, seven for each of them.
+        quintics: Their end conditions, (M, 6, n), and widths, (M,).
+        within: q and the field's q' at the inner samples; shape (7M, n) each.
+        offset: Distance of the first knot of each from the path; shape (M,).
+    """
+    (data, h), (qs, dqs) = quintics, within
+    velocities = dqs.reshape(len(h), -1, dqs.shape[1])
+    fastest = np.maximum(np.abs(velocities).max(axis=(1, 2)), np.abs(data[:, [1, 4]]).max(axis=(1, 2)) / h)
+    errors = np.abs(_RATES @ data / h[:, None, None] - velocities).max(axis=(1, 2))
+    ratios = errors / (RATE_TOLERANCE * np.maximum(fastest, 1e-300) + 20.0 * offset / h)
+    deviations = field.errors(at, qs).reshape(2, len(h), -1).max(axis=2).T
+    off = (deviations / (SHARE * np.array(field.tolerances) + 10.0 * offset[:, None])).max(axis=1)
+    return np.maximum(ratios, off), deviations
 
 
 def next_knot(field: RateField, a: Knot, s: float, at: PathSamples) -> Knot | None:
