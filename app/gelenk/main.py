@@ -8,6 +8,7 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from functools import partial
 
+import orjson
 from fastapi import FastAPI
 from fastapi.routing import iter_route_contexts
 
@@ -97,6 +98,7 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         version=__version__,
         summary="Robot kinematics over HTTP, with every answer certified",
         description=DESCRIPTION,
+        openapi_url=None,
         docs_url=None,
         redoc_url=None,
         redirect_slashes=False,
@@ -133,8 +135,14 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     app.include_router(service_router(readiness, metrics))
     pages.install(app)
     openapi.describe(app, bool(settings.api_keys))
+    openapi.publish(app, lambda: pool.run(document, settings, seconds))
     app.entry = _middleware(app, settings, metrics, audit)
     return app
+
+
+def document(settings: Settings) -> bytes:
+    """Return the OpenAPI document of the service as JSON; a worker does, because that takes seconds."""
+    return orjson.dumps(create_app(settings).openapi())
 
 
 def _runner(settings: Settings, limits: Limits, pool: WorkerPool) -> Runner:

@@ -211,3 +211,8 @@ def test_a_page_and_what_it_loads_come_from_here_alone(client: TestClient, page:
 
 def test_the_schema_names_no_host(client: TestClient) -> None:
     assert "://" not in client.get("/openapi.json").text
+
+
+def test_the_schema_is_made_in_another_process(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(client.app, "openapi", None)
+    assert client.get("/openapi.json").json() == document()

@@ -1,8 +1,9 @@
 """Parts of the OpenAPI document that FastAPI cannot read from signatures: problems, npy bodies, examples."""
 
+import asyncio
 import json
 import pathlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Awaitable, Callable, Iterable, Mapping
 from copy import deepcopy
 from http import HTTPStatus
 from typing import Annotated, Any
@@ -232,10 +233,24 @@ def describe(app: FastAPI, has_keys: bool) -> None:
                         _without_null(parameter["schema"])
                     _add_refusals(operation, has_keys)
                     _add_examples(operation)
+            if app.root_path:
+                schema["servers"] = [{"url": app.root_path}]
             app.openapi_schema = schema
         return app.openapi_schema
 
     app.openapi = openapi  # type: ignore[method-assign]
+
+
+def publish(app: FastAPI, built: Callable[[], Awaitable[bytes]]) -> None:
+    """Serve the document at `/openapi.json`: as `built` returns it on the first request, which takes seconds."""
+    building, content = asyncio.Lock(), b""
+
+    @app.get("/openapi.json", include_in_schema=False)
+    async def document() -> Response:
+        nonlocal content
+        async with building:
+            content = content or await built()
+        return Response(content, media_type=JSON)
 
 
 def _query_schema(query: type[BaseModel]) -> dict[str, Any]:
