@@ -131,7 +131,7 @@ def done(server: Running, ask: Ask) -> Result:
     array = answered(connection, "GET", f"{path}/result", headers={"Accept": NPY})
     seconds = time.perf_counter() - started
     told = answered(connection, "GET", f"{path}/result")
-    answered(connection, "DELETE", path)
+    answered(connection, "DELETE", f"{path}?finished=remove")
     connection.close()
     return Result(seconds, hashlib.sha256(array + told).hexdigest(), asked_poses(told), peak_memory(server.pid) / 2**20)
 

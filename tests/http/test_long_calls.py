@@ -120,6 +120,22 @@ def test_many_targets_as_npy(client: TestClient, robot: str, joints: int, option
     )
 
 
+def test_targets_as_npy_of_another_form(client: TestClient) -> None:
+    """A job reads them from the body as it was sent: here matrices, column by column, of the other byte order."""
+    Ts = np.tile(np.eye(4), (70, 1, 1))
+    Ts[:, :3, 3] = np.random.default_rng(8).uniform(-0.5, 0.5, (70, 3))
+    body = BytesIO()
+    np.save(body, np.asfortranarray(Ts).astype(">f8"))
+    same(
+        client,
+        "/v1/robots/ur5/ik",
+        (JSON, NPY),
+        params={"max_iterations": 400},
+        content=body.getvalue(),
+        headers={"Content-Type": NPY},
+    )
+
+
 def told_poses(Ts: Array) -> list[dict[str, Any]]:
     return [{"position": row[:3], "quaternion_xyzw": row[3:]} for row in Ts.tolist()]
 

@@ -67,7 +67,7 @@ def test_what_cannot_be_kept_says_so(tmp_path: Path) -> None:
     folder = tmp_path / "job"
     folder.mkdir()
     parts = Parts(folder, DIGEST, 1000)
-    part = folder / f"part-{DIGEST[:16]}-all-0"
+    part = folder / f"part-2-{DIGEST[:16]}-all-0"
     part.mkdir()
     with pytest.raises(StorageFailed):
         parts.write("all-0", b"x")
@@ -79,10 +79,14 @@ def test_what_cannot_be_kept_says_so(tmp_path: Path) -> None:
 
 
 def test_arrays_come_back_to_the_last_bit() -> None:
-    values = np.array([0.1, -0.0, np.inf, np.nan, 5e-324])
-    found = unpacked(packed(values=values, numbers=(1, 2**62), nothing=None))
-    assert set(found) == {"values", "numbers"}
+    values = np.array([[0.1, -0.0], [np.inf, np.nan], [5e-324, 1.0]])
+    named = {"bytes": np.frombuffer(b"odd", np.uint8), "none": np.empty((0, 3)), "flipped": values.T, "number": 7}
+    found = unpacked(packed(values=values, numbers=(1, 2**62), nothing=None, **named))
+    assert set(found) == {"values", "numbers", *named}
     assert found["values"].tobytes() == values.tobytes()
+    assert found["flipped"].tobytes() == values.T.tobytes()
     assert found["numbers"].tolist() == [1, 2**62]
-    with pytest.raises(ValueError, match="allow_pickle"):
+    assert (found["bytes"].tobytes(), found["none"].shape, int(found["number"])) == (b"odd", (0, 3), 7)
+    assert all(array.flags.aligned and array.flags.writeable for array in found.values())
+    with pytest.raises(ValueError, match="only numbers"):
         packed(values=np.array([object()]))

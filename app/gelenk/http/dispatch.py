@@ -103,7 +103,8 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
             if wanted in endpoint.programs:
                 raise InvalidField("format", "a job's result is fetched as JSON, CSV, npy or a picture")
             planned = await pool_client.content(request, plan_job, task_request())
-            return await submitted(runner, endpoint.name, request, planned, {} if is_job else PREFERENCE_APPLIED)
+            applied = {} if is_job else PREFERENCE_APPLIED
+            return await submitted(runner, endpoint.name, request, planned, pieces, applied)
         if request.length <= INLINE_BYTES and pool_client.may_compute_here:
             call, found = _parsed(endpoint, query, b"".join(pieces), is_npy), operation(endpoint.name)
             if wanted not in _PICTURES and not found.is_heavy(call):

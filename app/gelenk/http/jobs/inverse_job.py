@@ -1,16 +1,18 @@
 """Inverse kinematics as a job: several targets per part, each solved as if it were the only one."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
+from io import BytesIO
 from pathlib import Path
-from typing import IO, TypeAlias
+from typing import IO, Any, TypeAlias
 
 import numpy as np
 import orjson
+from numpy.typing import NDArray
 
 from gelenk.contract.ik import MAX_JOB_STEPWISE, MAX_JOB_TARGETS, MAX_TRACE, InverseRequest
 from gelenk.errors import InvalidField
-from gelenk.http.jobs.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file, npy_file
+from gelenk.http.jobs.long_work import AS_SENT, HEADERS, LongWork, as_bytes, headers_file, npy_file
 from gelenk.http.messages.payloads import JSON, NPY, read_json
 from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.solve import solve
@@ -18,16 +20,26 @@ from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
-from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolved_headers
+from gelenk.operations.ik_answer import (
+    PlainResults,
+    plain_results,
+    results_to_json,
+    table,
+    to_json,
+    unsolved_headers,
+)
 from gelenk.operations.ik_request import NUMBERS_OF_STEPS, TargetLimits, has_table, is_stepwise, options_of, parse
 from gelenk.operations.outcome import Limits
+from gelenk.operations.pose_arrays import poses_from
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
-from gelenk.store.folders import read_plain
+from gelenk.store.folders import open_plain, read_plain
 from gelenk.store.records import LoadedRobot
 
 _CALL, _TARGETS, _SEEDS = "call.json", "targets.npy", "seeds.npy"
+_PARTS, _ABOUT = "result.parts", "result.about"
+"""Files of a result: the parts one after another; and all else that the answer consists of, with their sizes."""
 _BOUNDS = TargetLimits(MAX_JOB_TARGETS, MAX_JOB_STEPWISE, None)
 _PART, _PART_OF_MANY = 4096, 128
 """Targets per part: of quick calls (one solution each, no objective, not stepwise), and of all others."""
@@ -39,10 +51,10 @@ _SOLVED = 0.95
 """Progress when only the files are left to write."""
 
 _Part: TypeAlias = tuple[RobotText, bytes, Array, Array]
-"""The robot, the call, the targets (rows of 12: position, rotation matrix), the seeds."""
+"""The robot, the call, the targets (as sent, or rows of 12: position, rotation matrix), the seeds."""
 
 
-def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[str, bytes]:
+def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[str, bytes | None]:
     """Check a call and return its files; targets and seeds are arrays from here on."""
     if call.time_limit is not None:
         raise InvalidField(
@@ -52,8 +64,11 @@ def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[
     _check_room(limits.job_bytes, problem, call)
     ends = {"base_frame": problem.chain.base_frame, "tip_frame": problem.chain.tip_frame}
     rest = call.model_copy(update={"targets": [], "seeds": None, **ends})
+    files = {_CALL: rest.model_dump_json().encode(), _SEEDS: npy_file(problem.seeds)}
+    if isinstance(call.targets, np.ndarray):
+        return {**files, _TARGETS: AS_SENT}
     rows = np.column_stack((problem.targets.positions, problem.targets.rotations.reshape(-1, 9)))
-    return {_CALL: rest.model_dump_json().encode(), _TARGETS: npy_file(rows), _SEEDS: npy_file(problem.seeds)}
+    return {**files, _TARGETS: npy_file(rows)}
 
 
 def _check_room(most_bytes: int, problem: TargetProblem, call: InverseRequest) -> None:
@@ -94,38 +109,42 @@ def _work(_: Limits, folder: Path) -> Work:
 
     def part(k: int) -> _Part:
         rows = slice(k * size, (k + 1) * size)
-        return text, content, np.array(targets[rows]), np.array(seeds if len(seeds) == 1 else seeds[rows])
+        return (
+            text,
+            content,
+            np.array(targets[rows], dtype=np.float64, order="C"),
+            np.array(seeds if len(seeds) == 1 else seeds[rows]),
+        )
 
     def work(run: Run) -> Files:
         run.map(_STAGE, solved_part, part, count, (0.0, _SOLVED), size)
         chain = robot_of(text).chain(call.base_frame, call.tip_frame)
         found = _Found(call, chain, lambda: run.parts.of(_STAGE, count))
-        files: Files = {RESULTS[JSON]: found.write_json}
-        if not has_table(call):
-            return files
-        return {**files, RESULTS[NPY]: found.write_npy, HEADERS: found.write_headers}
+        return {_PARTS: found.write_parts, _ABOUT: found.write_about, HEADERS: found.write_headers}
 
     return work
 
 
 def solved_part(job: _Part) -> bytes:
-    """Solve some targets, in a separate process: results as JSON, rows of a table, and indices of unsolved targets."""
+    """Solve some targets, in a separate process: results as arrays or as JSON, and indices of unsolved targets."""
     text, content, rows, seeds = job
     robot, call = robot_of(text), _call(content)
     chain = robot.chain(call.base_frame, call.tip_frame)
-    targets = Poses(np.ascontiguousarray(rows[:, :3]), np.ascontiguousarray(rows[:, 3:]).reshape(-1, 3, 3))
+    targets = Poses(rows[:, :3].copy(), rows[:, 3:].reshape(-1, 3, 3)) if rows.shape[1] == 12 else poses_from(rows, "")
     return _solved(TargetProblem(robot, chain, targets, seeds, options_of(chain, call, None)), call)
 
 
 def _solved(problem: TargetProblem, call: InverseRequest) -> bytes:
-    chain, result = problem.chain, solve(problem)
+    result = solve(problem)
+    head = {"count": len(problem), "form": as_bytes(orjson.dumps(result.closed_form))}
+    if (plain := plain_results(problem, call, result)) is not None:
+        return packed(**head, **plain._asdict())
     results = orjson.dumps(results_to_json(problem, call, result), option=orjson.OPT_SERIALIZE_NUMPY)
     return packed(
-        count=len(problem),
-        form=as_bytes(orjson.dumps(result.closed_form)),
-        results=as_bytes(results),
+        **head,
+        rows=table(problem.chain, result) if has_table(call) else None,
         unsolved=np.array(list(result.failures), dtype=np.int64),
-        rows=table(chain, result) if has_table(call) else None,
+        results=as_bytes(results),
     )
 
 
@@ -139,37 +158,69 @@ class _Found:
 
     def __init__(self, call: InverseRequest, chain: Chain, parts: Callable[[], Iterator[bytes]]) -> None:
         self._call, self._chain, self._parts = call, chain, parts
-        self._rows: list[Array] = []
+        self._form, self._sizes, self._count = b"", list[int](), 0
         self._unsolved: list[int] = []
 
-    def write_json(self, target: IO[bytes]) -> None:
-        """Write the answer; the results, part by part, replace the empty list at its end."""
-        end, separator, count = b"", b"", 0
+    def write_parts(self, target: IO[bytes]) -> None:
         for part in self._parts():
             values = unpacked(part)
-            if not end:
-                answer = to_json(self._chain, self._call, orjson.loads(values["form"].tobytes()), [])
-                frame = orjson.dumps(answer, option=orjson.OPT_SERIALIZE_NUMPY)
-                target.write(frame[:-2])
-                end = frame[-2:]
-            if results := values["results"].data[1:-1]:
-                target.write(separator)
-                target.write(results)
-                separator = b","
-            self._unsolved += (count + values["unsolved"]).tolist()
-            count += int(values["count"])
-            if "rows" in values:
-                self._rows.append(values["rows"])
-        target.write(end)
+            self._form = values["form"].tobytes()
+            self._unsolved += (self._count + values["unsolved"]).tolist()
+            self._count += int(values["count"])
+            self._sizes.append(len(part))
+            target.write(part)
 
-    def write_npy(self, target: IO[bytes]) -> None:
-        shape = sum(map(len, self._rows)), len(self._chain)
-        np.lib.format.write_array_header_1_0(target, {"descr": "<f8", "fortran_order": False, "shape": shape})
-        for rows in self._rows:
-            target.write(np.ascontiguousarray(rows).data)
+    def write_about(self, target: IO[bytes]) -> None:
+        answer = to_json(self._chain, self._call, orjson.loads(self._form), [])
+        frame = orjson.dumps(answer, option=orjson.OPT_SERIALIZE_NUMPY)
+        shape = (self._count, len(self._chain)) if has_table(self._call) else None
+        target.write(orjson.dumps({"frame": frame.decode(), "sizes": self._sizes, "shape": shape}))
 
     def write_headers(self, target: IO[bytes]) -> None:
         target.write(headers_file({NPY: unsolved_headers(self._unsolved)}))
 
 
-WORK = LongWork(_request, _work)
+def _streamed(folder: Path, media_type: str) -> Iterator[bytes] | None:
+    """Return the pieces of a result; None if its kind of answer has no such form, or an earlier version made a file."""
+    try:
+        about = orjson.loads(read_plain(folder / _ABOUT))
+        if media_type == NPY and about["shape"] is None:
+            return None
+        parts = _parts(open_plain(folder / _PARTS), about["sizes"])
+    except FileNotFoundError:
+        return None
+    return _npy(about["shape"], parts) if media_type == NPY else _json(about["frame"].encode(), parts)
+
+
+def _parts(source: IO[bytes], sizes: Sequence[int]) -> Iterator[dict[str, NDArray[Any]]]:
+    with source:
+        for size in sizes:
+            yield unpacked(source.read(size))
+
+
+def _json(frame: bytes, parts: Iterator[dict[str, NDArray[Any]]]) -> Iterator[bytes]:
+    """Yield the answer; the results, part by part, replace the empty list at the end of its frame."""
+    yield frame[:-2]
+    separator = b""
+    for values in parts:
+        if results := _results(values)[1:-1]:
+            yield separator + results
+            separator = b","
+    yield frame[-2:]
+
+
+def _results(values: dict[str, NDArray[Any]]) -> bytes:
+    if "results" in values:
+        return values["results"].tobytes()
+    return orjson.dumps(PlainResults(*(values[name] for name in PlainResults._fields)).to_json())
+
+
+def _npy(shape: Sequence[int], parts: Iterator[dict[str, NDArray[Any]]]) -> Iterator[bytes]:
+    head = BytesIO()
+    np.lib.format.write_array_header_1_0(head, {"descr": "<f8", "fortran_order": False, "shape": tuple(shape)})
+    yield head.getvalue()
+    for values in parts:
+        yield values["rows"].tobytes()
+
+
+WORK = LongWork(_request, _work, _streamed)

@@ -1,12 +1,11 @@
 """Endpoints of existing jobs: state, progress events, result, cancelling and removal."""
 
 import asyncio
-from collections.abc import AsyncIterator, Mapping
-from typing import Annotated, Any, Literal
+from collections.abc import AsyncIterator, Iterator, Mapping
+from typing import IO, Annotated, Any, Literal
 
 import orjson
 from fastapi import APIRouter, Header, Path, Query, Response
-from starlette.background import BackgroundTask
 from starlette.requests import Request
 from starlette.responses import StreamingResponse
 
@@ -15,6 +14,7 @@ from gelenk.errors import InvalidArray, UnknownJob
 from gelenk.http.jobs import trajectory_job
 from gelenk.http.jobs.info import NO_STORE, job_content, job_response
 from gelenk.http.jobs.long_work import HEADERS, RESULTS, headers_of
+from gelenk.http.jobs.long_works import LONG_WORK
 from gelenk.http.messages.openapi import documentation
 from gelenk.http.messages.payloads import CSV, JSON, NO_ARRAY, NPY, PNG, SVG, preferred_type
 from gelenk.jobs.job import JobRecord
@@ -79,7 +79,7 @@ def jobs_router(runner: Runner) -> APIRouter:
             paths = runner.result(job, ARRAY), runner.result(job, SUMMARY)
             response = Response(runner.rendered(picture, (*paths, _PICTURES[wanted])), media_type=wanted)
         else:
-            response = _file_response(runner, job, wanted)
+            response = _result_response(runner, record, wanted)
         if record.robot_digest is not None:
             response.headers["Gelenk-Robot-Digest"] = record.robot_digest
         return response
@@ -119,18 +119,26 @@ async def _events(runner: Runner, job: JobRecord, state: Mapping[str, Any]) -> A
             return
 
 
-def _file_response(runner: Runner, job_id: str, media_type: str) -> Response:
-    """Return a result file of a job in pieces; once open, the file stays readable to its end."""
-    path = runner.result(job_id, RESULTS[media_type])
-    try:
-        stream = open_plain(path)
-    except FileNotFoundError:
-        runner.store.get(job_id)
-        raise InvalidArray(NO_ARRAY) from None
-    headers = headers_of(runner.result(job_id, HEADERS), media_type)
+def _result_response(runner: Runner, job: JobRecord, media_type: str) -> Response:
+    """Return a result of a job in pieces; once open, its files stay readable to their end."""
+    path = runner.result(job.id, RESULTS[media_type])
+    pieces, length = LONG_WORK[job.kind].streamed(path.parent, media_type), {}
+    if pieces is None:
+        try:
+            stream = open_plain(path)
+        except FileNotFoundError:
+            runner.store.get(job.id)
+            raise InvalidArray(NO_ARRAY) from None
+        pieces, length = _pieces_of(stream), {"Content-Length": str(path.stat().st_size)}
+    headers = headers_of(runner.result(job.id, HEADERS), media_type)
     return StreamingResponse(
-        iter(lambda: stream.read(_PIECE), b""),
+        pieces,
         media_type=f"{CSV}; header=present" if media_type == CSV else media_type,
-        headers={**NO_STORE, **headers, "Content-Length": str(path.stat().st_size)},
-        background=BackgroundTask(stream.close),
+        headers={**NO_STORE, **headers, **length},
     )
+
+
+def _pieces_of(stream: IO[bytes]) -> Iterator[bytes]:
+    with stream:
+        while piece := stream.read(_PIECE):
+            yield piece

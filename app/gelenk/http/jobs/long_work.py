@@ -2,7 +2,7 @@
 
 import asyncio
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
@@ -32,6 +32,10 @@ CALL = "call.json"
 """File of a request that holds the call, perhaps with a name for the job in `job_id`."""
 HEADERS = "headers.json"
 """File with further headers of these results, by media type."""
+AS_SENT = None
+"""In place of a file's content: the body of the request, which need not come back from the process that checks it."""
+_AS_SENT = "as sent"
+"""Where the names of these files are packed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,16 +43,21 @@ class LongWork(Generic[_Request]):
     """Computes an operation as a job.
 
     `request` checks a call and returns the files that the job is computed from, besides the robot's. `work` returns
-    the function that computes the job from the folder of these files.
+    the function that computes the job from the folder of these files. `streamed` returns the pieces of a result of a
+    media type that is only made while it is sent, from the job's folder; None if there is a file of it, or no such
+    result.
     """
 
-    request: Callable[[LoadedRobot, _Request, Limits], dict[str, bytes]]
+    request: Callable[[LoadedRobot, _Request, Limits], Mapping[str, bytes | None]]
     work: Callable[[Limits, Path], Work]
+    streamed: Callable[[Path, str], Iterator[bytes] | None] = lambda *_: None
 
     def planned(self, robot: LoadedRobot, call: _Request, limits: Limits) -> bytes:
-        """Check the call and return all files of its request, packed into one."""
+        """Check the call and return all files of its request, packed into one, except the body as it was sent."""
         files = {**robot_files(robot.record.name, robot.robot, robot.urdf), **self.request(robot, call, limits)}
-        return packed(**{name: as_bytes(content) for name, content in files.items()})
+        contents = {name: as_bytes(content) for name, content in files.items() if content is not AS_SENT}
+        as_sent = [name for name, content in files.items() if content is AS_SENT]
+        return packed(**contents, **{_AS_SENT: as_bytes(orjson.dumps(as_sent))})
 
 
 def as_bytes(content: bytes) -> NDArray[np.uint8]:
@@ -63,13 +72,22 @@ def npy_file(array: NDArray[np.float64]) -> bytes:
     return target.getvalue()
 
 
-async def submitted(runner: Runner, kind: str, request: Request, planned: bytes, headers: dict[str, str]) -> Response:
-    """Submit a planned job; return 202 with the job's address and these headers; raises as `Runner.submit`."""
+async def submitted(
+    runner: Runner, kind: str, request: Request, planned: bytes, pieces: Sequence[bytes], headers: dict[str, str]
+) -> Response:
+    """Submit a planned job; return 202 with the job's address and these headers; raises as `Runner.submit`.
+
+    `pieces` are those of the request's body.
+    """
 
     def submit() -> Response:
         files = {name: content.tobytes() for name, content in unpacked(planned).items()}
+        digest = hashlib.sha256(planned)
+        for name in orjson.loads(files.pop(_AS_SENT)):
+            files[name] = b"".join(pieces)
+            digest.update(files[name])
         job_id = orjson.loads(files[CALL]).get("job_id")
-        job = runner.submit(kind, hashlib.sha256(planned).hexdigest(), files, job_id, client_of(request))
+        job = runner.submit(kind, digest.hexdigest(), files, job_id, client_of(request))
         location = f"{request.scope.get('root_path', '')}/v1/jobs/{job.id}"
         return job_response(job, 202, {"Location": location, **headers})
 
