@@ -166,6 +166,16 @@ def test_columns_of_the_mass_matrix_are_torques_of_unit_accelerations(ends: Ends
 
 
 @every_chain
+@pytest.mark.parametrize("count", [1, 3])
+def test_torques_of_many_states_are_those_of_each(ends: Ends, count: int) -> None:
+    machine, chain = chain_of(ends)
+    judge, state = PinocchioDynamics(mechanism(machine, chain), G, LOAD), moving(chain, count)
+    rates = state.qs, state.speeds, samples(chain, count, 5)
+    each = [judge.inverse(*rows) for rows in zip(*rates, strict=True)]
+    assert judge.inverses(*rates) == pytest.approx(np.array(each), abs=1e-12)
+
+
+@every_chain
 def test_round_trip_of_chains_anywhere(ends: Ends) -> None:
     machine, chain = chain_of(ends)
     state = moving(chain, 4)

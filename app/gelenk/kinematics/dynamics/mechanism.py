@@ -140,6 +140,13 @@ class PinocchioDynamics:
         matrix = self._matrix
         return self._torques(pin.rnea(self._model, self._data, self._full(q), matrix @ v, matrix @ a))
 
+    def inverses(self, qs: Array, vs: Array, accelerations: Array) -> Array:
+        """Compute `inverse` of N states without Python between them; shape (N, n) each → (N, n), [N m or N]."""
+        rates = (self._matrix @ rows.T for rows in (vs, accelerations))
+        states = self._offset[:, None] + self._matrix @ qs.T, *rates
+        full = np.asarray(pin.rneaInParallel(1, pin.ModelPool(self._model, 1), *states))
+        return np.asarray(full.reshape(states[0].shape).T @ self._matrix)
+
     def forward(self, q: Array, v: Array, torques: Array) -> Array:
         """Compute q̈ by the articulated body algorithm [Featherstone2008, 7.3]; shape (n,). Not with mimic joints."""
         matrix = self._matrix

@@ -26,8 +26,7 @@ def torque_limits(found: ChainMechanism, most: Array, gravity: Array, load: Load
         return inertial, weight
 
     def recomputed(q: Array, v: Array, a: Array) -> Array:
-        theirs = PinocchioDynamics(found, gravity, load)
-        return np.array([theirs.inverse(*state) for state in zip(q, v, a, strict=True)]).reshape(q.shape)
+        return PinocchioDynamics(found, gravity, load).inverses(q, v, a)
 
     joints, names = found.robot.description.joint, found.chain.joint_names
     units = tuple("N" if joints[name].type == "prismatic" else "N m" for name in names)

@@ -13,7 +13,7 @@ from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.audit.torques import TorqueLimits
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut, derivatives
-from gelenk.trajectory.paths.path_geometry import LimitedPath
+from gelenk.trajectory.paths.path_geometry import LimitedPath, subdivided
 from gelenk.trajectory.timing.time_optimal import INTERVALS, Rows, Slower, TimeOptimal, time_optimal
 from gelenk.trajectory.timing.tip_constraints import control_points, tip_rows
 from gelenk.trajectory.timing.zone_constraints import zone_rows
@@ -80,9 +80,8 @@ def torque_factor(motion: PiecewisePolynomial, torque: TorqueLimits) -> float:
     if not torque.is_limited:
         return 1.0
     widths = np.diff(motion.breaks)
-    counts = np.maximum(np.ceil(widths * (_LEAST / motion.duration)), _EACH).astype(int) + 1
-    local = np.concatenate([np.linspace(0.0, width, count) for width, count in zip(widths, counts, strict=True)])
-    states = derivatives(np.repeat(motion.coefficients, counts, axis=0), local[:, None], 2)
+    piece, within, steps = subdivided(widths, _LEAST, _EACH)
+    states = derivatives(motion.coefficients[piece], (within * widths[piece] / steps)[:, None], 2)
     inertial, weight = torque.parts(*states)
     above, below = _rooms(torque, torque.most, weight)
     return float(np.sqrt(max(1.0, (inertial / above).max(initial=0.0), (-inertial / below).max(initial=0.0))))
