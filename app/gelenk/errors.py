@@ -144,11 +144,12 @@ class InvalidRobotFolder(InvalidInput):
 
 
 class InvalidName(InvalidInput):
-    """A robot's name is not suitable for a path and a URL."""
+    """A name is not suitable for a path and a URL; the error says of what it is to be the name."""
 
     name: str
+    kind: str = "robot"
     template = (
-        "{name!q} is not a robot's name: 1 to 64 letters, digits, '_', '.' or '-', the first one a letter or digit"
+        "{name!q} is not a {kind}'s name: 1 to 64 letters, digits, '_', '.' or '-', the first one a letter or digit"
     )
 
 
@@ -346,10 +347,12 @@ class QuotaExceeded(KinematicsError):
     used: int
     more: int
     allowed: int
+    kind: str
+    _variable = property(lambda self: f"GELENK_CLIENT_{self.kind.upper()}")
     template = (
-        "{used} {what} are stored for {client!q}, and this would add {more}; {allowed} are allowed: remove robots that "
-        "are no longer needed (DELETE /v1/robots/{{robot}}), or have the operator raise GELENK_CLIENT_ROBOTS or "
-        "GELENK_CLIENT_ROBOT_BYTES"
+        "{used} {what} are stored for {client!q}, and this would add {more}; {allowed} are allowed: remove {kind}s "
+        "that are no longer needed (DELETE /v1/{kind}s/{{{kind}}}), or have the operator raise {_variable}S or "
+        "{_variable}_BYTES"
     )
 
 

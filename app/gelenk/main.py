@@ -45,7 +45,8 @@ from gelenk.jobs.workers import PoolExecutor
 from gelenk.operations.outcome import Limits
 from gelenk.pool.pool import WorkerPool
 from gelenk.settings import Settings
-from gelenk.store.library import Library, Quota
+from gelenk.store.library import Library
+from gelenk.store.quota import Quota
 
 DESCRIPTION = """
 Takes a URDF or a Denavit-Hartenberg table, converts each into the other, and computes forward and inverse kinematics,
@@ -64,7 +65,7 @@ _SWITCH_SECONDS = 5e-4
 def create_app(settings: Settings, pool: WorkerPool | None = None) -> Application:
     """Build the application; unless it gets a worker pool, it creates one for long requests and parts of jobs."""
     seconds = settings.request_seconds
-    quota = Quota(settings.client_robots, settings.client_robot_bytes)
+    quota = Quota("robot", settings.client_robots, settings.client_robot_bytes)
     limits = Limits(settings.max_answer_numbers, seconds, settings.job_bytes, settings.max_job_samples)
     context = Context(settings.catalogue_dir, settings.data_dir / "robots", limits, quota)
     library = Library(context.catalogue, context.uploads, quota)

@@ -31,7 +31,8 @@ from gelenk.robot.urdf import read_urdf
 from gelenk.sheets.pdf import printed
 from gelenk.store.archive import unpacked
 from gelenk.store.folders import writing
-from gelenk.store.library import Library, Quota, RobotUpload
+from gelenk.store.library import Library, RobotUpload
+from gelenk.store.quota import Quota
 from gelenk.store.records import read_record
 from gelenk.trajectory.audit.audit import audit
 from gelenk.trajectory.audit.demands import Demands
@@ -144,7 +145,7 @@ def printed_without_a_browser() -> None:
 def beyond_the_quota() -> None:
     with TemporaryDirectory() as folder:
         row = b'<robot name="r"><link name="l"/></robot>'
-        Library(CATALOGUE, Path(folder), Quota(0, 1)).add(RobotUpload("mine", "urdf", row, owner="somebody"))
+        Library(CATALOGUE, Path(folder), Quota("robot", 0, 1)).add(RobotUpload("mine", "urdf", row, owner="somebody"))
 
 
 def in_a_store(do: Callable[[JobStore], object]) -> None:

@@ -5,6 +5,7 @@
 - `meshes`: finds the file that a mesh name refers to.
 - `records`: reads a robot's folder: its `robot.json` and the paths of its files.
 - `index`: one file with the data on each uploaded robot that the list of robots and the quotas need.
+- `quota`: what one client may store.
 - `course_secret`: the secret that decides the numbers of homework.
 - `library`: all robots by name, loaded once, and again when their folder has changed.
 """

@@ -27,7 +27,6 @@ from gelenk.errors import (
     InvalidName,
     InvalidRobotFolder,
     KinematicsError,
-    QuotaExceeded,
     ReadOnlyRobot,
     RobotExists,
     StorageFailed,
@@ -39,6 +38,7 @@ from gelenk.store import folders
 from gelenk.store.folders import Content, FileRange
 from gelenk.store.index import NAME, Index, summary
 from gelenk.store.meshes import MeshFiles, flat
+from gelenk.store.quota import ROBOTS, Quota
 from gelenk.store.records import (
     ROBOT_FILE,
     LoadedRobot,
@@ -86,21 +86,13 @@ class RobotUpload:
     owner: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Quota:
-    """Storage limits of one client: the number of its uploaded robots, and the size of all their files, [bytes]."""
-
-    robots: int = 20_000
-    robot_bytes: int = 10 * 1024**3
-
-
 class Library:
     """Robots by name; safe to use from many threads and processes.
 
     The catalogue's robots come with the project; the folder of all others is created when first written to.
     """
 
-    def __init__(self, catalogue: Path, uploads: Path, quota: Quota = Quota()) -> None:
+    def __init__(self, catalogue: Path, uploads: Path, quota: Quota = ROBOTS) -> None:
         self.uploads, self._quota = uploads, quota
         found = (read_record(folder, "catalogue") for folder in sorted(catalogue.iterdir()) if folder.is_dir())
         self._catalogue = {record.name: record for record in found if record is not None}
@@ -153,14 +145,9 @@ class Library:
         """Check that the owner's quota has room for a robot; one of the same owner that it replaces does not count."""
         if new.owner is None:
             return
-        sizes = [entry.kept_bytes for entry in self._index.entries()[0] if entry.owner == new.owner]
-        replaced = [old.kept_bytes] if old is not None and old.owner == new.owner else []
-        for what, used, more, allowed in (
-            ("robots", len(sizes), 1 - len(replaced), self._quota.robots),
-            ("bytes of robots", sum(sizes), new.kept_bytes - sum(replaced), self._quota.robot_bytes),
-        ):
-            if more > 0 and used + more > allowed:
-                raise QuotaExceeded(new.owner, what, used, more, allowed)
+        stored = [entry.kept_bytes for entry in self._index.entries()[0] if entry.owner == new.owner]
+        replaced = old.kept_bytes if old is not None and old.owner == new.owner else None
+        self._quota.check(new.owner, stored, new.kept_bytes, replaced)
 
     def state(self) -> int | None:
         """Return a number that changes when a robot is added, replaced or removed; None while it could miss a change.

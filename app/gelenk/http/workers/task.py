@@ -4,7 +4,7 @@ It must be a module-level function, because it is sent by name.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from pickle import PickleBuffer
@@ -16,7 +16,8 @@ from gelenk.http.messages.payloads import JSON
 from gelenk.operations.outcome import Limits
 from gelenk.operations.request_counts import REQUEST_COUNTS, RequestCounts
 from gelenk.processes.wire import pieces_of
-from gelenk.store.library import Library, Quota
+from gelenk.store.library import Library
+from gelenk.store.quota import ROBOTS, Quota
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +27,7 @@ class Context:
     catalogue: Path
     uploads: Path
     limits: Limits
-    quota: Quota = field(default_factory=Quota)
+    quota: Quota = ROBOTS
 
     @property
     def library(self) -> Library:
