@@ -62,7 +62,7 @@ NOTHING_MORE = Overlay(np.zeros((0, 3)), 0.0, None)
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class EllipsoidScene:
     """Everything that is drawn.
 
     Attributes:
@@ -101,7 +101,7 @@ def manipulability_picture(
     outlines = () if translation is None or overlay.limited is None else _outlines(translation, overlay.limited, extent)
     plane = plane_of(chain, translation)
     arrows = _arrows(translation, quantities, overlay)
-    scene = Scene(points, slides, extent, quantities, outlines, arrows)
+    scene = EllipsoidScene(points, slides, extent, quantities, outlines, arrows)
     entries = legend(quantities, outlines, arrows, translation)
     title = f"{style.plain(name)}: {style.plain(chain.base_frame)} → {style.plain(chain.tip_frame)}"
     captions = (title, chain, q, entries)
@@ -210,7 +210,9 @@ def drawn_scale(sizes: Array, extent: float) -> float:
     return float(max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= wanted))
 
 
-def _in_plane(scene: Scene, plane: Array, title: str, chain: Chain, q: Array, entries: Sequence[LegendRow]) -> Figure:
+def _in_plane(
+    scene: EllipsoidScene, plane: Array, title: str, chain: Chain, q: Array, entries: Sequence[LegendRow]
+) -> Figure:
     width = 6.4
     lines = configuration_lines(chain, q, width)
     top, bottom = _TITLE_HEIGHT + len(lines) * style.LINE, _LABELS_HEIGHT + legend_height(entries)
@@ -229,7 +231,7 @@ def _in_plane(scene: Scene, plane: Array, title: str, chain: Chain, q: Array, en
     return figure
 
 
-def _in_projections(scene: Scene, title: str, chain: Chain, q: Array, entries: Sequence[LegendRow]) -> Figure:
+def _in_projections(scene: EllipsoidScene, title: str, chain: Chain, q: Array, entries: Sequence[LegendRow]) -> Figure:
     """Draw front and side views above, and the top view below the front, all on one scale."""
     width, side = 9.0, 3.6
     lines = configuration_lines(chain, q, width)
@@ -254,7 +256,7 @@ def _box(points: Array, halves: Sequence[Array], extent: float) -> tuple[Array, 
     return (lower + upper) / 2.0, (upper - lower) / 2.0 + _MARGIN * extent
 
 
-def _draw(axes: Axes, view: View, scene: Scene) -> None:
+def _draw(axes: Axes, view: View, scene: EllipsoidScene) -> None:
     plane, x_label, y_label = view
     style.metric_axes(axes, x_label, y_label)
     points = scene.points @ plane.T
