@@ -135,6 +135,14 @@ class InvalidArchive(InvalidInput):
     template = "<entry {entry!q}: >{reason}"
 
 
+class InvalidMesh(InvalidInput):
+    """A mesh file is not one, or exceeds the limits within which it is read."""
+
+    reason: str
+    mesh: str
+    template = "mesh {mesh!q}: {reason}"
+
+
 class InvalidRobotFolder(InvalidInput):
     """A folder of the uploaded robots does not contain a valid robot; the error names the file at fault."""
 

@@ -1,5 +1,7 @@
-"""What a robot can touch: bodies of its links and of its surroundings, contacts between them, and how far they are apart.
+"""What a robot can touch: bodies of its links and around it, contacts between them, and how far they are apart.
 
 Map:
 - `bodies`: the convex pieces that everything here is about.
+- `meshes` reads files of triangles, `hulls` makes convex pieces of them, `covers` spheres around these.
+- `robot_bodies`: the pieces of a robot's links, and `pairs`: which of these links can touch.
 """

@@ -1,0 +1,136 @@
+"""Convex pieces of a mesh: the hull of each connected part, with few vertices, and always around all of the part."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.robot.arrays import Array, Indices
+
+MAX_PIECES = 16
+"""A mesh of more parts than this becomes a single piece."""
+MAX_VERTICES = 128
+_THINNEST = 1e-6
+"""Least thickness of a hull, relative to its size: flatter ones are thickened, because no hull of them is found."""
+_FACES = MAX_VERTICES // 2 + 2
+"""Of a simplified hull: F faces meet in at most 2 F - 4 vertices."""
+_FACES_A_ROUND = 6
+
+
+@dataclass(frozen=True, slots=True)
+class Hull:
+    """A convex hull: vertices, shape (V, 3), indices of its triangles' corners, (F, 3), and volume, [m³]."""
+
+    vertices: Array
+    faces: Indices
+    volume: float
+
+
+def parts_of(triangles: Array) -> list[Array]:
+    """Split triangles, shape (F, 3, 3), into parts that share no corner; beyond `MAX_PIECES` into one."""
+    _, corners = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
+    faces = corners.reshape(-1, 3)
+    part = _components(faces)[faces[:, 0]]
+    found = np.unique(part)
+    return [triangles] if len(found) > MAX_PIECES else [triangles[part == number] for number in found]
+
+
+def _components(faces: Indices) -> Indices:
+    """Label each corner by the smallest one that it is connected with; shape (V,)."""
+    labels = np.arange(faces.max() + 1)
+    while True:
+        before = labels.copy()
+        np.minimum.at(labels, faces, labels[faces].min(axis=1, keepdims=True))
+        labels = labels[labels]
+        if np.array_equal(labels, before):
+            return labels
+
+
+def hull_of(triangles: Array) -> tuple[Array, float]:
+    """Return the vertices of a convex piece around triangles, shape (V, 3), V ≤ `MAX_VERTICES`, and its excess.
+
+    The excess is its volume over that of the triangles, less one; NaN where they do not enclose one.
+    """
+    hull = convex_hull(triangles.reshape(-1, 3))
+    if len(hull.vertices) > MAX_VERTICES:
+        hull = convex_hull(_around(hull))
+    enclosed = enclosed_volume(triangles)
+    return hull.vertices, hull.volume / enclosed - 1.0 if enclosed > 0.0 else math.nan
+
+
+def convex_hull(points: Array) -> Hull:
+    """Return the hull of points, shape (N, 3); a flat one is thickened.
+
+    Quickhull crashes on flat points. Hence it gets them scaled along their principal axes to a size of one, which
+    changes nothing of what is a vertex.
+    """
+    centre, axes, sizes = _box(points)
+    scaled = (points - centre) @ axes / sizes
+    for axis in np.flatnonzero(np.ptp(scaled, axis=0) < 0.5):
+        step = np.eye(3)[axis] / 2
+        scaled = np.concatenate((scaled - step, scaled + step))
+    hull = _quickhull(np.unique(scaled, axis=0))
+    return Hull(hull.vertices * sizes @ axes.T + centre, hull.faces, hull.volume * float(np.prod(sizes)))
+
+
+def _quickhull(points: Array) -> Hull:
+    import coal  # noqa: PLC0415 - only robots with meshes need it
+
+    listed = coal.StdVec_Vec3s()
+    listed.extend(list(points))
+    hull = coal.Convex.convexHull(listed, True, "Qt")
+    triangles = map(hull.polygons, range(hull.num_polygons))
+    faces = np.array([(triangle[0], triangle[1], triangle[2]) for triangle in triangles])
+    return Hull(np.array(hull.points()), faces, float(hull.computeVolume()))
+
+
+def _box(points: Array) -> tuple[Array, Array, Array]:
+    """Return the centre, (3,), and the principal axes, columns, of points, and their sizes along these, not zero."""
+    mean = points.mean(axis=0)
+    axes = np.linalg.eigh((points - mean).T @ (points - mean))[1]
+    along = (points - mean) @ axes
+    least, most = along.min(axis=0), along.max(axis=0)
+    sizes = most - least
+    return axes @ (least + most) / 2 + mean, axes, np.maximum(sizes, max(_THINNEST * sizes.max(), 1e-9))
+
+
+def _around(hull: Hull) -> Array:
+    """Return the vertices of a polytope around a hull that has few of its faces, besides those of its box.
+
+    Those are added of which the polytope's vertices are farthest. The plane of a face, a·x = 1, is a point a of the
+    dual, and the dual's faces are the vertices.
+    """
+    mean = hull.vertices.mean(axis=0)
+    _, axes, sizes = _box(hull.vertices)
+    scaled = (hull.vertices - mean) @ axes / sizes
+    first, second, third = np.moveaxis(scaled[hull.faces], 1, 0)
+    normals = np.cross(second - first, third - first)
+    box = np.concatenate((np.eye(3), -np.eye(3)))
+    planes = np.concatenate((box, normals * np.sign((normals * first).sum(axis=1, keepdims=True))))
+    planes /= (scaled @ planes.T).max(axis=0)[:, None] * (1.0 + 1e-9)
+    chosen = np.arange(len(box))
+    vertices = _dual_vertices(planes[chosen])
+    while len(chosen) < _FACES:
+        beyond = (vertices @ planes.T - 1.0) / np.linalg.norm(planes / sizes, axis=1)
+        worst = beyond.argmax(axis=1)[np.argsort(-beyond.max(axis=1))]
+        chosen = np.append(chosen, list(dict.fromkeys(worst.tolist()))[: min(_FACES_A_ROUND, _FACES - len(chosen))])
+        vertices = _dual_vertices(planes[chosen])
+    return np.asarray(vertices * sizes @ axes.T + mean)
+
+
+def _dual_vertices(planes: Array) -> Array:
+    dual = _quickhull(planes)
+    return np.asarray(np.linalg.solve(dual.vertices[dual.faces], np.ones((len(dual.faces), 3, 1)))[:, :, 0])
+
+
+def enclosed_volume(triangles: Array) -> float:
+    """Return the volume within triangles, [m³]; NaN unless they close: each edge is passed once in either direction."""
+    _, corners = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
+    faces = corners.reshape(-1, 3)
+    starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    count = len(faces) * 3
+    there, back = np.sort(starts * count + ends), np.sort(ends * count + starts)
+    if not np.array_equal(there, back):
+        return np.nan
+    local = triangles - triangles.reshape(-1, 3).mean(axis=0)
+    return abs(float(np.einsum("ij,ij->", local[:, 0], np.cross(local[:, 1], local[:, 2])))) / 6.0
