@@ -140,7 +140,7 @@ class _TipPart:
             orientation,
             timing.continuous,
             tuple(
-                zone.between(*self._times_at(law, zone.begin, zone.end))
+                zone.between(*self._times_at(law, [zone.begin, zone.end]))
                 for zone in self.path.zones
                 if zone.begin < joints.reached
             ),
@@ -173,41 +173,42 @@ class _TipPart:
         path, joints = self.path, self.joints
         deviation = Damping(joints.path_deviation, joints.orientation_deviation)
         damped = self.following.near_singularity == "damp" and deviation.distance > self.following.position_tolerance
-        reports = []
-        for i, (segment, begin, end) in enumerate(zip(self.segments, (0.0, *path.ends), path.ends, strict=False)):
-            if begin >= joints.reached:
-                break
-            reports.append(
-                SegmentReport(
-                    self.first + i,
-                    segment.type,
-                    self.law,
-                    *self._times_at(timing.law, begin, end),
-                    *self._travelled(begin, min(end, joints.reached)),
-                    deviation if damped else None,
-                    i + 1 < len(self.segments),
-                    self._blend(i, timing.law),
-                    (*path.notes, *timing.notes),
-                )
+        ends = np.minimum([0.0, *path.ends], joints.reached)
+        count = max(1, int(np.count_nonzero(ends[:-1] < joints.reached)))
+        times, travelled = self._times_at(timing.law, ends), self._travelled(ends[: count + 1])
+        return tuple(
+            SegmentReport(
+                self.first + i,
+                segment.type,
+                self.law,
+                times[i],
+                times[i + 1],
+                *travelled[i],
+                deviation if damped else None,
+                i + 1 < len(self.segments),
+                self._blend(i, timing.law),
+                (*path.notes, *timing.notes),
             )
-        return tuple(reports)
+            for i, segment in enumerate(self.segments[:count])
+        )
 
     def _blend(self, i: int, law: PiecewisePolynomial) -> SegmentBlend | None:
         if i == len(self.path.corners) or self.path.corners[i].begin >= self.joints.reached:
             return None
         corner = self.path.corners[i]
         limit = corner.acceleration if math.isfinite(corner.acceleration) else None
-        return SegmentBlend(corner.radius, *self._times_at(law, corner.begin, corner.end), limit)
+        return SegmentBlend(corner.radius, *self._times_at(law, [corner.begin, corner.end]), limit)
 
-    def _travelled(self, begin: float, end: float) -> tuple[float, float]:
-        """Return the lengths of the position's and the orientation's path between two places, [m] and [rad]."""
-        path, s = self.path.path, np.linspace(begin, end, _ANGLE_SAMPLES)
-        angular = np.linalg.norm(path.at(s).first[:, 3:], axis=1)
-        return end - begin if path.unit == "m" else 0.0, float(np.trapezoid(angular, s))
+    def _travelled(self, ends: Array) -> list[tuple[float, float]]:
+        """Return the lengths of the position's and the orientation's path between places, [m] and [rad]."""
+        path, s = self.path.path, np.linspace(ends[:-1], ends[1:], _ANGLE_SAMPLES, axis=1)
+        rates = np.linalg.norm(path.at(s.ravel()).first[:, 3:], axis=1).reshape(s.shape)
+        lengths = np.diff(ends) if path.unit == "m" else np.zeros(len(s))
+        return list(zip(lengths.tolist(), np.trapezoid(rates, s, axis=1).tolist(), strict=True))
 
-    def _times_at(self, law: PiecewisePolynomial, begin: float, finish: float) -> tuple[float, float]:
-        """Return when a law that never goes backwards is at two places, or at its end before them, [s]."""
-        places = np.array([begin, min(finish, self.joints.reached)])
+    def _times_at(self, law: PiecewisePolynomial, at: Sequence[float] | Array) -> list[float]:
+        """Return when a law that never goes backwards is at places, or at its end before them, [s]."""
+        places = np.minimum(at, self.joints.reached)
         first, last = law.at(law.breaks[[0, -1]])[:, 0]
         # Near rest, a rounding error in s is a large error in time.
         rounding = 8.0 * np.spacing(last)
@@ -215,4 +216,5 @@ class _TipPart:
         inside = (places > first + rounding) & (places < last - rounding)
         if inside.any():
             times[inside] = times_at(law, places[inside])
-        return float(times[0]), float(times[1])
+        found: list[float] = times.tolist()
+        return found

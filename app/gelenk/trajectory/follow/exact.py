@@ -63,7 +63,8 @@ def path_error(joints: PiecewisePolynomial, off: Array | None, timing: Timed, ge
         return PathError(None, None, None)
     breaks, law = timing.motion.breaks, timing.law
     times = (breaks[:-1] + np.array([[1e-6], [0.5], [1.0 - 1e-6]]) * np.diff(breaks)).ravel()
-    s, v, a, j = (np.abs(law.derivative(order).at(times)) for order in range(4))
+    phase = np.searchsorted(law.breaks[1:-1], times, side="right")
+    s, v, a, j = np.abs(derivatives(law.coefficients[phase], (times - law.breaks[phase])[:, None]))
     piece = np.clip(np.searchsorted(joints.breaks, s[:, 0], side="right") - 1, 0, len(off) - 1)
     second, widths = _UNSEEN * off[piece], np.diff(joints.breaks)[piece, None]
     first, third = _FIRST * second * widths, _THIRD * second / widths

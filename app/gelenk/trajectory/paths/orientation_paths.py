@@ -52,7 +52,12 @@ class AxisAnglePath:
 
     def at(self, x: Array) -> tuple[Array, Array, Array]:
         """See `OrientationPath`."""
-        return about_axis(np.ascontiguousarray(self.start), self.angle * self.axis, x)
+        return about_axis(*self.as_vector, x)
+
+    @property
+    def as_vector(self) -> tuple[Array, Array]:
+        """R_i and θ r, as kernels take them."""
+        return np.ascontiguousarray(self.start), self.angle * self.axis
 
 
 def axis_angle(start: Array, end: Array) -> AxisAnglePath:

@@ -258,6 +258,6 @@ def _of_tip(limits: TipLimits) -> Array:
 def _jumps(joints: PiecewisePolynomial, order: int) -> tuple[Array, float]:
     """Return the largest jump of a derivative at each inner break, shape (M - 1,), and its largest magnitude."""
     c, lengths = joints.coefficients, np.diff(joints.breaks)[:, None]
-    before, after = (derivatives(c, local)[order] for local in (lengths, np.zeros_like(lengths)))
+    before, after = (derivatives(c, local, order)[order] for local in (lengths, np.zeros_like(lengths)))
     scale = max(float(np.abs(values).max(initial=0.0)) for values in (before, after))
     return np.abs(before[:-1] - after[1:]).max(axis=1, initial=0.0), scale

@@ -21,9 +21,9 @@ from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.words import OrientationLaw
 from gelenk.trajectory.paths.curves import Curve, Line, arc_through
-from gelenk.trajectory.paths.orientation_paths import OrientationPath, axis_angle
+from gelenk.trajectory.paths.orientation_paths import AxisAnglePath, OrientationPath, axis_angle
 from gelenk.trajectory.paths.rotation_splines import rotation_spline
-from gelenk.trajectory.paths.sampling import in_proportion
+from gelenk.trajectory.paths.sampling import in_proportion, turning_line
 from gelenk.trajectory.paths.zyz_paths import zyz_spline
 
 Unit: TypeAlias = Literal["m", "rad"]
@@ -89,13 +89,16 @@ class CurvePath:
 
     def at(self, s: Array) -> PathSamples:
         """See `Path`."""
-        length = self.curve.length
+        curve, turn, length = self.curve, self.orientation, self.curve.length
         is_turn = length <= POINT
-        extent = self.orientation.angle if is_turn else length
+        if isinstance(curve, Line) and isinstance(turn, AxisAnglePath) and not is_turn:
+            at = turning_line(curve.start, curve.end, *turn.as_vector, length, s)
+            return PathSamples(Poses(*at[:2]), *at[2:])
+        extent = turn.angle if is_turn else length
         per_s = 1.0 / extent if extent > 0.0 else 0.0
         x = s * per_s
-        positions, tangents, bends = self.curve.at(x * length if is_turn else s)
-        rotations, rates, changes = self.orientation.at(x)
+        positions, tangents, bends = curve.at(x * length if is_turn else s)
+        rotations, rates, changes = turn.at(x)
         first, second = in_proportion(tangents, bends, rates, changes, length * per_s, per_s)
         return PathSamples(Poses(positions, rotations), first, second)
 

@@ -68,6 +68,17 @@ def in_proportion(
 
 
 @compiled
+def turning_line(
+    start: Array, end: Array, rotation: Array, vector: Array, length: float, s: Array
+) -> tuple[Array, Array, Array, Array]:
+    """Return positions, rotations, ξ_s and its derivative on a line of a length > 0 that turns about one axis."""
+    positions, tangents, bends = on_line(start, end, length, s)
+    rotations, rates, changes = about_axis(rotation, vector, s / length)
+    first, second = in_proportion(tangents, bends, rates, changes, 1.0, 1.0 / length)
+    return positions, rotations, first, second
+
+
+@compiled
 def by_arc_length(velocities: Array, bends: Array, turns: Array, changes: Array, width: float) -> tuple[Array, Array]:
     """Return ξ_s and its derivative, (N, 6), along a curve p(u).
 
