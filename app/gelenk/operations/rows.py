@@ -11,13 +11,15 @@ import orjson
 from gelenk.robot.arrays import Array
 
 _PIECE = 4096
-"""Numbers encoded at once, in a third of a millisecond; no other thread runs meanwhile."""
+"""Numbers encoded at once, in a tenth of a millisecond; no other thread runs meanwhile."""
+_FEW = 2 * _PIECE
+"""Numbers of an array that is encoded with its answer: pieces would be copied several times."""
 _LINE_END = "\r\n"
 
 
-def json_rows(array: Array) -> orjson.Fragment:
-    """Encode a large array as a part of a JSON answer; other threads run in between."""
-    return json_list(_encoded(array))
+def json_rows(array: Array) -> orjson.Fragment | Array:
+    """Encode a large array as a part of a JSON answer, and let other threads run in between; return a small one."""
+    return array if array.size <= _FEW else json_list(_encoded(array))
 
 
 def json_list(pieces: Iterable[bytes]) -> orjson.Fragment:
@@ -46,11 +48,9 @@ def objects(columns: Mapping[str, Array | list[bytes]], around: bytes = b"%b") -
 
 def _pieces(array: Array) -> list[bytes]:
     """Encode each row of an array, without the brackets around it."""
-    if not len(array):
-        return []
     depth = array.ndim - 1
-    whole = b",".join(_inner(_encoded(array)))
-    return whole[depth : len(whole) - depth].split(b"]" * depth + b"," + b"[" * depth)
+    between = b"]" * depth + b"," + b"[" * depth
+    return [row for piece in _encoded(array) for row in piece[depth + 1 : -depth - 1].split(between)]
 
 
 def _inner(lists: Iterable[bytes]) -> Iterable[bytes]:

@@ -65,7 +65,7 @@ def with_rates(chain: Chain, call: Motion, segments: tuple[Segment, ...], state:
             start = start * [[1.0], [0.0]]
     found = list(segments)
     for i, rows, side in ((0, start, "start"), (len(found) - 1, end, "end")):
-        if not rows.any():
+        if rows is None or not rows.any():
             continue
         _check(found[i], rows, side, is_running=state is not None and side == "start")
         ends = found[i].ends or EndRates.at_rest(len(chain))
@@ -74,12 +74,16 @@ def with_rates(chain: Chain, call: Motion, segments: tuple[Segment, ...], state:
     return tuple(found)
 
 
-def _given(chain: Chain, call: Motion, side: str) -> Array:
+def _given(chain: Chain, call: Motion, side: str) -> Array | None:
+    """Return velocities and accelerations at a side, shape (2, n); None if the request has none."""
+    fields = [f"{side}_{name}" for name in _NAMES]
+    values = [getattr(call, field) for field in fields]
+    if values == [None, None]:
+        return None
     rows = np.zeros((2, len(chain)))
-    for row, name in zip(rows, _NAMES, strict=True):
-        value = getattr(call, f"{side}_{name}")
+    for row, field, value in zip(rows, fields, values, strict=True):
         if value is not None:
-            row[:] = one_configuration(chain, value, f"{side}_{name}")[0]
+            row[:] = one_configuration(chain, value, field)[0]
     return rows
 
 

@@ -131,8 +131,10 @@ def joint_row(chain: Chain, given: JointValues, field: str) -> Array:
 
 
 def _first(options: Iterable[MotionOptions | TrajectoryLimits], name: str, otherwise: float) -> float:
-    given = (getattr(one, name) for one in options)
-    return float(next((value for value in given if value is not None), otherwise))
+    for one in options:
+        if (value := getattr(one, name)) is not None:
+            return float(value)
+    return otherwise
 
 
 def limit_notes(chain: Chain, own: OwnVelocities, used: Sequence[SourcedLimits]) -> list[str]:

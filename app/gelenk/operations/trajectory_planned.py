@@ -104,7 +104,7 @@ class MotionSamples:
     poses: Poses | None
     torques: Array | None = None
 
-    def to_json(self, pose_format: PoseFormat) -> dict[str, orjson.Fragment]:
+    def to_json(self, pose_format: PoseFormat) -> dict[str, orjson.Fragment | Array]:
         """Return the entries of each requested field that has some."""
         rows = [self.times, *self.rates]
         entries = {name: json_rows(values) for name, values in zip(SAMPLED, rows, strict=True)}
@@ -181,7 +181,7 @@ class PlannedTrajectory:
             return None
         return certify_poses(self.robot, self.chain, samples.rates[0], {self.chain.tip_frame: samples.poses})
 
-    def to_json(self, sampled: Mapping[str, orjson.Fragment], certificate: PoseCertificate | None) -> dict[str, Any]:
+    def to_json(self, sampled: Mapping[str, Any], certificate: PoseCertificate | None) -> dict[str, Any]:
         """Return the whole answer; raises TooLarge if the requested polynomials hold too many numbers."""
         found, bounds = self.found, self.question.bounds
         if self.call.coefficients and found.motion.coefficients.size > self.bounds.numbers:

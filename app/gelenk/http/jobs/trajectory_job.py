@@ -131,7 +131,8 @@ def sampled_part(job: tuple[_Plan, int]) -> bytes:
     planned = _planned(plan)
     times = planned.times()[k * _PART : (k + 1) * _PART]
     rows, samples = planned.table(times), planned.samples(times).to_json(planned.call.pose_format)
-    fields = {name: as_bytes(orjson.dumps(entries)) for name, entries in samples.items()}
+    numbers = orjson.OPT_SERIALIZE_NUMPY
+    fields = {name: as_bytes(orjson.dumps(entries, option=numbers)) for name, entries in samples.items()}
     return packed(rows=rows, csv=as_bytes(b"".join(csv_rows(rows))), **fields)
 
 

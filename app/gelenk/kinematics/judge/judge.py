@@ -144,15 +144,15 @@ def pinocchio_poses(robot: RobotModel, chain: Chain, frame: str, qs: Array, rows
     expansion = robot.expansion(chain)
     base, tip = robot.frame_id(chain.base_frame), robot.frame_id(frame)
     full_qs = expansion.offset + (qs if len(rows) == len(qs) else qs[rows]) @ expansion.matrix.T
-    positions, rotations = np.empty((len(rows), 3)), np.empty((len(rows), 3, 3))
+    found = np.empty((len(rows), 4, 4))
     for k, q in enumerate(full_qs):
         with lock:
             pin.forwardKinematics(model, data, q)
             T_base_frame = pin.updateFramePlacement(model, data, tip)
             if chain.base_frame != robot.description.root:
                 T_base_frame = pin.updateFramePlacement(model, data, base).actInv(T_base_frame)
-            positions[k], rotations[k] = T_base_frame.translation, T_base_frame.rotation
-    return Poses(positions, rotations)
+            found[k] = T_base_frame.homogeneous
+    return Poses(found[:, :3, 3].copy(), found[:, :3, :3].copy())
 
 
 def pinocchio_jacobian(robot: RobotModel, chain: Chain, q: Array, reference: Reference) -> Array:

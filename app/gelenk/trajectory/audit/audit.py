@@ -51,7 +51,7 @@ def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands:
         CertificationFailed: Pinocchio's poses differ, or the motion is invalid: a number is not finite, or a piece
             has no duration.
     """
-    if not (np.isfinite(motion.coefficients).all() and (np.diff(motion.breaks) > 0.0).all()):
+    if not (np.isfinite(motion.coefficients).all() and (motion.breaks[1:] > motion.breaks[:-1]).all()):
         raise CertificationFailed("the motion", math.nan, 0.0)
     examination = _Examination(pieces_of(motion), chain, demands, [])
     values, times = (found.tolist() for found in joint_extremes(examination.pieces))
@@ -187,8 +187,8 @@ class _Examination:
         jumps = []
         values, times = (found.tolist() for found in joint_jumps(self.pieces))
         for order, quantity in enumerate(DERIVATIVES):
-            found = _worst(values[order], times[order], names, None)
-            jump = Jump(found.value, found.joint, found.time)
+            joint = _worst_index(values[order])
+            jump = Jump(values[order][joint], names[joint], times[order][joint])
             jumps.append(jump)
             allowed = _DIGIT**order * tolerance * _scale(peaks, quantity)
             if order <= self.demands.continuous and not jump.value <= allowed:
@@ -198,17 +198,19 @@ class _Examination:
 
     def margin(self, values: list[list[float]], times: list[list[float]]) -> LimitMargin | None:
         chain, limits = self.chain, self.demands.joints
+        if not chain.joint_names:
+            return None
         lower = chain.lower if limits.lower is None else limits.lower
         upper = chain.upper if limits.upper is None else limits.upper
-        if not (np.isfinite(lower).any() or np.isfinite(upper).any()):
-            return None
         # 0 - 0 is 0, and the opposite of 0 is -0.
         below = [0.0 - value - bound for value, bound in zip(values[0], lower.tolist(), strict=True)]
         above = [bound - value for value, bound in zip(values[1], upper.tolist(), strict=True)]
         joint = _worst_index([-distance for distance in (*above, *below)])
         side, joint = divmod(joint, len(above))
+        if (distance := (above, below)[side][joint]) == math.inf:
+            return None
         bound: Literal["lower", "upper"] = "lower" if side else "upper"
-        margin = LimitMargin((above, below)[side][joint], chain.joint_names[joint], bound, times[1 - side][joint])
+        margin = LimitMargin(distance, chain.joint_names[joint], bound, times[1 - side][joint])
         if not margin.value >= -self.demands.tolerance:
             detail = f"the joint goes {-margin.value:.6g} beyond its {bound} limit"
             self.reasons.append(Reason("joint_limit", detail, margin.joint, margin.time))
@@ -296,7 +298,8 @@ def _worst(values: list[float], times: list[float], names: tuple[str, ...], boun
 
 def _worst_index(values: list[float]) -> int:
     """Return where the largest value is; one that is not a number is the largest."""
-    return max(range(len(values)), key=lambda i: (math.isnan(values[i]), values[i]))
+    sizes = [math.inf if math.isnan(value) else value for value in values]
+    return sizes.index(max(sizes))
 
 
 def _ratio(value: float, limit: float) -> float:

@@ -4,7 +4,7 @@ The course only slows down: k = max{1, k_vel, √k_acc}, where k_vel and k_acc a
 limit. Without the 1, k may also speed up, and some limit is just reached. Peaks are exact, from the derivative's roots.
 """
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -81,15 +81,14 @@ class Scaling:
     factor: float | None
 
 
-def check_limits(limits: Iterable[Array]) -> None:
+def check_limits(limits: Sequence[Array] | Array) -> None:
     """Refuse limits of velocity, acceleration and so on, (n,) each, that are not usable, with `InvalidField`."""
-    for quantity, values in zip(QUANTITIES, limits, strict=False):
-        wrong = ~((values >= SMALLEST) & (values <= LARGEST))
-        if wrong.any():
-            raise InvalidField(
-                f"limits.joint_{quantity}",
-                f"joint {int(wrong.argmax()) + 1}: must be a number from {SMALLEST:g} to {LARGEST:g}",
-            )
+    rows = np.array(limits)
+    wrong = ~((rows >= SMALLEST) & (rows <= LARGEST))
+    if wrong.any():
+        order, joint = (int(index) for index in np.argwhere(wrong)[0])
+        reason = f"joint {joint + 1}: must be a number from {SMALLEST:g} to {LARGEST:g}"
+        raise InvalidField(f"limits.joint_{QUANTITIES[order]}", reason)
 
 
 def uniform_scaling(motion: PiecewisePolynomial, limits: ScalingLimits) -> Scaling:

@@ -13,17 +13,21 @@ _SAME = 1e-13
 def evaluated(breaks: Array, coefficients: Array, times: Array, order: int) -> Array:
     """Evaluate values and derivatives up to `order`, 2 at most, by Horner's scheme; shape (order + 1, N, n)."""
     _, size, n = coefficients.shape
-    found, inner = np.zeros((order + 1, len(times), n)), breaks[1:-1]
+    found, inner = np.empty((order + 1, len(times), n)), breaks[1:-1]
     for i in range(len(times)):
         piece = np.searchsorted(inner, times[i], side="right")
         local = times[i] - breaks[piece]
-        for k in range(size - 1, -1, -1):
-            for j in range(n):
-                if order > 1:
-                    found[2, i, j] = found[2, i, j] * local + 2.0 * found[1, i, j]
-                if order > 0:
-                    found[1, i, j] = found[1, i, j] * local + found[0, i, j]
-                found[0, i, j] = found[0, i, j] * local + coefficients[piece, k, j]
+        for j in range(n):
+            value, first, second = 0.0, 0.0, 0.0
+            for k in range(size - 1, -1, -1):
+                second = second * local + 2.0 * first
+                first = first * local + value
+                value = value * local + coefficients[piece, k, j]
+            found[0, i, j] = value
+            if order > 0:
+                found[1, i, j] = first
+            if order > 1:
+                found[2, i, j] = second
     return found
 
 

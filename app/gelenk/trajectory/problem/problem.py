@@ -194,6 +194,8 @@ class SegmentReport:
 
     def retimed(self, factor: float = 1.0, start: float = 0.0) -> "SegmentReport":
         """Return the report of the motion in `factor` times its time, and later by `start`, [s]."""
+        if factor == 1.0 and start == 0.0:
+            return self
         blend = self.blend
         if blend is not None:
             begin, end = start + factor * blend.start_time, start + factor * blend.end_time
