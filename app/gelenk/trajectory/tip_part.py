@@ -197,7 +197,8 @@ class _TipPart:
             return None
         corner = self.path.corners[i]
         limit = corner.acceleration if math.isfinite(corner.acceleration) else None
-        return SegmentBlend(corner.radius, *self._times_at(law, [corner.begin, corner.end]), limit)
+        begin, end = self._times_at(law, [corner.begin, corner.end])
+        return SegmentBlend(corner.radius, begin, end, limit)
 
     def _travelled(self, ends: Array) -> list[tuple[float, float]]:
         """Return the lengths of the position's and the orientation's path between places, [m] and [rad]."""
