@@ -15,7 +15,7 @@ from gelenk.contract.derive_dh import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer, Der
 from gelenk.contract.lagrangian import EXAMPLE_MOTION
 from gelenk.dh.derive.check import Checks
 from gelenk.errors import CertificationFailed
-from gelenk.http.messages.payloads import json_response, read_json
+from gelenk.http.messages.payloads import JsonResponse, read_json
 from gelenk.main import create_app
 from gelenk.operations import derive_dh
 from gelenk.settings import Settings
@@ -37,7 +37,7 @@ def posted(client: TestClient, body: object) -> dict[str, Any]:
 def derived_here(body: object) -> dict[str, Any]:
     """The answer, computed in this process."""
     request = read_json(DeriveRequest, json.dumps(body).encode())
-    content: dict[str, Any] = json.loads(bytes(json_response(derive_dh.run(request).content()).body))
+    content: dict[str, Any] = json.loads(bytes(JsonResponse(derive_dh.run(request).content()).body))
     DeriveAnswer.model_validate(content)
     return content
 

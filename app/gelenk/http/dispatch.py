@@ -6,6 +6,7 @@ name and the request as it arrived.
 
 import asyncio
 import pickle
+import time
 from collections.abc import Callable
 from inspect import Parameter, Signature
 from typing import Annotated, Any, Literal, cast
@@ -31,8 +32,8 @@ from gelenk.http.messages.payloads import (
     PREFERENCE_APPLIED,
     SVG,
     BoundedRequest,
+    JsonResponse,
     csv_response,
-    json_response,
     read_json,
     read_query,
     wants_answer_later,
@@ -88,10 +89,11 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
     is_job = endpoint.is_job
 
     async def handle(request: BoundedRequest) -> Response:
-        if request.media_type not in accepted:
-            raise UnsupportedMediaType(request.media_type, accepted)
+        media_type = request.media_type
+        if media_type not in accepted:
+            raise UnsupportedMediaType(media_type, accepted)
         wanted, pieces = request.preferred(offered), await request.pieces()
-        query, is_npy = request.scope["query_string"].decode("latin-1"), request.media_type == NPY
+        query, is_npy = request.scope["query_string"].decode("latin-1"), media_type == NPY
         if query and endpoint.programs:
             wanted, query = _format(query, wanted), ""
 
@@ -109,10 +111,11 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
             call, found = _parsed(endpoint, query, b"".join(pieces), is_npy), operation(endpoint.name)
             if wanted not in _PICTURES and not found.is_heavy(call):
                 robot = await _prepared(found, pool_client, request, call, task_request)
-                with pool_client.computing_here():
-                    outcome = found.run(None, call, limits) if robot is None else found.attempt(robot, call, limits)
+                began = time.thread_time()
+                outcome = found.run(None, call, limits) if robot is None else found.attempt(robot, call, limits)
+                took_long = pool_client.note_computation(began)
                 if outcome is not None:
-                    if not pool_client.may_compute_here:  # Others get their turn before this is encoded.
+                    if took_long:  # Others get their turn before this is encoded.
                         await asyncio.sleep(0)
                     return _answered(endpoint, call, outcome, wanted)
         return await pool_client.answer(request, answer, task_request())
@@ -197,7 +200,7 @@ def _answered(endpoint: Endpoint[Any, Any], call: Any, outcome: Outcome, wanted:
     batch = len(getattr(call, endpoint.batch)) if endpoint.batch else 0
     REQUEST_COUNTS.set(RequestCounts(batch) if outcome.solved is None else outcome.solved(batch))
     if wanted == JSON:
-        return json_response(outcome.content())
+        return JsonResponse(outcome.content())
     if wanted in _PICTURES:
         if outcome.picture is None:
             raise InvalidField("Accept", "this answer cannot be drawn: leave the header out for JSON")

@@ -14,7 +14,7 @@ from gelenk.exercises.catalogue import exercise, exercises
 from gelenk.exercises.exercise import Variant
 from gelenk.exercises.grading import graded
 from gelenk.http.messages.openapi import documentation
-from gelenk.http.messages.payloads import JSON, BoundedRequest, json_response, read_json
+from gelenk.http.messages.payloads import JSON, BoundedRequest, JsonResponse, read_json
 from gelenk.http.messages.problems import UnsupportedMediaType
 from gelenk.http.messages.routes import DocumentedRoute, Handler
 from gelenk.http.workers.pool_client import INLINE_BYTES, PoolClient
@@ -35,7 +35,7 @@ def exercises_router() -> APIRouter:
 
     @router.api_route(**documentation("list_exercises"))
     async def list_exercises(language: LanguageQuery = "en") -> Response:
-        return json_response({"exercises": _listed(language)})
+        return JsonResponse({"exercises": _listed(language)})
 
     return router
 
@@ -89,7 +89,7 @@ class ExerciseTask:
         request, found = read_json(model, body), exercise(self.exercise)
         with language(request.language):
             content = _CONTENTS[self.what](found.variant(request.seed), request)
-        return json_response({"id": found.id, "version": found.version, **as_lists(content)})
+        return JsonResponse({"id": found.id, "version": found.version, **as_lists(content)})
 
 
 def _listed(code: Language) -> list[dict[str, Any]]:

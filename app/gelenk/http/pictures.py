@@ -12,7 +12,7 @@ from gelenk.contract.endpoints import BY_NAME
 from gelenk.errors import UnknownPicture
 from gelenk.http.dispatch import answer
 from gelenk.http.messages.openapi import PLANAR_2R, documentation
-from gelenk.http.messages.payloads import PNG, SVG, json_response, preferred_type
+from gelenk.http.messages.payloads import PNG, SVG, JsonResponse, preferred_type
 from gelenk.http.workers.pool_client import PoolClient
 from gelenk.http.workers.task import Context, TaskRequest, buffers
 from gelenk.language import Language, language, translated
@@ -32,7 +32,7 @@ def pictures_router(pool_client: PoolClient) -> APIRouter:
 
     @router.api_route(**documentation("list_pictures"))
     async def list_pictures(language: LanguageQuery = "en") -> Response:
-        return json_response({"pictures": _listed(language)})
+        return JsonResponse({"pictures": _listed(language)})
 
     @router.api_route(**documentation("get_picture"))
     async def get_picture(request: Request, picture: PicturePath, language: LanguageQuery = "en") -> Response:

@@ -14,7 +14,7 @@ from starlette.responses import Response
 
 from gelenk.http.access.metrics import Metrics
 from gelenk.http.messages.openapi import documentation
-from gelenk.http.messages.payloads import json_response
+from gelenk.http.messages.payloads import JsonResponse
 from gelenk.http.messages.problems import problem
 from gelenk.kinematics.warm_up import warm_up
 from gelenk.pool.pool import WorkerPool
@@ -77,13 +77,13 @@ def service_router(readiness: Readiness, metrics: Metrics) -> APIRouter:
 
     @router.api_route(**documentation("health"))
     async def health() -> Response:
-        return json_response({"status": "alive"})
+        return JsonResponse({"status": "alive"})
 
     @router.api_route(**documentation("readiness"))
     async def ready(request: Request) -> Response:
         missing = await readiness.missing()
         if not missing:
-            return json_response({"status": "ready"})
+            return JsonResponse({"status": "ready"})
         facts = {"waiting_for": list(missing), "reasons": missing, "failure": readiness.failure or missing.get("jobs")}
         sentences = "; ".join(f"{name}: {reason}" for name, reason in missing.items())
         response = problem(

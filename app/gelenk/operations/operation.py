@@ -22,11 +22,11 @@ class Operation:
     is_heavy: Callable[[Any], bool]
     _attempt: Callable[[LoadedRobot, Any, Limits], Outcome | None] | None
     warm_up: WarmUp[Any] | None
+    _takes_robot: bool
 
     def run(self, robot: LoadedRobot | None, request: Any, limits: Limits) -> Outcome:
         """Compute the outcome; the robot is the one that path or request name. Raises what the operation raises."""
-        takes_robot = isinstance(self.endpoint, RobotEndpoint) or self.endpoint.robot_field
-        outcome = self._run(robot, request, limits) if takes_robot else self._run(request)
+        outcome = self._run(robot, request, limits) if self._takes_robot else self._run(request)
         return outcome.spoken(getattr(request, "language", "en"))
 
     def attempt(self, robot: LoadedRobot, request: Any, limits: Limits) -> Outcome | None:
@@ -43,7 +43,9 @@ def operation(name: str) -> Operation:
     endpoint = BY_NAME[name]
     module = import_module(f"gelenk.operations.{name}")
     is_heavy = getattr(module, "is_heavy", _never)
-    return Operation(endpoint, module.run, is_heavy, getattr(module, "attempt", None), getattr(module, "WARM_UP", None))
+    takes_robot = isinstance(endpoint, RobotEndpoint) or bool(endpoint.robot_field)
+    attempt, warm_up = getattr(module, "attempt", None), getattr(module, "WARM_UP", None)
+    return Operation(endpoint, module.run, is_heavy, attempt, warm_up, takes_robot)
 
 
 def _never(_: object) -> bool:

@@ -1,9 +1,9 @@
 """The outcome of an operation, and the limits of its computation."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from functools import partial, wraps
-from typing import Any, Literal, TypeAlias, TypeVar
+from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
 
 from gelenk.jobs.store import JobLimits
 from gelenk.language import Language, language
@@ -31,8 +31,7 @@ class Limits:
     job_samples: int = 10_000_000
 
 
-@dataclass(frozen=True, slots=True)
-class Outcome:
+class Outcome(NamedTuple):
     """The result of a computation in the forms that it can be sent in; each is made on demand.
 
     Attributes:
@@ -49,14 +48,14 @@ class Outcome:
     picture: Callable[[PictureFormat], bytes] | None = None
     columns: Sequence[str] | None = None
     solved: Callable[[int], RequestCounts] | None = None
-    programs: Mapping[str, Callable[[], bytes]] = field(default_factory=dict)
+    programs: Mapping[str, Callable[[], bytes]] = {}
 
     def spoken(self, code: Language) -> "Outcome":
         """Return the outcome with the texts of content and picture in a language."""
         if code == "en":
             return self
         picture = self.picture and language(code)(self.picture)
-        return replace(self, content=language(code)(self.content), picture=picture)
+        return self._replace(content=language(code)(self.content), picture=picture)
 
 
 def always(_: object) -> bool:

@@ -2,15 +2,14 @@
 
 from collections.abc import Mapping
 from contextvars import ContextVar
-from dataclasses import dataclass, field
+from typing import NamedTuple
 
 
-@dataclass(frozen=True, slots=True)
-class RequestCounts:
+class RequestCounts(NamedTuple):
     """Counts of one call: its configurations or targets, and all iterations that led to the solutions."""
 
     batch: int
-    verdicts: Mapping[str, int] = field(default_factory=dict)
+    verdicts: Mapping[str, int] = {}
     solutions: int = 0
     iterations: int = 0
 

@@ -6,6 +6,7 @@ address itself.
 
 import re
 from collections.abc import Sequence
+from functools import lru_cache
 from http import HTTPStatus
 
 from starlette.responses import Response
@@ -24,6 +25,8 @@ _HOST = re.compile(rb"([\w.-]+|\[[0-9a-f:.]+\])(:\d{0,5})?", re.IGNORECASE)
 
 def repeated(exchange: RequestContext) -> Response | None:
     """Refuse a request that repeats a single-valued header field: a proxy may have acted on the other value."""
+    if exchange.has_single_fields:
+        return None
     names = [name for name, _ in exchange.scope["headers"] if name in ONCE]
     if len(names) == len(set(names)):
         return None
@@ -39,20 +42,27 @@ class TrustedHosts:
         self._any = "*" in names
         self._names = {*names, *LOCAL}
         self._endings = tuple(name[1:] for name in names if name.startswith("*."))
+        self._is_ours = lru_cache(64)(self._is_ours)  # type: ignore[method-assign]
 
     def __call__(self, exchange: RequestContext) -> Response | None:
         """Return the refusal, or None to let the request pass."""
-        given = [value for name, value in exchange.scope["headers"] if name == b"host"]
+        given = exchange.values(b"host")
+        if len(given) == 1 and self._is_ours(given[0]):
+            return None
         if len(given) != 1 or not _HOST.fullmatch(given[0]):
             detail = "a request names the host that it is for, once: a name or an address, and a port where it has one"
             return problem(exchange.request, HTTPStatus.BAD_REQUEST, "invalid-host", detail)
         name = _without_port(given[0].decode("latin-1").lower())
-        if self._any or name in self._names or name.endswith(self._endings):
-            return None
         if name == _bracketed(exchange.scope.get("server")):
             return None
         detail = f"the service does not answer for the host {quoted(name)}; GELENK_TRUSTED_HOSTS adds names"
         return problem(exchange.request, HTTPStatus.MISDIRECTED_REQUEST, "unknown-host", detail)
+
+    def _is_ours(self, host: bytes) -> bool:
+        if not _HOST.fullmatch(host):
+            return False
+        name = _without_port(host.decode("latin-1").lower())
+        return self._any or name in self._names or name.endswith(self._endings)
 
 
 def _without_port(host: str) -> str:

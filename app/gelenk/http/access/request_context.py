@@ -46,13 +46,24 @@ class RequestContext:
     def of(cls, scope: AsgiScope, operation: Route, robot: str | None) -> "RequestContext":
         """Build the context of a request that has just arrived; puts the request id in the scope for problems."""
         headers = dict(scope["headers"])
-        given = headers.get(b"x-request-id", b"")
-        request_id = given.decode("ascii") if _WELL_FORMED.fullmatch(given) else f"{getrandbits(128):032x}"
+        given = headers.get(b"x-request-id")
+        request_id = given.decode("ascii") if given and _WELL_FORMED.fullmatch(given) else f"{getrandbits(128):032x}"
         scope["request_id"] = request_id
-        can_be_job = isinstance(operation, Endpoint) and operation.job
-        if b"prefer" in headers and can_be_job and wants_answer_later(scope["headers"]):
+        can_be_job = b"prefer" in headers and isinstance(operation, Endpoint) and operation.job
+        if can_be_job and wants_answer_later(scope["headers"]):
             operation = replace(operation, scope=Scope.WRITE)  # a job is stored
         return cls(scope, operation, robot, headers, request_id, time.perf_counter())
+
+    @property
+    def has_single_fields(self) -> bool:
+        """Whether no header field is repeated."""
+        return len(self.headers) == len(self.scope["headers"])
+
+    def values(self, name: bytes) -> list[bytes]:
+        """Return all values of a header field."""
+        if self.has_single_fields:
+            return [self.headers[name]] if name in self.headers else []
+        return [value for each, value in self.scope["headers"] if each == name]
 
     @property
     def request(self) -> Request:

@@ -16,7 +16,7 @@ from gelenk.contract.robots import ArchiveReplacement, NewArchive, NewRobot, Rob
 from gelenk.dh.derive.columns import COLUMNS, Column
 from gelenk.errors import InvalidArchive
 from gelenk.http.messages.openapi import RobotPath, UploadedRobotPath, documentation
-from gelenk.http.messages.payloads import JSON, MULTIPART, BoundedRequest, json_response, read_json, read_query
+from gelenk.http.messages.payloads import JSON, MULTIPART, BoundedRequest, JsonResponse, read_json, read_query
 from gelenk.http.messages.problems import UnsupportedMediaType
 from gelenk.http.messages.routes import DocumentedRoute
 from gelenk.http.robots.info import info
@@ -211,7 +211,7 @@ def _described(context: Context, task_request: TaskRequest) -> Response:
 
 
 def _robot_response(library: Library, name: str, status: int = 200, headers: dict[str, str] | None = None) -> Response:
-    return json_response(info(library.get(name)).model_dump(mode="json"), status, headers)
+    return JsonResponse(info(library.get(name)).model_dump(mode="json"), status, headers)
 
 
 def _urdf(context: Context, task_request: TaskRequest) -> Response:
@@ -222,4 +222,4 @@ def _robot_table(context: Context, task_request: TaskRequest) -> Response:
     options = read_query(FromUrdfOptions, QueryParams(task_request.query))
     loaded = context.library.get(task_request.robot)
     with speaking(options.language):
-        return json_response(table_answer(loaded.robot, options, loaded.warnings))
+        return JsonResponse(table_answer(loaded.robot, options, loaded.warnings))

@@ -3,8 +3,7 @@
 import asyncio
 import time
 from collections import Counter
-from collections.abc import Coroutine, Iterator
-from contextlib import contextmanager
+from collections.abc import Coroutine
 from typing import Any, TypeVar
 
 from starlette.requests import ClientDisconnect, Request
@@ -55,14 +54,16 @@ class PoolClient:
         """
         return not (self._has_computed or self.pool.is_starting)
 
-    @contextmanager
-    def computing_here(self) -> Iterator[None]:
-        """Note that the event loop computes an answer; if that takes long, it is the last of this turn."""
-        started = time.thread_time()
-        yield
-        if time.thread_time() - started > _LONG:
+    def note_computation(self, began: float) -> bool:
+        """Note that the event loop has computed since `began` in `time.thread_time`; if long, as the last of its turn.
+
+        Return whether it was long.
+        """
+        took_long = time.thread_time() - began > _LONG
+        if took_long:
             self._has_computed = True
             asyncio.get_running_loop().call_soon(self._begin_turn)
+        return took_long
 
     def _begin_turn(self) -> None:
         self._has_computed = False
