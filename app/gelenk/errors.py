@@ -151,6 +151,14 @@ class InvalidRobotFolder(InvalidInput):
     template = "file {file!q}: {reason}"
 
 
+class InvalidSceneFile(InvalidInput):
+    """A file of the data folder does not contain a scene."""
+
+    reason: str
+    file: str
+    template = "file {file!q} of the stored scenes: {reason}"
+
+
 class InvalidName(InvalidInput):
     """A name is not suitable for a path and a URL; the error says of what it is to be the name."""
 
@@ -292,6 +300,14 @@ class UnknownRobot(NotFound):
     template = "there is no robot named {robot!q}<; did you mean {close!q}?>"
 
 
+class UnknownScene(NotFound):
+    """No scene has this name."""
+
+    scene: str
+    close: tuple[str, ...] = ()
+    template = "there is no scene named {scene!q}<; did you mean {close!q}?>"
+
+
 class UnknownFrame(NotFound):
     """The robot has no frame of this name; where known, the error names the field of the request."""
 
@@ -373,6 +389,13 @@ class RobotExists(KinematicsError):
     )
 
 
+class SceneExists(KinematicsError):
+    """Another scene already uses the name."""
+
+    scene: str
+    template = "the name {scene!q} is already used by another scene: choose another name, or replace that one with PUT"
+
+
 class ReadOnlyRobot(KinematicsError):
     """Robots of the catalogue can be neither replaced nor removed."""
 
@@ -381,7 +404,7 @@ class ReadOnlyRobot(KinematicsError):
 
 
 class StorageFailed(KinematicsError):
-    """A robot or a job cannot be written to disk durably."""
+    """A robot, a scene or a job cannot be written to disk durably."""
 
     reason: str
     template = (
@@ -394,8 +417,8 @@ class StorageFull(StorageFailed):
     """The disk is full."""
 
     template = (
-        "the disk is full, so nothing was stored: {reason}; remove robots or jobs that are not needed, or ask the "
-        "operator for more space, then try again"
+        "the disk is full, so nothing was stored: {reason}; remove robots, scenes or jobs that are not needed, or ask "
+        "the operator for more space, then try again"
     )
 
 

@@ -34,6 +34,7 @@ from gelenk.http.messages.payloads import Bodies
 from gelenk.http.messages.routes import Application
 from gelenk.http.pictures import pictures_router
 from gelenk.http.robots.robots import documented_routes, robots_router
+from gelenk.http.scenes import scene_routes, scenes_router
 from gelenk.http.service import Readiness, service_router
 from gelenk.http.sheets import sheet_routes
 from gelenk.http.workers.pool_client import PARSED_HERE_BYTES, PoolClient
@@ -47,6 +48,7 @@ from gelenk.pool.pool import WorkerPool
 from gelenk.settings import Settings
 from gelenk.store.library import Library
 from gelenk.store.quota import Quota
+from gelenk.store.scenes import Scenes
 
 DESCRIPTION = """
 Takes a URDF or a Denavit-Hartenberg table, converts each into the other, and computes forward and inverse kinematics,
@@ -67,7 +69,8 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     seconds = settings.request_seconds
     quota = Quota("robot", settings.client_robots, settings.client_robot_bytes)
     limits = Limits(settings.max_answer_numbers, seconds, settings.job_bytes, settings.max_job_samples)
-    context = Context(settings.catalogue_dir, settings.data_dir / "robots", limits, quota)
+    scenes = Scenes(settings.data_dir / "scenes", Quota("scene", settings.client_scenes, settings.client_scene_bytes))
+    context = Context(settings.catalogue_dir, settings.data_dir / "robots", limits, scenes, quota)
     library = Library(context.catalogue, context.uploads, quota)
     pool = pool or WorkerPool(
         settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes, settings.job_processes
@@ -80,7 +83,8 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
-        threading.Thread(target=library.prepare, name="sweep", daemon=True).start()
+        for prepare in (library.prepare, scenes.prepare):
+            threading.Thread(target=prepare, name="sweep", daemon=True).start()
         runner.workers.start()
         runner.start()
         starting = asyncio.create_task(_start(readiness, pool))
@@ -106,6 +110,7 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         lifespan=lifespan,
         openapi_tags=[
             {"name": "Robots", "description": "The catalogue and your own robots."},
+            {"name": "Scenes", "description": "What stands around a robot or hangs on it."},
             {"name": "DH tables", "description": "Denavit-Hartenberg tables: to and from URDF, compared, derived."},
             {"name": "Kinematics", "description": "Computations for a robot."},
             {"name": "Course", "description": "The course's calculators, which store nothing."},
@@ -127,7 +132,10 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         app.router.routes.append(route)
         if isinstance(endpoint, RobotEndpoint):
             app.operations[endpoint.name] = route
-    app.router.routes.extend([*documented_routes(pool_client, size), picture_route(pool_client, size)])
+    app.router.routes.extend(
+        [*documented_routes(pool_client, size), *scene_routes(pool_client, size), picture_route(pool_client, size)]
+    )
+    app.include_router(scenes_router(scenes))
     app.include_router(exercises_router())
     app.router.routes.extend(exercise_routes(pool_client, size))
     app.router.routes.extend(sheet_routes(pool_client, size, settings.course_secret, settings.data_dir))

@@ -26,7 +26,7 @@ class Settings:
     """Settings of the service; defaults are safe on a laptop.
 
     Attributes:
-        data_dir: Folder for uploaded robots and jobs (`GELENK_DATA_DIR`).
+        data_dir: Folder for uploaded robots, scenes and jobs (`GELENK_DATA_DIR`).
         catalogue_dir: Folder of the robots included in the project (`GELENK_CATALOGUE_DIR`).
         root_path: Path prefix under which a proxy serves the application; the proxy may keep or strip it
             (`GELENK_ROOT_PATH`).
@@ -45,6 +45,8 @@ class Settings:
         client_robots: Uploaded robots that one client may store, identified by its key; all clients without a key count
             as one (`GELENK_CLIENT_ROBOTS`).
         client_robot_bytes: Bytes of all of them (`GELENK_CLIENT_ROBOT_BYTES`).
+        client_scenes: Scenes that one client may store, likewise (`GELENK_CLIENT_SCENES`).
+        client_scene_bytes: Bytes of all of them, files included (`GELENK_CLIENT_SCENE_BYTES`).
         crew_memory_bytes: Memory that each process of the pool may use beside the program itself
             (`GELENK_CREW_MEMORY_BYTES`).
         request_seconds: How long a request may wait for the pool, and may then run, [s]
@@ -95,6 +97,8 @@ class Settings:
     client_requests: int = 16
     client_robots: int = 20_000
     client_robot_bytes: int = 10 * 1024**3
+    client_scenes: int = 2_000
+    client_scene_bytes: int = 2 * 1024**3
     crew_memory_bytes: int = 4 * 1024**3
     request_seconds: int = 60
     job_processes: int = field(default_factory=lambda: min(8, os.cpu_count() or 1))

@@ -92,7 +92,7 @@ def client_methods() -> Mapping[tuple[str, str], list[str]]:
         if not isinstance(sent, Sent) or name == "picture":
             continue
         needed = [
-            b"" if parameter.name == "archive" else f"{{{parameter.name}}}"
+            {"archive": b"", "files": {}}.get(parameter.name, f"{{{parameter.name}}}")
             for parameter in inspect.signature(sent.describe).parameters.values()
             if parameter.kind != parameter.KEYWORD_ONLY and parameter.default is parameter.empty
         ]

@@ -11,7 +11,7 @@ from typing import Any
 from docs.handbook.operations import Entry, described, entries
 from docs.handbook.schema_words import anchor, component, fields, place, shown, words
 
-GROUPS = ("Kinematics", "DH tables", "Robots", "Course", "Jobs", "Service")
+GROUPS = ("Kinematics", "DH tables", "Robots", "Scenes", "Course", "Jobs", "Service")
 """In the order in which objects are looked for: the first group that uses one has it."""
 
 

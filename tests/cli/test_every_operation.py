@@ -168,6 +168,13 @@ COMMANDS: dict[str, Callable[[dict[str, Any], Files], Arguments]] = {
         *("--description", f["description"]),
     ],
     "remove_robot": lambda f, _: ["remove", f["robot"]],
+    "list_scenes": lambda _, __: ["scenes", "list"],
+    "get_scene": lambda f, _: ["scenes", "show", f["scene"]],
+    "add_scene": lambda f, files: ["scenes", "put", files.of({"objects": f["objects"]}, f"{f['name']}.json")],
+    "replace_scene": lambda f, files: [
+        *("scenes", "put", files.of({"objects": f["objects"]}, "again.json"), "--name", f["scene"]),
+    ],
+    "remove_scene": lambda f, _: ["scenes", "remove", f["scene"]],
     "get_robot_dh": lambda f, _: [
         *("dh", "from-urdf", f["robot"], "--convention", f["convention"], "--snap", f["snap_tolerance"]),
         *chain(f),

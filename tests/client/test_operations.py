@@ -26,6 +26,8 @@ IN_OTHER_WORDS = {"watch_job", "get_job_result"}
 OF_ITS_OWN = {
     "add_archive",
     "replace_archive",
+    "add_scene_files",
+    "replace_scene_files",
     "workspace_result",
     "ik_result",
     "trajectories_result",
@@ -41,6 +43,8 @@ NAMES = {
     "get_robot_dh": "dh_table",
     "forward_kinematics": "fk",
     "inverse_kinematics": "ik",
+    "list_scenes": "scenes",
+    "get_scene": "scene",
     "get_job": "job",
     "list_exercises": "exercises",
     "list_pictures": "course_pictures",

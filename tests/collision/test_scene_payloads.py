@@ -20,13 +20,14 @@ SHAPES: list[dict[str, Any]] = [
     {"type": "half_space", "normal": [0.0, 0.0, 1.0], "offset": -0.1},
     {"type": "mesh", "file": "shelf.stl"},
     {"type": "points", "points": [[0.1, 0.2, 0.3]], "radius": 0.01},
+    {"type": "points", "file": "scan.npy", "radius": 0.01},
 ]
 
 
 def test_each_shape_is_read_and_written_again() -> None:
-    objects = [TABLE, *({"name": shape["type"], "shape": shape} for shape in SHAPES)]
+    objects = [TABLE, *({"name": f"{i}", "shape": shape} for i, shape in enumerate(SHAPES))]
     scene = Scene.model_validate_json(json.dumps({"objects": objects}))
-    assert [one.shape.model_dump() for one in scene.objects[1:]] == SHAPES
+    assert [one.shape.model_dump(exclude_unset=True) for one in scene.objects[1:]] == SHAPES
     assert Scene.model_validate_json(scene.model_dump_json()) == scene
 
 
@@ -44,6 +45,8 @@ def test_a_scene_is_a_name_or_objects() -> None:
         ({"type": "sphere", "radius": -0.1}, ("radius",)),
         ({"type": "capsule", "radius": 0.1, "length": 2e3}, ("length",)),
         ({"type": "points", "points": [], "radius": 0.1}, ("points",)),
+        ({"type": "points", "file": "scan.npz", "radius": 0.1}, ("file",)),
+        ({"type": "mesh", "file": "../shelf.stl"}, ("file",)),
         ({"type": "cone", "radius": 0.1}, ()),
     ],
 )
@@ -53,6 +56,13 @@ def test_a_bad_shape_is_refused_at_its_field(shape: dict[str, Any], field: tuple
     (error,) = caught.value.errors()
     at = ("objects", 1, "shape", *((shape["type"],) if field else ()), *field)
     assert error["loc"] == at
+
+
+def test_points_come_from_one_place() -> None:
+    both = {"type": "points", "points": [[0.0, 0.0, 0.0]], "file": "scan.npy", "radius": 0.1}
+    for shape in (both, {"type": "points", "radius": 0.1}):
+        with pytest.raises(ValidationError, match="exactly one of `points` and `file`"):
+            Scene.model_validate({"objects": [{"name": "bad", "shape": shape}]})
 
 
 def test_two_objects_of_one_name_are_refused() -> None:

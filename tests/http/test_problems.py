@@ -5,7 +5,7 @@ import errno
 from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import TemporaryDirectory, mkdtemp
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from starlette.requests import Request
 from starlette.testclient import TestClient
 
 from gelenk import errors
+from gelenk.contract.scene import Scene
 from gelenk.http.messages.npy import read_npy
 from gelenk.http.messages.payloads import Bodies
 from gelenk.http.messages.problems import status_of
@@ -34,6 +35,7 @@ from gelenk.store.folders import writing
 from gelenk.store.library import Library, RobotUpload
 from gelenk.store.quota import Quota
 from gelenk.store.records import read_record
+from gelenk.store.scenes import Scenes, SceneUpload
 from gelenk.trajectory.audit.audit import audit
 from gelenk.trajectory.audit.demands import Demands
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
@@ -97,6 +99,7 @@ EXAMPLES: dict[type[errors.KinematicsError], tuple[str, str, object]] = {
         {"joint_positions": [[0, 0]], "representation": "zyz"},
     ),
     errors.UnknownRobot: ("GET", "/v1/robots/nobody", None),
+    errors.UnknownScene: ("GET", "/v1/scenes/nothing", None),
     errors.UnknownFrame: ("POST", "/v1/robots/panda/fk", {"joint_positions": [], "tip_frame": "nose"}),
     errors.UnknownMesh: ("GET", "/v1/robots/panda/meshes/nothing.stl", None),
     errors.TooLarge: ("POST", "/v1/robots/panda/fk", {"joint_positions": [[0] * 7] * 200_000, "frames": "all"}),
@@ -112,6 +115,8 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.InvalidName: lambda: Library(CATALOGUE, CATALOGUE / "none").add(RobotUpload("a/b", "urdf", b"")),
     errors.QuotaExceeded: lambda: beyond_the_quota(),  # noqa: PLW0108 - it stands below
     errors.InvalidRobotFolder: lambda: read_record(Path("x\0"), "uploaded"),
+    errors.InvalidSceneFile: lambda: in_scenes({"odd.zip": b"no zip"}).get("odd"),
+    errors.SceneExists: lambda: in_scenes({"odd.zip": b""}).add(SceneUpload("odd", Scene(objects=[]))),
     errors.UnsupportedJoint: lambda: build_chain(read_urdf(SHIP), "sea", "crane"),
     errors.StorageFull: lambda: refused_by_the_system(errno.ENOSPC),
     errors.JobExists: lambda: in_a_store(lambda store: [store.add("workspace", digest, {}, "one") for digest in "ab"]),
@@ -140,6 +145,13 @@ def printed_without_a_browser() -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("shutil.which", lambda _: None)
         printed("")
+
+
+def in_scenes(files: dict[str, bytes]) -> Scenes:
+    root = Path(mkdtemp())
+    for name, content in files.items():
+        (root / name).write_bytes(content)
+    return Scenes(root)
 
 
 def beyond_the_quota() -> None:
@@ -175,7 +187,7 @@ def by_a_crew(function: Callable[[Any], object], argument: object, seconds: floa
 
 def of_a_client(share: int) -> None:
     request = Request({"type": "http", "headers": [], "client": ("10.0.0.7", 50000)})
-    setup = Context(CATALOGUE, CATALOGUE / "none", Limits(1, 1.0))
+    setup = Context(CATALOGUE, CATALOGUE / "none", Limits(1, 1.0), Scenes(CATALOGUE / "none"))
     pool_client = PoolClient(WorkerPool(1, 1, 1), setup, setup.library, 1.0, share)
     asyncio.run(pool_client.resident(request, "somebody"))
 

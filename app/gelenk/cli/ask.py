@@ -14,8 +14,8 @@ from gelenk.errors import InvalidField
 if TYPE_CHECKING:
     from gelenk.client.call import Call, Sent
 
-_BY_FILES = {"add_archive", "replace_archive"}
-"""Operations that take a file; the command `add` calls them."""
+_BY_FILES = {"add_archive", "replace_archive", "add_scene_files", "replace_scene_files"}
+"""Operations that take files; the commands `add` and `scenes put` call them."""
 
 
 @cache

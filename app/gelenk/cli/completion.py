@@ -37,6 +37,13 @@ def robots_beginning_with(context: typer.Context, incomplete: str) -> list[str]:
     return sorted(name for name in names if name.startswith(incomplete))
 
 
+def scenes_beginning_with(context: typer.Context, incomplete: str) -> list[str]:
+    """Complete names of the server's scenes."""
+    server = _server(context)
+    scenes = _asked(server, "scenes").get("scenes", []) if server else []
+    return sorted(name for scene in scenes if (name := str(scene["name"])).startswith(incomplete))
+
+
 def frames_beginning_with(context: typer.Context, incomplete: str) -> list[str]:
     """Complete frames of the robot named before: all of them, or without a server the ends of its chains."""
     # While an option waits for its value, arguments are not yet parsed: the robot is the last of them.

@@ -101,6 +101,7 @@ for command in (
     cli.command(epilog=example_of(command.__name__))(command)
 cli.add_typer(tables.tables)
 cli.add_typer(jobs.jobs)
+cli.add_typer(robots.scenes)
 
 
 def main() -> None:

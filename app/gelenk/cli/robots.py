@@ -1,15 +1,15 @@
-"""Commands about the robots of the service."""
+"""Commands about the robots and the scenes of the service."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gelenk.cli.completion import robots_beginning_with
-from gelenk.cli.files.inputs import is_file, name_of
+from gelenk.cli.completion import robots_beginning_with, scenes_beginning_with
+from gelenk.cli.files.inputs import fields_of, is_file, name_of
 from gelenk.cli.files.outputs import AnswerRows
 from gelenk.cli.session import BaseOption, TipOption, session
-from gelenk.errors import InvalidField
+from gelenk.errors import InvalidField, UnknownScene
 
 if TYPE_CHECKING:
     from gelenk.contract.robots import RobotInfo
@@ -88,3 +88,52 @@ def remove(
     """Remove an uploaded robot from the service."""
     with session(context).client() as client:
         client.remove_robot(robot)
+
+
+SceneArgument = Annotated[str, typer.Argument(metavar="SCENE", help="Its name.", autocompletion=scenes_beginning_with)]
+scenes = typer.Typer(name="scenes", help="Scenes of a service: what stands around a robot or hangs on it.")
+
+
+@scenes.command("list")
+def list_scenes(context: typer.Context) -> None:
+    """List the scenes of the service with their sizes."""
+    shared = session(context)
+    with shared.client() as client:
+        answer = client.scenes()
+    rows = [(one.name, one.objects, one.size) for one in answer.scenes]
+    shared.write(answer, AnswerRows(("name", "objects", "size"), rows))
+
+
+@scenes.command("show")
+def show_scene(context: typer.Context, scene: SceneArgument) -> None:
+    """Show a scene: its objects as JSON."""
+    shared = session(context)
+    with shared.client() as client:
+        shared.output.tell(client.scene(scene))
+
+
+@scenes.command("put")
+def put_scene(
+    context: typer.Context,
+    file: Annotated[Path, typer.Argument(help="JSON with `objects`; files that they name are taken from its folder.")],
+    name: Annotated[str | None, typer.Option(help="Name of the scene; the file's name if left out.")] = None,
+) -> None:
+    """Store a scene, in the place of the one of that name if there is one."""
+    shared, objects = session(context), fields_of(str(file)).get("objects", [])
+    shapes = [one.get("shape", {}) for one in objects if isinstance(one, dict)]
+    beside = {str(shape["file"]): file.parent / Path(str(shape["file"])).name for shape in shapes if "file" in shape}
+    files = {known: path.read_bytes() for known, path in beside.items() if path.is_file()}
+    name = name or name_of(file)
+    with shared.client() as client:
+        try:
+            info = client.replace_scene_files(name, objects, files) if files else client.replace_scene(name, objects)
+        except UnknownScene:
+            info = client.add_scene_files(name, objects, files) if files else client.add_scene(name, objects)
+    shared.output.tell(info)
+
+
+@scenes.command("remove")
+def remove_scene(context: typer.Context, scene: SceneArgument) -> None:
+    """Remove a scene with its files."""
+    with session(context).client() as client:
+        client.remove_scene(scene)

@@ -2,7 +2,7 @@
 
 import functools
 import inspect
-from collections.abc import Callable, Coroutine, Mapping
+from collections.abc import Callable, Coroutine, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import NoneType, UnionType
 from typing import (
@@ -39,6 +39,7 @@ class Call(Generic[T]):
         query: Query parameters; a list repeats its name.
         media_type, accept: Media types of the body, and wanted for the answer.
         form: Fields of a form, instead of a body.
+        files: Files of the form: for each its field, name and content.
         is_later: Whether a job is to answer it.
         is_repeatable: Whether it may be sent again if it is unknown whether it was executed: it stores nothing, or the
             same as before.
@@ -51,7 +52,7 @@ class Call(Generic[T]):
     body: bytes = b""
     media_type: str = JSON
     form: Mapping[str, str] = field(default_factory=dict)
-    files: Mapping[str, bytes] = field(default_factory=dict)
+    files: Sequence[tuple[str, tuple[str, bytes]]] = ()
     accept: str = JSON
     is_later: bool = False
     is_repeatable: bool = True

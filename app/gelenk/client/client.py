@@ -67,7 +67,7 @@ class _Service(Operations):
 
 
 def _request(http: httpx2.Client | httpx2.AsyncClient, call: Call[Any]) -> httpx2.Request:
-    content: dict[str, Any] = {"data": dict(call.form), "files": dict(call.files)} if call.files else {}
+    content: dict[str, Any] = {"data": dict(call.form), "files": list(call.files)} if call.files else {}
     if call.body:
         content["content"] = call.body
     return http.build_request(call.method, call.path, params=call.query or None, headers=call.headers, **content)

@@ -117,7 +117,7 @@ def query_of(fields: Mapping[str, Any]) -> dict[str, Any]:
 def segment(name: str) -> str:
     """Quote a name as a segment of a path."""
     if not isinstance(name, str):
-        raise TypeError(f"a robot or a job is given by its name, a string, not by {name!r:.80}")
+        raise TypeError(f"a robot, a scene or a job is given by its name, a string, not by {name!r:.80}")
     return quote(name, safe="")
 
 

@@ -136,6 +136,14 @@ class Operations:
     replace_archive = Sent(stored.replace_archive)
     remove_robot = Sent(stored.remove)
 
+    scenes = Sent(stored.scenes)
+    scene = Sent(stored.scene)
+    add_scene = Sent(stored.add_scene)
+    add_scene_files = Sent(stored.add_scene_files)
+    replace_scene = Sent(stored.replace_scene)
+    replace_scene_files = Sent(stored.replace_scene_files)
+    remove_scene = Sent(stored.remove_scene)
+
     fk = _operation(fk.ENDPOINT)
     jacobian = _operation(jacobian.ENDPOINT)
     ik = _operation(ik.ENDPOINT)

@@ -1,4 +1,4 @@
-"""Calls on stored robots and jobs, and on the service itself."""
+"""Calls on stored robots, scenes and jobs, and on the service itself."""
 
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
@@ -9,7 +9,7 @@ from urllib.parse import quote
 from httpx2 import Response
 
 from gelenk.client.call import Call
-from gelenk.client.exchange import encoded, query_of, reader, segment
+from gelenk.client.exchange import encoded, json_call, query_of, reader, segment
 from gelenk.contract.common import Answer, ChainEnds
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer
 from gelenk.contract.exercises import ExerciseList
@@ -17,6 +17,7 @@ from gelenk.contract.health import Health
 from gelenk.contract.jobs import Finished, JobInfo
 from gelenk.contract.pictures import CoursePictures
 from gelenk.contract.robots import RobotInfo, RobotList
+from gelenk.contract.scene import SceneInfo, SceneList, SceneObject
 from gelenk.contract.trajectory import JOINT_TRAJECTORY, URSCRIPT, YAML
 from gelenk.language import Language
 
@@ -100,12 +101,56 @@ def _with_archive(
     ends = {} if chain is None else {"base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
     form = {**form, **ends, **({"strict": "true"} if strict else {})}
     content = archive if isinstance(archive, bytes) else Path(archive).read_bytes()
-    return Call(method, path, reader(RobotInfo), form=form, files={"archive": content})
+    return Call(method, path, reader(RobotInfo), form=form, files=[("archive", ("robot.zip", content))])
 
 
 def remove(robot: str) -> Call[None]:
     """Remove an uploaded robot."""
     return Call("DELETE", f"v1/robots/{segment(robot)}", lambda _: None, is_repeatable=False)
+
+
+def scenes() -> Call[SceneList]:
+    """All stored scenes."""
+    return Call("GET", "v1/scenes", reader(SceneList))
+
+
+def scene(scene: str) -> Call[SceneInfo]:
+    """A stored scene: its objects as they were sent, and its files."""
+    return Call("GET", f"v1/scenes/{segment(scene)}", reader(SceneInfo))
+
+
+def add_scene(name: str, objects: Sequence[SceneObject | Mapping[str, Any]]) -> Call[SceneInfo]:
+    """Store a scene, whose name is then the `scene` of calls."""
+    return json_call("POST", "v1/scenes", {"name": name, "objects": objects}, SceneInfo)
+
+
+def replace_scene(scene: str, objects: Sequence[SceneObject | Mapping[str, Any]]) -> Call[SceneInfo]:
+    """Replace a stored scene; files that the objects still name stay with it."""
+    return json_call("PUT", f"v1/scenes/{segment(scene)}", {"objects": objects}, SceneInfo)
+
+
+def add_scene_files(
+    name: str, objects: Sequence[SceneObject | Mapping[str, Any]], files: Mapping[str, bytes]
+) -> Call[SceneInfo]:
+    """Store a scene with meshes, or points as npy: the content of each file by the name that the objects have."""
+    return _with_files("POST", "v1/scenes", {"name": name, "objects": objects}, files)
+
+
+def replace_scene_files(
+    scene: str, objects: Sequence[SceneObject | Mapping[str, Any]], files: Mapping[str, bytes]
+) -> Call[SceneInfo]:
+    """Replace a stored scene, with files as `add_scene_files` takes them; those that are not sent again stay."""
+    return _with_files("PUT", f"v1/scenes/{segment(scene)}", {"objects": objects}, files)
+
+
+def _with_files(method: str, path: str, fields: Mapping[str, Any], files: Mapping[str, bytes]) -> Call[SceneInfo]:
+    parts = [("files", (file, files[file])) for file in files]
+    return Call(method, path, reader(SceneInfo), form={"scene": encoded(fields).decode()}, files=parts)
+
+
+def remove_scene(scene: str) -> Call[None]:
+    """Remove a stored scene with its files."""
+    return Call("DELETE", f"v1/scenes/{segment(scene)}", lambda _: None, is_repeatable=False)
 
 
 def job(job: str) -> Call[JobInfo]:

@@ -13,7 +13,7 @@ from gelenk.contract.common import Answer
 P = ParamSpec("P")
 A = TypeVar("A", bound=Answer)
 
-Tag: TypeAlias = Literal["Robots", "DH tables", "Course", "Kinematics", "Jobs", "Service"]
+Tag: TypeAlias = Literal["Robots", "Scenes", "DH tables", "Course", "Kinematics", "Jobs", "Service"]
 Method: TypeAlias = Literal["GET", "POST", "PUT", "DELETE"]
 
 
@@ -76,7 +76,8 @@ class Resource(Route):
         responses: OpenAPI's responses besides problems, by status.
         problems: Statuses of the problems that it may answer with.
         example: Request that works unchanged; None without a body.
-        form: Model of the fields that come with a zip, if it accepts one.
+        form: Model of the fields that come with files, if it accepts some.
+        files: Schema of the field of the form that holds the files, by its name.
     """
 
     scope: Scope | None = Scope.WRITE
@@ -86,6 +87,7 @@ class Resource(Route):
     problems: tuple[int, ...] = ()
     example: dict[str, Any] | None = None
     form: type[BaseModel] | None = None
+    files: Mapping[str, dict[str, Any]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,6 +11,7 @@ from gelenk.contract.ik import InverseAnswer
 from gelenk.contract.jobs import JobInfo
 from gelenk.contract.pictures import CoursePictures
 from gelenk.contract.robots import EXAMPLE_DH, ArchiveReplacement, NewArchive, RobotInfo, RobotList
+from gelenk.contract.scene import EXAMPLE_SCENE, SceneForm, SceneInfo, SceneList
 from gelenk.contract.trajectory_answer import TrajectoryAnswer
 from gelenk.contract.workspace import WorkspaceAnswer
 
@@ -52,6 +53,16 @@ _WORKSPACE_PICTURE = (
     "A workspace from the front, the side and above, or in its plane, coloured by the measure or the dexterity. For a "
     "trajectory what the call itself answers."
 )
+
+_BINARY = {"type": "string", "format": "binary"}
+_ARCHIVE: dict[str, dict[str, Any]] = {"archive": {**_BINARY, "description": "Zip of one URDF and its meshes."}}
+_SCENE_FILES: dict[str, dict[str, Any]] = {
+    "files": {
+        "type": "array",
+        "items": _BINARY,
+        "description": "Each file that the scene names, under that name: STL, OBJ, DAE, or npy for points.",
+    }
+}
 
 
 def _content(description: str, **more: str) -> dict[str, Any]:
@@ -127,6 +138,7 @@ RESOURCES = (
         problems=(400, 404, 409, 413, 415, 422, 507, *_BY_WORKER),
         example=EXAMPLE_DH,
         form=NewArchive,
+        files=_ARCHIVE,
         summary="Add a robot",
         description="""
         Adds a URDF (xacro expanded), a DH table, or, as a form, a zip of one URDF and its meshes.
@@ -145,8 +157,72 @@ RESOURCES = (
         problems=(400, 403, 404, 413, 415, 422, 507, *_BY_WORKER),
         example={key: EXAMPLE_DH[key] for key in ("description", "dh")},
         form=ArchiveReplacement,
+        files=_ARCHIVE,
         summary="Replace an uploaded robot",
         description="Replaces an uploaded robot atomically: requests see either the old one or the new one.",
+    ),
+    _query(
+        name="list_scenes",
+        path="v1/scenes",
+        tag="Scenes",
+        answer=SceneList,
+        problems=(503,),
+        summary="All scenes",
+        description="Lists the stored scenes by name.",
+    ),
+    _query(
+        name="get_scene",
+        path="v1/scenes/{scene}",
+        tag="Scenes",
+        answer=SceneInfo,
+        problems=(404, 422, 503),
+        summary="A scene",
+        description="The objects as they were sent, and the names and sizes of the files.",
+    ),
+    Resource(
+        name="add_scene",
+        path="v1/scenes",
+        tag="Scenes",
+        answer=SceneInfo,
+        status=201,
+        responses={200: {"model": SceneInfo, "description": "It was there"}},
+        problems=(400, 409, 413, 415, 422, 507, *_BY_WORKER),
+        example=EXAMPLE_SCENE,
+        form=SceneForm,
+        files=_SCENE_FILES,
+        summary="Add a scene",
+        description="""
+        Stores what stands around a robot or hangs on it, under a name that calls have as their `scene`.
+
+        Poses are in the root frame of the robot that a call is about. A scene with meshes, or with points as npy,
+        comes as a form: the same JSON in `scene`, and in `files` each file that its objects name. Files of points are
+        checked, those of meshes are opened only where contacts are computed. The answer is sent once the scene is
+        safely on disk; every worker sees it at once. Adding the same scene again returns 200, a different one 409.
+        """,
+    ),
+    Resource(
+        name="replace_scene",
+        method="PUT",
+        path="v1/scenes/{scene}",
+        tag="Scenes",
+        answer=SceneInfo,
+        problems=(400, 404, 413, 415, 422, 507, *_BY_WORKER),
+        example={"objects": EXAMPLE_SCENE["objects"][:1]},
+        form=SceneForm,
+        files=_SCENE_FILES,
+        summary="Replace a scene",
+        description="Replaces a scene atomically: calls see either the old one or the new one. A file that the new "
+        "one names and that is not sent again stays as it was.",
+    ),
+    Resource(
+        name="remove_scene",
+        method="DELETE",
+        path="v1/scenes/{scene}",
+        tag="Scenes",
+        status=204,
+        problems=(404, 503, 507),
+        summary="Remove a scene",
+        description="Removes the scene with its files, for every worker at once.",
     ),
     _query(
         name="get_robot_dh",

@@ -2,18 +2,32 @@
 
 from typing import Annotated, Any, Literal, TypeAlias
 
+import numpy as np
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from gelenk.contract.common import FrameName, OnTheWire, Payload, RobotName, Vectors, optional
+from gelenk.contract.common import Answer, FrameName, OnTheWire, Payload, Vectors, optional
 from gelenk.contract.pose import Pose, Vector3
-from gelenk.errors import quoted
+from gelenk.errors import InvalidField, InvalidPose, quoted
+from gelenk.robot.arrays import Array
 
 MAX_OBJECTS = 1000
 MAX_POINTS = 1_000_000
 MIN_SIZE, MAX_SIZE = 1e-4, 1e3
 """Between these a distance is accurate to a micrometre, [m]."""
+MAX_FILES = 100
+"""Files of one scene."""
 
 Extent = Annotated[float, Field(ge=MIN_SIZE, le=MAX_SIZE)]
+SceneName = Annotated[
+    str,
+    Field(
+        pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,63}$",
+        description="1 to 64 letters, digits, `_`, `.` or `-`, the first one a letter or digit.",
+        examples=["my_cell"],
+    ),
+]
+MeshName = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,99}\.([Ss][Tt][Ll]|[Oo][Bb][Jj]|[Dd][Aa][Ee])$")]
+ArrayName = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,99}\.npy$")]
 
 
 class SceneBox(Payload):
@@ -50,17 +64,27 @@ class SceneMesh(Payload):
     """A mesh, as the convex hulls of its parts."""
 
     type: Literal["mesh"] = Field(description="Which shape it is.")
-    file: Annotated[str, Field(min_length=1, max_length=256)] = Field(description="Name of the file sent with it.")
+    file: MeshName = Field(description="Name of the STL, OBJ or DAE file that is stored with the scene.")
 
 
 class ScenePoints(Payload):
     """A cloud of points, each a small sphere."""
 
     type: Literal["points"] = Field(description="Which shape it is.")
-    points: Annotated[
-        Vectors, OnTheWire(Annotated[list[Vector3], Field(min_length=1, max_length=MAX_POINTS, fail_fast=True)])
-    ] = Field(description="Their positions, [m].")
+    points: (
+        Annotated[
+            Vectors, OnTheWire(Annotated[list[Vector3], Field(min_length=1, max_length=MAX_POINTS, fail_fast=True)])
+        ]
+        | None
+    ) = optional("Their positions, [m].")
+    file: ArrayName | None = optional("Name of the npy file of shape (N, 3) with them, stored with the scene.")
     radius: Extent = Field(description="Of each, [m].")
+
+    @model_validator(mode="after")
+    def _one_source(self) -> "ScenePoints":
+        if (self.points is None) == (self.file is None):
+            raise ValueError("give exactly one of `points` and `file`")
+        return self
 
 
 Shape: TypeAlias = Annotated[
@@ -101,11 +125,83 @@ class Scene(Payload):
                 raise ValueError(f"`objects`: entries {first} and {i} are both named {quoted(name)}; names are unique")
         return self
 
+    def transforms(self) -> Array:
+        """Return the pose T_frame_shape of each object; shape (N, 4, 4).
+
+        Raises InvalidPose, with the object's place, if an orientation is no rotation; a position alone turns nothing.
+        """
+        poses = np.broadcast_to(np.eye(4), (len(self.objects), 4, 4)).copy()
+        for i, one in enumerate(self.objects):
+            if one.pose is not None:
+                try:
+                    poses[i] = one.pose.transform(np.eye(3))
+                except InvalidPose as error:
+                    raise InvalidPose(error.reason, error.distance, f"objects.{i}.pose") from None
+        return poses
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Names of the files that its objects are read from."""
+        named = (getattr(one.shape, "file", None) for one in self.objects)
+        return tuple(dict.fromkeys(file for file in named if file is not None))
+
+    def read(self, file: str) -> bytes:
+        """Return the content of one of `files`; raises InvalidField, because only stored scenes have files."""
+        raise InvalidField("scene", f"{quoted(file)} is not here: store the scene with its files, and name it instead")
+
 
 class NamedScene(Scene):
     """A scene to store."""
 
-    name: RobotName
+    name: SceneName
+
+
+class SceneForm(Payload):
+    """The text field sent with the files of a scene."""
+
+    scene: str = Field(description="The scene as JSON, as in the other form of the body.")
+
+
+class SceneSummary(Answer):
+    """A stored scene in the list."""
+
+    name: str = Field(description="Name by which calls refer to it.")
+    objects: int = Field(description="How many it has.")
+    size: int = Field(description="Of the scene with its files, [bytes].")
+
+
+class SceneList(Answer):
+    """All stored scenes, by name."""
+
+    scenes: list[SceneSummary]
+
+
+class SceneFile(Answer):
+    """A file of a stored scene."""
+
+    name: str = Field(description="As the objects refer to it.")
+    size: int = Field(description="Of the file, [bytes].")
+
+
+class SceneInfo(Answer):
+    """A stored scene."""
+
+    name: str = Field(description="Name by which calls refer to it.")
+    objects: list[SceneObject] = Field(description="As they were sent.")
+    files: list[SceneFile] = Field(description="Meshes and point clouds, whose content was sent with it.")
+
+
+EXAMPLE_SCENE: dict[str, Any] = {
+    "name": "my_cell",
+    "objects": [
+        {
+            "name": "table",
+            "shape": {"type": "box", "size": [0.8, 1.2, 0.04]},
+            "pose": {"position": [0.5, 0.0, -0.02]},
+        },
+        {"name": "wall", "shape": {"type": "half_space", "normal": [1.0, 0.0, 0.0], "offset": -0.4}},
+    ],
+}
 
 
 def _form(value: Any) -> str:
@@ -113,7 +209,7 @@ def _form(value: Any) -> str:
 
 
 SceneOrName = Annotated[
-    Annotated[RobotName, Tag("<name>")] | Annotated[Scene, Tag("<object>")],
+    Annotated[SceneName, Tag("<name>")] | Annotated[Scene, Tag("<object>")],
     Discriminator(_form),
     Field(description="What is around the robot: the name of a stored scene, or its objects."),
 ]

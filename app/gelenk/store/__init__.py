@@ -1,4 +1,4 @@
-"""Robots on disk: the read-only catalogue, and uploaded robots in one folder each.
+"""Robots on disk, the read-only catalogue and uploaded ones in a folder each; and scenes, each one file.
 
 - `folders`: durable writing: acknowledged data is on disk, unfinished data is invisible.
 - `archive`: unpacks an untrusted zip of one URDF and its meshes.
@@ -7,5 +7,6 @@
 - `index`: one file with the data on each uploaded robot that the list of robots and the quotas need.
 - `quota`: what one client may store.
 - `course_secret`: the secret that decides the numbers of homework.
+- `scenes`: all scenes by name.
 - `library`: all robots by name, loaded once, and again when their folder has changed.
 """

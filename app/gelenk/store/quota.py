@@ -37,3 +37,5 @@ class Quota:
 
 ROBOTS = Quota("robot", 20_000, 10 * 1024**3)
 """Of robots, unless the operator sets another one."""
+SCENES = Quota("scene", 2_000, 2 * 1024**3)
+"""Of scenes, likewise."""

@@ -12,7 +12,7 @@ from fastapi import FastAPI, Header, Path, Response
 from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel, TypeAdapter
 
-from gelenk.contract.endpoint import Endpoint, RobotEndpoint, Route
+from gelenk.contract.endpoint import Endpoint, Resource, RobotEndpoint, Route
 from gelenk.contract.endpoints import ENDPOINTS, ROUTES
 from gelenk.contract.jobs import JobInfo
 from gelenk.contract.kinematics import ByName, Configuration
@@ -77,8 +77,8 @@ _SCHEME = {
     "type": "http",
     "scheme": "bearer",
     "description": "A key of this service, if keys are switched on; create one with `gelenk.keys`. Scopes: `read` "
-    "allows queries, `write` storing and removing robots and jobs, `teach` solutions of exercises, `admin` reading the "
-    "metrics. No scope includes another.",
+    "allows queries, `write` storing and removing robots, scenes and jobs, `teach` solutions of exercises, `admin` "
+    "reading the metrics. No scope includes another.",
 }
 _COMPONENT = "#/components/schemas/{model}"
 _PROBLEM = {"$ref": _COMPONENT.format(model="Problem")}
@@ -95,7 +95,7 @@ def problem_responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
 def documentation(name: str) -> dict[str, Any]:
     """Return the arguments of FastAPI's route that document one of the `RESOURCES`."""
     resource = _RESOURCES[name]
-    body = {} if resource.example is None else {JSON: {"example": resource.example}, **_form(resource.form)}
+    body = {} if resource.example is None else {JSON: {"example": resource.example}, **_form(resource)}
     return _documentation(resource, resource.answer, resource.status, resource.responses, resource.problems, body)
 
 
@@ -143,18 +143,14 @@ def _documentation(
     }
 
 
-def _form(fields: type[BaseModel] | None) -> dict[str, Any]:
-    if fields is None:
+def _form(resource: Resource) -> dict[str, Any]:
+    if resource.form is None:
         return {}
-    schema = fields.model_json_schema()
+    schema = resource.form.model_json_schema()
     for field in schema["properties"].values():
         _without_null(field)
-    schema["properties"]["archive"] = {
-        "type": "string",
-        "format": "binary",
-        "description": "Zip of one URDF and its meshes.",
-    }
-    schema["required"] = [*schema.get("required", []), "archive"]
+    schema["properties"] |= resource.files
+    schema["required"] = [*schema.get("required", []), *resource.files]
     return {MULTIPART: {"schema": schema}}
 
 

@@ -32,6 +32,7 @@ STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
     # Waiting does not help, so no client should retry by itself: neither 429 nor a 5xx.
     errors.QuotaExceeded: HTTPStatus.REQUEST_ENTITY_TOO_LARGE,
     errors.RobotExists: HTTPStatus.CONFLICT,
+    errors.SceneExists: HTTPStatus.CONFLICT,
     errors.ReadOnlyRobot: HTTPStatus.FORBIDDEN,
     errors.StorageFailed: HTTPStatus.SERVICE_UNAVAILABLE,
     errors.StorageFull: HTTPStatus.INSUFFICIENT_STORAGE,

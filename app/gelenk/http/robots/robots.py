@@ -21,7 +21,7 @@ from gelenk.http.messages.problems import UnsupportedMediaType
 from gelenk.http.messages.routes import DocumentedRoute
 from gelenk.http.robots.info import info
 from gelenk.http.robots.meshes import SANDBOXED, mesh_response
-from gelenk.http.workers.pool_client import PoolClient
+from gelenk.http.workers.pool_client import PoolClient, owner_of
 from gelenk.http.workers.task import Context, TaskRequest, buffers
 from gelenk.language import Language
 from gelenk.language import language as speaking
@@ -30,8 +30,6 @@ from gelenk.store.archive import unpacked
 from gelenk.store.folders import writing
 from gelenk.store.library import Library, RobotUpload
 
-WITHOUT_KEY = "clients without a key"
-"""Owner of uploads without a key: addresses change, and where no key is needed all clients share one machine."""
 _EXAMPLE_STEPS: dict[str, Any] = {"without": {"value": False}}
 _ORDER: dict[str, Any] = {"as usual": {"value": list(COLUMNS)}}
 _PIECE = 256 * 1024
@@ -133,8 +131,7 @@ def documented_routes(pool_client: PoolClient, max_body_bytes: int) -> list[Docu
 async def _receive(request: BoundedRequest, pool_client: PoolClient, name: str | None) -> Response:
     """Accept an upload in either form; a worker checks and stores it."""
     root_path, given = request.scope.get("root_path", ""), request.media_type
-    key = request.scope.get("gelenk.key")
-    owner = WITHOUT_KEY if key is None else f"key {key}"
+    owner = owner_of(request)
     if given == JSON:
         task_request = TaskRequest(buffers(await request.pieces()))
         return await pool_client.answer(request, Keep(name, root_path, owner), task_request)

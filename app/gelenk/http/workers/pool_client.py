@@ -31,6 +31,9 @@ PARSED_HERE_BYTES = 512 * 1024
 
 _OWN_ADDRESSES = frozenset({"127.0.0.1", "::1"})
 
+_WITHOUT_KEY = "clients without a key"
+"""Owner of uploads without a key: addresses change, and where no key is needed all clients share one machine."""
+
 _Result = TypeVar("_Result")
 
 
@@ -112,6 +115,12 @@ def client_of(request: Request) -> str:
         return f"key {key}"
     address = request.client.host if request.client else ""
     return "" if address in _OWN_ADDRESSES else address
+
+
+def owner_of(request: Request) -> str:
+    """Return the owner of what a request uploads, against whose quota it counts."""
+    key: str | None = request.scope.get("gelenk.key")
+    return _WITHOUT_KEY if key is None else f"key {key}"
 
 
 def load(context: Context, task_request: TaskRequest) -> Response:

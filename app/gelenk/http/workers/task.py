@@ -18,6 +18,7 @@ from gelenk.operations.request_counts import REQUEST_COUNTS, RequestCounts
 from gelenk.processes.wire import pieces_of
 from gelenk.store.library import Library
 from gelenk.store.quota import ROBOTS, Quota
+from gelenk.store.scenes import Scenes
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +28,7 @@ class Context:
     catalogue: Path
     uploads: Path
     limits: Limits
+    scenes: Scenes
     quota: Quota = ROBOTS
 
     @property
