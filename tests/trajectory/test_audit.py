@@ -16,7 +16,8 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.audit import DERIVATIVES, audit
 from gelenk.trajectory.audit.demands import Demands, JointLimits, TipLimits
-from gelenk.trajectory.audit.pieces import extremes, pieces_of
+from gelenk.trajectory.audit.joints import joint_figures
+from gelenk.trajectory.audit.pieces import pieces_of
 from gelenk.trajectory.audit.result import Audit
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from tests.oracles.catalogue import NAMES
@@ -144,12 +145,9 @@ def test_extremes_by_brute_force(degree: int, order: int) -> None:
         tau,
         np.moveaxis(part.coefficients * widths[:, None, None] ** np.arange(part.coefficients.shape[1])[:, None], 1, 0),
     )
-    pieces, size = pieces_of(motion), np.abs(values).max()
-    for larger in (
-        np.abs(extremes(pieces, order, absolute=True)[0]) - np.abs(values).max(axis=(0, 2)),
-        extremes(pieces, order)[0] - values.max(axis=(0, 2)),
-        extremes(pieces._replace(scaled=-pieces.scaled), order)[0] + values.min(axis=(0, 2)),
-    ):
+    found, size = joint_figures(pieces_of(motion)).extremes, np.abs(values).max()
+    highest, lowest, largest = values.max(axis=(0, 2)), values.min(axis=(0, 2)), np.abs(values).max(axis=(0, 2))
+    for larger in [np.abs(found[order + 1]) - largest] if order else [found[1] - highest, found[0] + lowest]:
         assert (larger >= -1e-9 * size).all(), "none is missed"
         assert (larger <= 1e-4 * size).all(), "none is invented"
 

@@ -7,8 +7,9 @@ import pytest
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.audit.joints import joint_figures
 from gelenk.trajectory.audit.kernels import smallest_singular_values, tip_rates
-from gelenk.trajectory.audit.pieces import Pieces, extremes, pieces_of, positions_at
+from gelenk.trajectory.audit.pieces import Pieces, pieces_of, positions_at
 from gelenk.trajectory.audit.tip import smallest_singular_value, tip_peaks
 from tests.robots import robot
 from tests.trajectory.test_audit import some_motion
@@ -94,20 +95,37 @@ def test_the_smallest_singular_value_is_the_least_of_dense_samples() -> None:
         assert dense.min() >= found.value * (1.0 - 1e-9)
 
 
-@pytest.mark.parametrize("order", [0, 1, 2])
-def test_extremes_are_at_the_roots_of_the_derivative(order: int) -> None:
-    rng = np.random.default_rng(order)
+@pytest.mark.parametrize("row", range(5))
+def test_extremes_are_at_the_roots_of_the_derivative(row: int) -> None:
+    rng, order = np.random.default_rng(row), max(row - 1, 0)
+    size = (np.negative, np.positive, np.abs)[min(row, 2)]
     for degree in (3, 5, 7):
         c = rng.normal(size=(1, degree + 1, 3))
-        found = extremes(Pieces(np.zeros(1), np.array([0.7]), c), order)
+        found = joint_figures(Pieces(np.zeros(1), np.array([0.7]), c))
         for joint, column in enumerate(c[0].T):
             p = np.polynomial.Polynomial(column / 0.7 ** np.arange(degree + 1))
             p = p.deriv(order) if order else p
             roots = p.deriv().roots()
             inner = roots.real[(abs(roots.imag) < 1e-12) & (roots.real > 0.0) & (roots.real < 0.7)]
             places = np.concatenate(([0.0, 0.7], inner))
-            best = places[p(places).argmax()]
-            assert (found[0][joint], found[1][joint]) == (
-                pytest.approx(p(best), rel=1e-12),
+            best = places[size(p(places)).argmax()]
+            value = -p(best) if row == 0 else p(best)
+            assert (found.extremes[row, joint], found.times[row, joint]) == (
+                pytest.approx(value, rel=1e-12),
                 pytest.approx(best, abs=1e-7),
             )
+
+
+def test_jumps_are_the_differences_where_pieces_meet() -> None:
+    rng = np.random.default_rng(5)
+    widths, c = rng.uniform(0.1, 1.0, 19), rng.normal(size=(19, 6, 4))
+    starts = np.cumsum(widths) - widths
+    found = joint_figures(Pieces(starts, widths, c * widths[:, None, None] ** np.arange(6)[:, None]))
+    for order in range(4):
+        p = [[np.polynomial.Polynomial(column).deriv(order) for column in piece.T] for piece in c]
+        jumps = [
+            [abs(a(h) - b(0.0)) for a, b in zip(*pair, strict=True)]
+            for *pair, h in zip(p[:-1], p[1:], widths[:-1], strict=True)
+        ]
+        assert found.jumps[order] == pytest.approx(np.max(jumps, axis=0), rel=1e-12)
+        assert (found.jump_times[order] == starts[1 + np.argmax(jumps, axis=0)]).all()

@@ -1,6 +1,7 @@
 """Checks of a motion, with code that shares nothing with the planners.
 
-- `audit`: the verdict. `pieces`: joints; `tip`: the tip; `torques`: torques; all also between samples, by `peaks`.
+- `audit`: the verdict. `joints`: extremes and jumps of the joints' `pieces`; `tip`: the tip; `torques`: torques; both
+  also between samples, by `peaks`.
 - `kernels`: rates of the tip and singular values, eight samples at a time.
 - `demands`: the requirements. `result`, and the names in `words`: what a motion's answer contains.
 """

@@ -19,7 +19,8 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.demands import Demands
-from gelenk.trajectory.audit.pieces import Pieces, extremes, joint_ends, joint_extremes, joint_jumps, pieces_of
+from gelenk.trajectory.audit.joints import JointFigures, joint_figures
+from gelenk.trajectory.audit.pieces import Pieces, joint_ends, pieces_of
 from gelenk.trajectory.audit.result import (
     Audit,
     Continuity,
@@ -54,11 +55,12 @@ def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands:
     if not (np.isfinite(motion.coefficients).all() and (motion.breaks[1:] > motion.breaks[:-1]).all()):
         raise CertificationFailed("the motion", math.nan, 0.0)
     examination = _Examination(pieces_of(motion), chain, demands, [])
-    values, times = (found.tolist() for found in joint_extremes(examination.pieces))
+    joints = joint_figures(examination.pieces)
+    values, times = joints.extremes.tolist(), joints.times.tolist()
     peaks = examination.joint_peaks(values[2:], times[2:])
     tip, deviations = examination.tip()
     qs, poses = poses_at(examination.pieces, chain, MAX_SAMPLES)
-    continuity = examination.continuity(peaks)
+    continuity = examination.continuity(peaks, joints)
     margin = examination.margin(values, times)
     ends = examination.ends(peaks)
     torque = examination.torque()
@@ -90,7 +92,7 @@ def whole_audit(chain: Chain, motion: PiecewisePolynomial, audits: Sequence[Audi
         return audits[0]
     timed = list(zip(audits, starts, strict=True))
     meeting = _Examination(pieces_of(motion), chain, Demands(), [])
-    continuity = meeting.continuity({})
+    continuity = meeting.continuity({}, joint_figures(meeting.pieces))
     reasons = (*(_moved(reason, at) for one, at in timed for reason in one.reasons), *meeting.reasons)
     certificates, errors = [one.certificate for one in audits], [one.way_error for one in audits if one.way_error]
 
@@ -161,9 +163,9 @@ class _Examination:
             found = [self.joint_peak(order, *whole, getattr(demands.joints, check), demands.stated_jerk)]
             for zone in demands.zones:
                 if zone.joints is not None:
-                    sizes, at = extremes(self.pieces.between(zone.begin, zone.end), order, absolute=True)
-                    limits = zone.joints[order - 1], zone.stated_jerk
-                    found.append(self.joint_peak(order, sizes.tolist(), at.tolist(), *limits))
+                    within = joint_figures(self.pieces.between(zone.begin, zone.end))
+                    sizes, at = within.extremes[order + 1].tolist(), within.times[order + 1].tolist()
+                    found.append(self.joint_peak(order, sizes, at, zone.joints[order - 1], zone.stated_jerk))
             peaks[check] = max(found, key=lambda peak: peak.ratio or 0.0)
         return peaks
 
@@ -180,12 +182,12 @@ class _Examination:
             self.reasons.append(Reason(check, detail, enforced.joint, enforced.time))
         return peak
 
-    def continuity(self, peaks: dict[str, Peak]) -> Continuity:
+    def continuity(self, peaks: dict[str, Peak], joints: JointFigures) -> Continuity:
         names, tolerance = self.chain.joint_names, self.demands.tolerance
         if not names:
             return Continuity(None, None, None, None)
         jumps = []
-        values, times = (found.tolist() for found in joint_jumps(self.pieces))
+        values, times = joints.jumps.tolist(), joints.jump_times.tolist()
         for order, quantity in enumerate(DERIVATIVES):
             joint = _worst_index(values[order])
             jump = Jump(values[order][joint], names[joint], times[order][joint])

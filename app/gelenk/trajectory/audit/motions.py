@@ -10,7 +10,8 @@ import numpy as np
 
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.compilation import compiled
-from gelenk.trajectory.audit.pieces import Pieces, extremes, largest_jumps, value_at
+from gelenk.trajectory.audit.joints import JointFigures, joint_figures
+from gelenk.trajectory.audit.pieces import Pieces, value_at
 
 TOLERANCE = 1e-9
 """Allowed relative excess over a limit, and the other tolerances of `Demands`."""
@@ -55,18 +56,17 @@ class Figures(NamedTuple):
 @compiled
 def figures(pieces: Pieces, start: Array, target: Array, tip: Array, limits: BatchLimits) -> Figures:
     """Audit a motion that rests at its start and its target, (n,) each, [rad or m], from the peaks of the tip, (4,)."""
-    ratios, scales = np.zeros(3), np.ones(4)
+    joints, ratios, scales = joint_figures(pieces), np.zeros(3), np.ones(4)
     passed = bool((tip <= limits.tip * (1.0 + TOLERANCE)).all())
     for order in range(3):
-        values, _ = extremes(pieces, order + 1, True)
+        values = joints.extremes[order + 2]
         shares = np.abs(values) / limits.joints[order]
         worst = shares.argmax()
         ratios[order], scales[order + 1] = shares[worst], max(1.0, abs(values[worst]))
         passed &= not limits.enforced[order] or shares[worst] <= 1.0 + TOLERANCE
     for order in range(limits.continuous + 1):
-        jumps, _ = largest_jumps(pieces, order)
-        passed &= jumps.max() <= _DIGIT**order * TOLERANCE * scales[order]
-    margin = _margin(pieces, limits)
+        passed &= joints.jumps[order].max() <= _DIGIT**order * TOLERANCE * scales[order]
+    margin = _margin(joints, limits)
     return Figures(passed and margin >= -TOLERANCE and _is_at(pieces, start, target, scales[1]), ratios, margin)
 
 
@@ -79,10 +79,9 @@ def slowdown(tip: Array, limits: Array) -> float:
 
 
 @compiled
-def _margin(pieces: Pieces, limits: BatchLimits) -> float:
-    highest, _ = extremes(pieces, 0, False)
-    lowest, _ = extremes(Pieces(pieces.starts, pieces.widths, -pieces.scaled), 0, False)
-    margin: float = min((limits.upper - highest).min(), (-lowest - limits.lower).min())
+def _margin(joints: JointFigures, limits: BatchLimits) -> float:
+    lowest, highest = -joints.extremes[0], joints.extremes[1]
+    margin: float = min((limits.upper - highest).min(), (lowest - limits.lower).min())
     return margin
 
 
