@@ -35,6 +35,7 @@ from gelenk.robot.notations import (
 )
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.audit.deviations import deviations
 from gelenk.trajectory.batch import plan_batch
 from gelenk.trajectory.follow.ladder import Metric, Rungs, way_up
 from gelenk.trajectory.follow.nearest import beside, nearest, rates_at, walked
@@ -125,6 +126,7 @@ def _motions() -> None:
     walked(flat, np.zeros(1), *samples, np.zeros(6))
     beside(flat, *samples, rates, 1)
     rates_at(flat, samples[2], rates[0])
+    deviations(*samples[:2], *samples[:2])
     rotation_spline(rotations_from_vectors(0.1 * np.arange(12.0).reshape(4, 3)), np.arange(4.0)).at(np.zeros(1))
     corner = Poses(np.eye(3), np.array([np.eye(3)] * 3))
     blended_lines(corner, [0.1]).at(np.linspace(0.0, 2.0, 3))

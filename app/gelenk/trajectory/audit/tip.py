@@ -16,6 +16,7 @@ from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain, FlatChain
 from gelenk.robot.compilation import compiled
 from gelenk.robot.poses import Poses
+from gelenk.trajectory.audit.deviations import deviations
 from gelenk.trajectory.audit.kernels import smallest_singular_values, tip_rates
 from gelenk.trajectory.audit.peaks import ROUNDS, highest, narrowed, promising, tried, triples
 from gelenk.trajectory.audit.pieces import Pieces, even_positions, positions_at, rate_bounds, travel, values_at
@@ -103,14 +104,16 @@ def rate_peaks(flat: FlatChain, pieces: Pieces, least: int) -> tuple[Array, Arra
 def path_peaks(pieces: Pieces, chain: Chain, path: PathOfTime, task: Task = FULL_POSE) -> dict[str, Largest]:
     """Find the largest deviations from a path, `position` [m] and `orientation` [rad], in the task's directions."""
 
-    def deviations(piece: Indices, tau: Array) -> Array:
+    def off(piece: Indices, tau: Array) -> Array:
         poses = Poses(*chain_poses(chain.flat, values_at(pieces, piece, tau, 0)))
-        columns = _deviations(poses, path(pieces.times(piece, tau)), task)
-        # Where the path has no pose, the deviation is infinite.
-        return np.nan_to_num(np.column_stack(columns), nan=np.inf)
+        wanted = path(pieces.times(piece, tau))
+        if task != FULL_POSE:
+            return np.nan_to_num(np.column_stack(tuple(task.errors(wanted, poses))), nan=np.inf)
+        goals = np.ascontiguousarray(wanted.positions), np.ascontiguousarray(wanted.rotations)
+        return deviations(poses.positions, poses.rotations, *goals)
 
     piece, tau, inner = grid(pieces, MIN_SAMPLES, 2)
-    found = between(tau, piece, inner, deviations, np.full(2, _ROUNDING))
+    found = between(tau, piece, inner, off, np.full(2, _ROUNDING))
     return {
         name: Largest(value, float(pieces.starts[piece[row]] + at * pieces.widths[piece[row]]))
         for name, (value, row, at) in zip(("position", "orientation"), found, strict=True)
@@ -166,15 +169,6 @@ def _rounding(pieces: Pieces) -> Array:
     velocity, acceleration = rate_bounds(pieces)
     later = max(acceleration, velocity**2)
     return _ROUNDING * np.array([velocity, velocity, later, later])
-
-
-def _deviations(poses: Poses, wanted: Poses, task: Task) -> list[Array]:
-    """Return distance [m] and angle [rad] between pairs of poses; shape (N,) each."""
-    if task != FULL_POSE:
-        return list(task.errors(wanted, poses))
-    distances = np.linalg.norm(poses.positions - wanted.positions, axis=1)
-    chords = np.sqrt(np.sum((poses.rotations - wanted.rotations) ** 2, axis=(1, 2)) / 8.0)
-    return [distances, 2.0 * np.arcsin(np.minimum(chords, 1.0))]
 
 
 def between(

@@ -64,17 +64,19 @@ def path_error(joints: PiecewisePolynomial, off: Array | None, timing: Timed, ge
     breaks, law = timing.motion.breaks, timing.law
     times = (breaks[:-1] + np.array([[1e-6], [0.5], [1.0 - 1e-6]]) * np.diff(breaks)).ravel()
     phase = np.searchsorted(law.breaks[1:-1], times, side="right")
-    s, v, a, j = np.abs(derivatives(law.coefficients[phase], (times - law.breaks[phase])[:, None]))
-    piece = np.clip(np.searchsorted(joints.breaks, s[:, 0], side="right") - 1, 0, len(off) - 1)
-    second, widths = _UNSEEN * off[piece], np.diff(joints.breaks)[piece, None]
-    first, third = _FIRST * second * widths, _THIRD * second / widths
+    s, v, a, j = np.abs(derivatives(law.coefficients[phase], (times - law.breaks[phase])[:, None]))[:, :, 0]
+    every = np.arange(len(geometry.joints.breaks) - 1)
+    own = np.searchsorted(joints.breaks, 0.5 * (geometry.joints.breaks[:-1] + geometry.joints.breaks[1:])) - 1
+    shares = (_UNSEEN * off[own, None] / geometry.joint_bounds(every)).max(axis=2, initial=0.0)
+    piece = geometry.piece_of(s)
+    widths = np.diff(joints.breaks)[own][piece]
+    first, third = _FIRST * widths, _THIRD / widths
+    demands = (first * v, first * a + v**2, first * j + 3.0 * v * a + third * v**3)
     with np.errstate(invalid="ignore"):  # An unknown error times a rate of zero is NaN.
-        errors = (first * v, first * a + second * v**2, first * j + 3.0 * second * v * a + third * v**3)
-    bounds = np.moveaxis(geometry.joint_bounds(geometry.piece_of(s[:, 0])), 1, 0)
-    found = [
-        float(np.fmax.reduce(error / bound, axis=None, initial=0.0)) + known
-        for error, bound, known in zip(errors, bounds, RATES_KNOWN, strict=True)
-    ]
+        found = [
+            float(np.fmax.reduce(share[piece] * demand, initial=0.0)) + known
+            for share, demand, known in zip(shares.T, demands, RATES_KNOWN, strict=True)
+        ]
     return PathError(*(value if math.isfinite(value) else None for value in found))
 
 

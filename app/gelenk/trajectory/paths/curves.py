@@ -5,6 +5,7 @@ A curve gives its position p(s), its unit tangent dp/ds, and d²p/ds², whose le
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
@@ -17,14 +18,14 @@ COLLINEAR = 1e-6
 """Sine of the angle at the via point, or at either end, below which three points count as collinear."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Line:
     """A straight line between points of shape (3,), [m]; with zero length it is a point whose tangent is zero."""
 
     start: Array
     end: Array
 
-    @property
+    @cached_property
     def length(self) -> float:
         """‖p_f - p_i‖, [m]."""
         return math.dist(self.start, self.end)

@@ -179,9 +179,12 @@ class PathSequence:
 
 def _in_order(samples: Sequence[PathSamples], order: Indices) -> PathSamples:
     """Join samples, and undo the order in which they were taken."""
-    back = np.argsort(order)
     parts = [(one.poses.positions, one.poses.rotations, one.first, one.second) for one in samples]
-    positions, rotations, first, second = (np.concatenate(part)[back] for part in zip(*parts, strict=True))
+    columns = [np.concatenate(part) for part in zip(*parts, strict=True)]
+    if (np.diff(order) < 0).any():
+        back = np.argsort(order)
+        columns = [column[back] for column in columns]
+    positions, rotations, first, second = columns
     return PathSamples(Poses(positions, rotations), first, second)
 
 
