@@ -16,7 +16,18 @@ import numpy as np
 
 from gelenk.robot.arrays import Array
 from tests.benchmarks.arms import ARMS, Arm, Targets, draw, poses
-from tests.benchmarks.peers import PEERS, TOLERANCE, Eaik, Gelenk, IkLm, IkLmTuned, Peer, TracIk, TracIkOnOneCore
+from tests.benchmarks.peers import (
+    PEERS,
+    TOLERANCE,
+    Eaik,
+    Gelenk,
+    GelenkForm,
+    IkLm,
+    IkLmTuned,
+    Peer,
+    TracIk,
+    TracIkOnOneCore,
+)
 from tests.benchmarks.table import Row
 from tests.benchmarks.worker import Failed, Run, Worker
 
@@ -158,7 +169,7 @@ def notes(scores: Scores, peer: type[Peer]) -> Iterator[str]:
     try:
         yield f"version {version(peer.package)}" + (f", every {peer.every}th target" if peer.every > 1 else "")
     except PackageNotFoundError:
-        if peer is not Gelenk:
+        if peer not in {Gelenk, GelenkForm}:
             yield "not installed"
     wrong = {arm.robot: found.wrong for arm, found in of_peer(scores, peer).items() if found.wrong}
     if wrong:
@@ -187,7 +198,7 @@ def summary(scores: Scores) -> list[Row]:
         *ratio_rows(engine, scores, IkLmTuned, inside, median),
         *ratio_rows(one, scores, TracIk, median, median),
         *ratio_rows(one, scores, IkLm, median, median),
-        *ratio_rows(f"{one}, arms with a closed form", scores, Eaik, median, median),
+        *ratio_rows(f"{one}, arms with a closed form", scores, Eaik, median, median, of=GelenkForm),
         *slowest_row(scores),
         *ratio_rows(f"{batch}, 6 and 7 joints", few, TracIk, together, mean, "≥ 150"),
         *ratio_rows(f"{batch}, 6 and 7 joints", few, TracIkOnOneCore, together, mean),
@@ -228,7 +239,7 @@ def solved_rows(scores: Scores) -> list[Row]:
     for peer in PEERS:
         if found := of_peer(scores, peer):
             worst[peer.name] = min(score.solved for score in found.values())
-    against = ", ".join(f"{name} {solved:.2%}" for name, solved in worst.items() if name != Gelenk.name)
+    against = ", ".join(f"{name} {solved:.2%}" for name, solved in worst.items() if Gelenk.name not in name)
     what = f"IK solved and verified, worst of {len(scores)} arms"
     ours = of_peer(scores, Gelenk)
     if len(ours) < len(scores):
@@ -247,9 +258,10 @@ def ratio_rows(
     of_ours: Callable[[Score], float],
     of_theirs: Callable[[Score], float],
     wanted: str = "",
+    of: type[Peer] = Gelenk,
 ) -> list[Row]:
     """How many times longer a peer takes, on the worst arm and on the median one."""
-    ours, theirs = of_peer(scores, Gelenk), of_peer(scores, peer)
+    ours, theirs = of_peer(scores, of), of_peer(scores, peer)
     times = {arm: (of_ours(ours[arm]), of_theirs(theirs[arm])) for arm in ours if arm in theirs}
     if not times:
         return [Row(what, "missing", f"{peer.name}: {'missing' if not theirs else 'measured'}", wanted=wanted)]

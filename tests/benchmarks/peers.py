@@ -15,6 +15,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from gelenk.ik.closed.closed_form import closed_form
+from gelenk.ik.closed.nearest_branch import nearest_branch
 from gelenk.ik.search import kernels
 from gelenk.ik.search.bounds import make_goal, target_rows
 from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS
@@ -114,6 +116,25 @@ class Gelenk(BatchPeer):
 
     def read_all(self, answer: Any) -> Array:
         return np.where(answer.solved[:, None], answer.qs, np.nan)
+
+
+class GelenkForm(Peer):
+    """Ours where there is a closed form: the branch nearest to the seed, on one thread."""
+
+    name = "Gelenk, closed form"
+    package = "gelenk"
+
+    def __init__(self, arm: Arm) -> None:
+        form = closed_form(arm.chain)
+        if form is None:
+            raise NotImplementedError("no closed form is known")
+        self._nearest = nearest_branch(form, (TOLERANCE, TOLERANCE))
+
+    def ask(self, T: Array, seed: Array) -> Callable[[], Any]:
+        return partial(self._nearest, T, seed)
+
+    def read(self, answer: Any) -> Array | None:
+        return None if answer is None else np.asarray(answer)
 
 
 class TracIk(Peer):
@@ -284,7 +305,7 @@ class IkPy(Peer):
         return np.array(answer[1:-1])
 
 
-PEERS: tuple[type[Peer], ...] = (Gelenk, TracIk, TracIkOnOneCore, IkLm, IkLmTuned, Optik, Eaik, IkPy)
+PEERS: tuple[type[Peer], ...] = (Gelenk, GelenkForm, TracIk, TracIkOnOneCore, IkLm, IkLmTuned, Optik, Eaik, IkPy)
 
 
 def from_file(build: Callable[[str], Any], urdf: str) -> Any:

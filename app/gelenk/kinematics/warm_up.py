@@ -9,6 +9,8 @@ from multiprocessing import get_context
 import numpy as np
 
 from gelenk.dh.tables.convert import describe_dh
+from gelenk.ik.closed.closed_form import closed_form
+from gelenk.ik.closed.nearest_branch import nearest_branch
 from gelenk.ik.count.continuation import continuation
 from gelenk.ik.search.bounds import mid_range
 from gelenk.ik.search.problem import TargetProblem
@@ -108,6 +110,10 @@ def _closed_forms() -> None:
     poses = forward_kinematics(robot, chain, qs).poses
     for every in (False, True):
         inverse_kinematics(robot, chain, poses, qs, Options(every=every, method="analytic"))
+    wrist = ((0.5, 0.0, 0.3), (0.0, 0.4, 0.0), (0.5, 0.0, 0.0), (-0.5, 0.0, 0.3), (0.5, 0.0, 0.0), (0.0, 0.0, 0.1))
+    form = closed_form(_arm([(a, math.pi * alpha, d, 0.0) for alpha, a, d in wrist])[1])
+    if form is not None:
+        nearest_branch(form)(np.eye(4), np.zeros(6))
 
 
 def _motions() -> None:

@@ -153,6 +153,7 @@ def _branches(
         np.empty(MOST, np.int64),
         np.empty(8),
         np.empty((8, 3)),
+        np.empty((8, 3, 2)),
         np.empty((2, 8), np.int64),
         make_space(),
         np.zeros(1, np.int64),
@@ -430,6 +431,8 @@ def _insert(kept: _Kept, count: int, flat: FlatChain, seed: Array) -> int:
             if flat.joints[j, 0] == 0:
                 difference = abs(difference - _TURN * np.rint(difference / _TURN))
             apart = max(apart, difference)
+            if apart > _SAME:
+                break
         if apart <= _SAME:
             kept.labels[1, k] |= kept.labels[1, MOST]
             return count

@@ -21,11 +21,19 @@ from gelenk.ik.closed.subproblems import (
     BEYOND,
     Coefficients,
     Quadratic,
+    Turn,
+    angle_of,
     angle_onto,
+    back,
+    both,
+    directions_at,
     product,
     rest_of,
     slides_at,
     slides_of_quadratic,
+    turn_of,
+    turn_onto,
+    turned_by,
     turns_at,
     turns_of_quadratic,
     value,
@@ -104,6 +112,7 @@ class Candidates(NamedTuple):
         codes, free: Bits of the roots chosen, and of the free joints, which kept the seed's value; shape (MOST,) each.
         roots: Space for the roots of an equation; shape (8,).
         first: Values of the positioning joints, in the order of elimination; shape (8, 3), [rad or m].
+        turns: Cosine and sine of those that turn; shape (8, 3, 2).
         marks: Their codes and bit masks of free joints; shape (2, 8).
         doubtful: 1 if a root may be double, so that rounding may have cost solutions; shape (1,).
     """
@@ -113,6 +122,7 @@ class Candidates(NamedTuple):
     free: Indices
     roots: Array
     first: Array
+    turns: Array
     marks: Indices
     space: Scratch
     doubtful: Indices
@@ -170,10 +180,10 @@ def _displaced(M: Motion, a: Vector) -> Vector:
 
 
 @inlined
-def _about(plan: SubproblemPlan, i: int, angle: float, a: Vector) -> Vector:
+def _about(plan: SubproblemPlan, i: int, turn: Turn, a: Vector) -> Vector:
     """Turn a point about the line of joint i."""
     o = row(plan.points, i)
-    return plus(o, 1.0, turned(row(plan.axes, i), angle, minus(a, o)))
+    return plus(o, 1.0, turned_by(row(plan.axes, i), turn, minus(a, o)))
 
 
 @unmanaged
@@ -202,8 +212,8 @@ def _with_wrist(plan: SubproblemPlan, M: Motion, way: int, seed: Array, found: C
     a, y = _rotated(M, row(plan.axes, last)), _rotated(M, square)
     for i in range(plan.placed):
         if plan.slides[i] == 0:
-            angle = found.first[way, plan.order[i]]
-            a, y = turned(row(plan.axes, i), -angle, a), turned(row(plan.axes, i), -angle, y)
+            turn = found.turns[way, plan.order[i], 0], -found.turns[way, plan.order[i], 1]
+            a, y = turned_by(row(plan.axes, i), turn, a), turned_by(row(plan.axes, i), turn, y)
     for sign in range(2):
         values = found.values[count]
         for k in range(plan.placed):
@@ -246,23 +256,25 @@ def _three_turns(
     """
     f, g, h = row(plan.axes, i), row(plan.axes, i + 1), row(plan.axes, i + 2)
     axial = dot(g, h) * dot(f, g)
-    middle, half, good = turns_at((axial - dot(f, a), dot(f, h) - axial, dot(f, cross(g, h))))
+    middle, half, good = directions_at((axial - dot(f, a), dot(f, h) - axial, dot(f, cross(g, h))))
     if not good:
         return -1, 0
-    b = turned(g, middle + half if second else middle - half, h)
+    b = turned_by(g, both(middle, half if second else back(half)), h)
     outcome, lost = 1, 0
     across, level = cross(f, b), cross(f, a)
     if dot(across, across) < _NEARLY_FLAT * _NEARLY_FLAT:
-        side = 1.0 if second == (half > 0.5 * math.pi) else -1.0
+        side = 1.0 if second == (half[0] < 0.0) else -1.0
         b = _by_lean(b, g, f, side, dot(level, level))
     if dot(level, level) < _NO_ARM * _NO_ARM and dot(across, across) < _FLAT * _FLAT:
-        values[i] = seed[i]
+        values[i], first = seed[i], turn_of(seed[i])
         outcome, lost = 0, 1
     else:
-        values[i] = angle_onto(f, b, a)
-    a, y = turned(f, -values[i], a), turned(f, -values[i], y)
-    values[i + 1] = angle_onto(g, h, a)
-    values[i + 2] = angle_onto(h, square, turned(g, -values[i + 1], y))
+        first = turn_onto(f, b, a)
+        values[i] = angle_of(first)
+    a, y = turned_by(f, back(first), a), turned_by(f, back(first), y)
+    following = turn_onto(g, h, a)
+    values[i + 1] = angle_of(following)
+    values[i + 2] = angle_onto(h, square, turned_by(g, back(following), y))
     return outcome, lost
 
 
@@ -511,29 +523,31 @@ def _finished(plan: SubproblemPlan, start: Vector, goal: Vector, seed: Array, wa
     reach = minus(goal, o1)
     level = cross(h1, reach)
     for way in range(ways):
-        values = found.first[way]
-        p = start
+        values, turns, p = found.first[way], found.turns[way], start
         if plan.placed == 3:
-            p = _moved(slides[plan.order[2]], h3, o3, values[2], p)
+            p = _moved(slides[plan.order[2]], h3, o3, values[2], turns[2], p)
         if found.marks[1, way] & 1 << plan.order[1]:
             values[1] = seed[plan.order[1]]
-        p = _moved(slides[plan.order[1]], h2, o2, values[1], p)
+        p = _moved(slides[plan.order[1]], h2, o2, values[1], turns[1], p)
         if slides[plan.order[0]]:
             values[0] = dot(h1, minus(goal, p))
         elif dot(level, level) < _NO_ARM * _NO_ARM:
             values[0] = seed[plan.order[0]]
+            turns[0, 0], turns[0, 1] = turn_of(values[0])
             found.marks[1, way] |= 1 << plan.order[0]
         else:
-            values[0] = angle_onto(h1, minus(p, o1), reach)
+            turns[0, 0], turns[0, 1] = turn_onto(h1, minus(p, o1), reach)
+            values[0] = math.atan2(turns[0, 1], turns[0, 0])
     return ways
 
 
 @inlined
-def _moved(slides: int, h: Vector, o: Vector, q: float, p: Vector) -> Vector:
-    """Move a point by a joint along h, or about the line along h through o."""
+def _moved(slides: int, h: Vector, o: Vector, q: float, turn: Array, p: Vector) -> Vector:
+    """Move a point by a joint along h, or about the line along h through o; fill in its cosine and sine."""
     if slides:
         return plus(p, q, h)
-    return plus(o, 1.0, turned(h, q, minus(p, o)))
+    turn[0], turn[1] = turn_of(q)
+    return plus(o, 1.0, turned_by(h, (turn[0], turn[1]), minus(p, o)))
 
 
 @unmanaged
@@ -557,24 +571,27 @@ def _parallel(plan: SubproblemPlan, M: Motion, seed: Array, found: Candidates) -
     if plan.form == SKEW:
         f = _total(_total(product(c1, c1), 1.0, product(c2, c2)), -1.0, (1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
         for k in range(turns_of_quadratic(f, found.roots)):
-            basis = _basis(0, found.roots[k])
-            q5 = math.atan2(value(c2, basis), value(c1, basis))
-            count = _in_plane(plan, M, found.roots[k], q5, 0.0, k << ROOT_NUMBER, seed, found, count)
+            first = turn_of(found.roots[k])
+            basis = (1.0, first[0], first[1])
+            fifth = turn_of(math.atan2(value(c2, basis), value(c1, basis)))
+            count = _in_plane(plan, M, first, fifth, 0.0, k << ROOT_NUMBER, seed, found, count)
         return count
-    middle, half, good = turns_at(c1)
+    middle, half, good = directions_at(c1)
     if not good:
         return 0
-    for first in range(2):
-        q1 = middle + half if first else middle - half
-        w = value(c2, _basis(0, q1))
+    for one in range(2):
+        first = both(middle, half if one else back(half))
+        w = value(c2, (1.0, first[0], first[1]))
         if abs(w) > 1.0 + BEYOND:
             continue
         side = rest_of(1.0, w)
-        for second in range(2):
-            s = side if second else -side
-            q5 = math.atan2(w * y + s * x, w * x - s * y)
-            code = FIRST_ROOT * first + LAST_ROOT * second
-            count = _in_plane(plan, M, q1, q5, math.copysign(1.0, s * w), code, seed, found, count)
+        if side == 0.0:
+            w = math.copysign(1.0, w)
+        for other in range(2):
+            s = side if other else -side
+            fifth = w * x - s * y, w * y + s * x
+            code = FIRST_ROOT * one + LAST_ROOT * other
+            count = _in_plane(plan, M, first, fifth, math.copysign(1.0, s * w), code, seed, found, count)
     return count
 
 
@@ -582,8 +599,8 @@ def _parallel(plan: SubproblemPlan, M: Motion, seed: Array, found: Candidates) -
 def _in_plane(
     plan: SubproblemPlan,
     M: Motion,
-    q1: float,
-    q5: float,
+    first: Turn,
+    fifth: Turn,
     side: float,
     code: int,
     seed: Array,
@@ -592,29 +609,30 @@ def _in_plane(
 ) -> int:
     """Solve joint 6 from the image of h, and joints 2, 3 and 4 as a planar arm; return the new number of candidates.
 
-    q5 may be accurate only to half the digits; `side` is its side relative to where its two solutions meet, ±1, or 0 if
-    unknown.
+    `fifth`, the turn of joint 5, may be accurate only to half the digits; `side` is its side relative to where its two
+    solutions meet, ±1, or 0 if unknown.
     """
     h, h5, h6 = row(plan.axes, 1), row(plan.axes, 4), row(plan.axes, 5)
-    outwards = turned(row(plan.axes, 0), q1, h)
+    outwards = turned_by(row(plan.axes, 0), first, h)
     g = (
         M[0] * outwards[0] + M[3] * outwards[1] + M[6] * outwards[2],
         M[1] * outwards[0] + M[4] * outwards[1] + M[7] * outwards[2],
         M[2] * outwards[0] + M[5] * outwards[1] + M[8] * outwards[2],
     )
-    b, across, level = turned(h5, -q5, h), cross(h6, turned(h5, -q5, h)), cross(h6, g)
+    b = turned_by(h5, back(fifth), h)
+    across, level = cross(h6, b), cross(h6, g)
     if side != 0.0 and dot(across, across) < _NEARLY_FLAT * _NEARLY_FLAT:
         b = _by_lean(b, h5, h6, side, dot(level, level))
     told = dot(across, across) >= _FLAT * _FLAT or dot(level, level) >= _NO_ARM * _NO_ARM
     before = count
     if told:
-        q6 = angle_onto(h6, g, b)
-        count = _planar(plan, M, q1, angle_onto(h5, turned(h6, q6, g), h), q6, 0, code, seed, found, count)
+        sixth = turn_onto(h6, g, b)
+        count = _planar(plan, M, first, g, angle_of(sixth), sixth, 0, code, seed, found, count)
         if side != 0.0 or dot(level, level) >= _OF_DOUBLE_ROOT * _OF_DOUBLE_ROOT:
             return count
     if side == 0.0:
         found.doubtful[0] = 1
-    mean, swing, furthest = _reaches(plan, M, q1, q5)
+    mean, swing, furthest = _reaches(plan, M, first, fifth)
     for k in range(_TURNS_TRIED + 2):
         if count > before:
             break
@@ -623,13 +641,13 @@ def _in_plane(
         q6 = seed[5] + (k + 1) // 2 * (2.0 * math.pi / _TURNS_TRIED) * (1.0 if k % 2 else -1.0)
         if k >= _TURNS_TRIED:
             q6 = furthest + (math.pi if k == _TURNS_TRIED else 0.0)
-        count = _planar(plan, M, q1, angle_onto(h5, turned(h6, q6, g), h), q6, 1 << 5, code, seed, found, count)
+        count = _planar(plan, M, first, g, q6, turn_of(q6), 1 << 5, code, seed, found, count)
     for k in range(4 if side == 0.0 else 0):
         # The extreme angles that they reach, stretched and folded: joint 3 is singular there too.
         away = _span(plan, k < 2) ** 2 - mean
         if abs(away) <= swing and count < _MOST_BEFORE_LAST:
             q6 = furthest + (1.0 if k % 2 else -1.0) * math.acos(away / swing)
-            count = _planar(plan, M, q1, angle_onto(h5, turned(h6, q6, g), h), q6, 1 << 5, code, seed, found, count)
+            count = _planar(plan, M, first, g, q6, turn_of(q6), 1 << 5, code, seed, found, count)
     return count
 
 
@@ -642,15 +660,15 @@ def _span(plan: SubproblemPlan, stretched: bool) -> float:
 
 
 @unmanaged
-def _reaches(plan: SubproblemPlan, M: Motion, q1: float, q5: float) -> tuple[float, float, float]:
+def _reaches(plan: SubproblemPlan, M: Motion, first: Turn, fifth: Turn) -> tuple[float, float, float]:
     """Squared distance from joint 2 to joint 4 as a function of joint 6, if its axis is parallel to theirs.
 
     Return its mean and amplitude [m²], and the angle of joint 6 where it is largest [rad].
     """
-    h, o2, p5 = row(plan.axes, 1), row(plan.points, 1), _about(plan, 4, -q5, row(plan.points, 3))
+    h, o2, p5 = row(plan.axes, 1), row(plan.points, 1), _about(plan, 4, back(fifth), row(plan.points, 3))
     squares = (0.0, 0.0, 0.0)
     for k in range(3):
-        p4 = _about(plan, 0, -q1, _displaced(M, _about(plan, 5, -0.5 * math.pi * k, p5)))
+        p4 = _about(plan, 0, back(first), _displaced(M, _about(plan, 5, turn_of(-0.5 * math.pi * k), p5)))
         reach = _flattened(h, minus(p4, o2))
         squares = (squares[1], squares[2], dot(reach, reach))
     mean = 0.5 * (squares[0] + squares[2])
@@ -662,33 +680,37 @@ def _reaches(plan: SubproblemPlan, M: Motion, q1: float, q5: float) -> tuple[flo
 def _planar(
     plan: SubproblemPlan,
     M: Motion,
-    q1: float,
-    q5: float,
+    first: Turn,
+    g: Vector,
     q6: float,
+    sixth: Turn,
     lost: int,
     code: int,
     seed: Array,
     found: Candidates,
     count: int,
 ) -> int:
-    """Solve joints 2, 3 and 4 for given others, `lost` being the bits of their free ones; see `_in_plane`."""
+    """Solve joint 5 from the image g of h, then 2, 3 and 4; `lost` has the bits of the free joints; see `_in_plane`."""
     h, h1, h5, h6 = row(plan.axes, 1), row(plan.axes, 0), row(plan.axes, 4), row(plan.axes, 5)
     square = row(plan.lines, _SQUARE)
-    x = turned(h1, -q1, _rotated(M, turned(h6, -q6, turned(h5, -q5, square))))
+    fifth = turn_onto(h5, turned_by(h6, sixth, g), h)
+    x = turned_by(h1, back(first), _rotated(M, turned_by(h6, back(sixth), turned_by(h5, back(fifth), square))))
     theta = angle_onto(h, square, x)
     o2, o3, o4 = row(plan.points, 1), row(plan.points, 2), row(plan.points, 3)
-    p4 = _about(plan, 0, -q1, _displaced(M, _about(plan, 5, -q6, _about(plan, 4, -q5, o4))))
+    p4 = _about(plan, 0, back(first), _displaced(M, _about(plan, 5, back(sixth), _about(plan, 4, back(fifth), o4))))
     h3 = row(plan.axes, 2)
     arm, base, reach = _flattened(h, minus(o4, o3)), _flattened(h, minus(o3, o2)), _flattened(h, minus(p4, o2))
-    middle, half, good = turns_at(
+    middle, half, good = directions_at(
         (dot(base, base) + dot(arm, arm) - dot(reach, reach), 2.0 * dot(base, arm), 2.0 * dot(base, cross(h3, arm)))
     )
     if not good:
         return count
+    q1, q5 = angle_of(first), angle_of(fifth)
     for sign in range(2):
         values = found.values[count]
-        q3 = middle + half if sign else middle - half
-        u = plus(base, 1.0, turned(h3, q3, arm))
+        third = both(middle, half if sign else back(half))
+        q3 = angle_of(third)
+        u = plus(base, 1.0, turned_by(h3, third, arm))
         found.free[count] = lost
         if dot(reach, reach) < _NO_ARM * _NO_ARM:
             q2 = seed[1]
@@ -842,6 +864,7 @@ def elbow_angle(plan: SubproblemPlan, values: Array) -> float:
     elbow, wrist = row(plan.points, 3), row(plan.lines, _CENTRE)
     for k in range(4):
         i = 3 - k
-        elbow, wrist = _about(plan, i, values[i], elbow), _about(plan, i, values[i], wrist)
+        turn = turn_of(values[i])
+        elbow, wrist = _about(plan, i, turn, elbow), _about(plan, i, turn, wrist)
     n = _unit(minus(wrist, shoulder))
     return angle_onto(n, _where_zero(n, row(plan.axes, 0)), minus(elbow, shoulder))

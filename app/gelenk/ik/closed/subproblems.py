@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from gelenk.kinematics.simd.vectors import Vector, cross, dot
+from gelenk.kinematics.simd.vectors import Vector, cross, dot, plus, scaled
 from gelenk.robot.arrays import Array
 from gelenk.robot.compilation import inlined, unmanaged
 
@@ -19,6 +19,9 @@ Coefficients: TypeAlias = tuple[float, float, float]
 """A function of a joint: coefficients of 1, cos q, sin q for a revolute joint, of 1, q, q² for a prismatic one."""
 Quadratic: TypeAlias = tuple[float, float, float, float, float, float]
 """A product of two such functions: coefficients 00, 01, 02, 11, 12, 22."""
+
+Turn: TypeAlias = tuple[float, float]
+"""Cosine and sine of an angle, which cost less to find and to apply than the angle."""
 
 BEYOND = 1e-4
 """Largest residual, relative to the largest term, with which the nearest answer is still tried."""
@@ -37,6 +40,45 @@ def angle_onto(axis: Vector, a: Vector, b: Vector) -> float:
 
 
 @inlined
+def turn_onto(axis: Vector, a: Vector, b: Vector) -> Turn:
+    """Cosine and sine of `angle_onto`."""
+    u, w = cross(axis, a), cross(axis, b)
+    c, s = dot(u, w), dot(axis, cross(u, w))
+    length = math.sqrt(c * c + s * s)
+    return (c / length, s / length) if length > 0.0 else (1.0, 0.0)
+
+
+@inlined
+def turn_of(angle: float) -> Turn:
+    """Cosine and sine of an angle, [rad]."""
+    return math.cos(angle), math.sin(angle)
+
+
+@inlined
+def angle_of(turn: Turn) -> float:
+    """Angle of a turn, [rad]."""
+    return math.atan2(turn[1], turn[0])
+
+
+@inlined
+def back(turn: Turn) -> Turn:
+    """Reverse a turn."""
+    return turn[0], -turn[1]
+
+
+@inlined
+def both(a: Turn, b: Turn) -> Turn:
+    """Turn by two angles."""
+    return a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]
+
+
+@inlined
+def turned_by(axis: Vector, turn: Turn, a: Vector) -> Vector:
+    """Rotate a vector about a unit axis, as `turned` does by an angle."""
+    return plus(plus(scaled(turn[0], a), (1.0 - turn[0]) * dot(axis, a), axis), turn[1], cross(axis, a))
+
+
+@inlined
 def rest_of(length: float, part: float) -> float:
     """Other side of a right triangle, √(length² - part²), to the accuracy of length - part.
 
@@ -49,12 +91,21 @@ def rest_of(length: float, part: float) -> float:
 @inlined
 def turns_at(g: Coefficients) -> tuple[float, float, bool]:
     """Solve g₀ + g₁ cos q + g₂ sin q = 0; return midpoint and half-distance of the angles, and whether to try them."""
+    middle, half, good = directions_at(g)
+    return angle_of(middle), angle_of(half), good
+
+
+@inlined
+def directions_at(g: Coefficients) -> tuple[Turn, Turn, bool]:
+    """Solve as `turns_at`, for cosines and sines."""
     length = math.hypot(g[1], g[2])
     if length <= 1e-12 * abs(g[0]) or length < 1e-14:
-        return 0.0, 0.0, False
+        return (1.0, 0.0), (1.0, 0.0), False
     cosine = -g[0] / length
-    good = abs(cosine) <= 1.0 + BEYOND
-    return math.atan2(g[2], g[1]), math.atan2(rest_of(1.0, cosine), cosine), good
+    sine = rest_of(1.0, cosine)
+    if sine == 0.0:
+        cosine = math.copysign(1.0, cosine)
+    return (g[1] / length, g[2] / length), (cosine, sine), abs(g[0]) <= (1.0 + BEYOND) * length
 
 
 @inlined
