@@ -104,8 +104,7 @@ class SceneObject(Payload):
     touch_links: list[FrameName] = Field(
         default_factory=list,
         max_length=256,
-        description="Links that may touch it. The link it is attached to may, and so may links that never move if it "
-        "is at rest.",
+        description="Links that may touch it. Those that the chain does not move relative to it may in any case.",
     )
     clearance: float = Field(
         default=0.0, ge=0.0, le=MAX_SIZE, description="What comes nearer to it than this counts as in contact, [m]."

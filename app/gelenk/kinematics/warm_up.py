@@ -8,6 +8,10 @@ from multiprocessing import get_context
 
 import numpy as np
 
+from gelenk.collision.contact.kernels import all_contacts, first_contacts, nearest_pairs, pair_distances
+from gelenk.collision.contact.world import build_world
+from gelenk.collision.robot_bodies import RobotBodies
+from gelenk.collision.scene import Obstacle, solid
 from gelenk.dh.tables.convert import describe_dh
 from gelenk.ik.closed.closed_form import closed_form
 from gelenk.ik.closed.nearest_branch import nearest_branch
@@ -141,6 +145,19 @@ def _motions() -> None:
     regular(chain.flat, qs, 0.0)
 
 
+def _contacts() -> None:
+    """Find the contacts of an arm with a ball on its tip."""
+    robot, chain, qs = _small_arm()
+    held = (solid("held", chain.tip_frame, "sphere", (0.1,), np.eye(4)),)
+    near = (solid("near", chain.base_frame, "sphere", (0.1,), np.eye(4)),)
+    scene = Obstacle("held", held, chain.tip_frame), Obstacle("near", near)
+    world = build_world(robot, chain, RobotBodies((), (), ()), scene).flat
+    first_contacts(world, qs)
+    nearest_pairs(world, qs)
+    pair_distances(world, qs, np.zeros(1, dtype=np.int64))
+    all_contacts(world, qs[0])
+
+
 def _answers() -> None:
     robot, chain, qs = _small_arm()
     poses, start = forward_kinematics(robot, chain, qs).poses, mid_range(chain)[None]
@@ -150,7 +167,7 @@ def _answers() -> None:
     inverse_kinematics(robot, chain, forward_kinematics(robot, chain, qs).poses, qs, Options(every=True))
 
 
-PARTS = (_closed_forms, _searches, _motions)
+PARTS = (_closed_forms, _searches, _motions, _contacts)
 """Parts that separate processes can compile after `basics`; the rest takes seconds."""
 
 if __name__ == "__main__" and not is_stored():

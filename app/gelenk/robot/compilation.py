@@ -19,7 +19,7 @@ from platformdirs import user_cache_path
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _KERNEL = re.compile(rb"^@(compiled|unmanaged|inlined)$", re.MULTILINE)
-_ROOMS = ("robot", "kinematics", "ik", "trajectory")
+_ROOMS = ("robot", "kinematics", "collision", "ik", "trajectory")
 """Where kernels are."""
 _IMPORT = re.compile(rb"^\s*from gelenk\.([\w.]+) import", re.MULTILINE)
 

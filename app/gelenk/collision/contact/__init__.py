@@ -1,0 +1,7 @@
+"""Contacts and distances of a robot's pieces and those around it.
+
+- `world`: robot and scene together, with the `nodes` that carry the pieces; `flat`: the same as arrays.
+- `kernels`: contacts of many configurations. `pair` decides about two pieces, by `gjk` while they are apart, by
+  `penetration` in contact.
+- `judge`: the same by Pinocchio and Coal; `words`: its certificate.
+"""

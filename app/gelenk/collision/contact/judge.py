@@ -1,0 +1,193 @@
+"""The same contacts a second way: poses by Pinocchio, pieces by Coal.
+
+Nothing here is shared with the kernels but the pieces themselves. A verdict that differs by more than the tolerance
+explains is never sent.
+"""
+
+from functools import lru_cache
+
+import coal
+import numpy as np
+import pinocchio as pin
+
+from gelenk.collision.bodies import Body
+from gelenk.collision.contact.nodes import joint_position
+from gelenk.collision.contact.words import ContactCertificate
+from gelenk.collision.contact.world import World
+from gelenk.errors import CertificationFailed
+from gelenk.kinematics.judge.judge import sampled_rows
+from gelenk.robot.arrays import Array, Flags, Indices
+from gelenk.robot.description import MOVABLE
+
+TOLERANCE = 1e-6
+"""Allowed difference of a distance, [m]."""
+_GJK_TOLERANCE = 1e-9
+_MOST_STEPS = 500
+_FAR = 1e9
+
+
+class Judge:
+    """Coal's pieces of a world, and Pinocchio's poses of them."""
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self.shapes = [_shape(body) for body in world.bodies]
+        self._boxes = np.array([_local_box(shape) for shape in self.shapes]).reshape(-1, 6)
+        self._first, self._second = world.flat.pairs.T
+        self._unsigned, self._signed = _request(False), _request(True)
+
+    def poses(self, q: Array) -> list[pin.SE3]:
+        """Return the poses of all pieces in the root at a configuration of the chain."""
+        robot = self._world.robot
+        with robot.lock:
+            pin.forwardKinematics(robot.model, robot.data, self.whole(q))
+            links = {
+                link: pin.updateFramePlacement(robot.model, robot.data, robot.frame_id(link)).copy()
+                for link in {body.link for body in self._world.bodies}
+            }
+        return [links[body.link] * pin.SE3(body.T_link_body) for body in self._world.bodies]
+
+    def whole(self, q: Array) -> Array:
+        """Return Pinocchio's configuration: the chain's joints, and all others where the world has them."""
+        robot, chain = self._world.robot, self._world.chain
+        values = {**self._world.others, **dict(zip(chain.joint_names, q.tolist(), strict=True))}
+        whole = np.zeros(robot.model.nq)
+        for joint in robot.description.joints:
+            if joint.type in MOVABLE:
+                frame = robot.model.frames[robot.frame_id(joint.child)]
+                position = joint_position(robot.description.drives[joint.name], values)
+                whole[robot.model.joints[frame.parentJoint].idx_q] = position
+        return whole
+
+    def distance(self, poses: list[pin.SE3], k: int, is_signed: bool = False, shift: Array | None = None) -> float:
+        """Return the distance of the k-th pair, [m], its second piece perhaps shifted in the root.
+
+        In contact it is at most 0, the depth only if it is signed: Coal then needs twenty times as long.
+        """
+        a, b = self._first[k], self._second[k]
+        place = coal.Transform3s(poses[b].rotation, poses[b].translation + (0.0 if shift is None else shift))
+        request, result = self._signed if is_signed else self._unsigned, coal.DistanceResult()
+        own = coal.Transform3s(poses[a].rotation, poses[a].translation)
+        return float(coal.distance(self.shapes[a], own, self.shapes[b], place, request, result))
+
+    def least_slack(self, poses: list[pin.SE3], most: float, is_signed: bool = False) -> tuple[float, int]:
+        """Return the smallest distance less its margin, of those up to `most`, and the number of pairs compared."""
+        near = np.flatnonzero(self._gaps(poses) - self._world.flat.margins <= most)
+        margins = self._world.flat.margins
+        return min((self.distance(poses, int(k), is_signed) - float(margins[k]) for k in near), default=np.inf), len(
+            near
+        )
+
+    def _gaps(self, poses: list[pin.SE3]) -> Array:
+        """Return lower bounds of the distances of all pairs: of boxes along the axes of the root."""
+        if not poses:
+            return np.zeros(0)
+        Rs = np.array([pose.rotation for pose in poses])
+        centres = np.einsum("bij,bj->bi", Rs, self._boxes[:, :3]) + [pose.translation for pose in poses]
+        halves = np.einsum("bij,bj->bi", np.abs(Rs), self._boxes[:, 3:])
+        apart = np.abs(centres[self._first] - centres[self._second]) - halves[self._first] - halves[self._second]
+        return np.asarray(apart.max(axis=1, initial=-np.inf))
+
+
+_judge = lru_cache(16)(Judge)
+
+
+def certify_contacts(world: World, qs: Array, touching: Flags, seed: int = 0) -> ContactCertificate:
+    """Compare verdicts with Coal's: all of a few, a sample of many; raises CertificationFailed.
+
+    Args:
+        world: The robot and its scene.
+        qs: Configurations of the chain; shape (N, n), [rad or m].
+        touching: Whether each was found to be in contact; shape (N,).
+        seed: Seed of the choice.
+    """
+    tally, rows = _Tally(_judge(world)), sampled_rows(len(qs), seed)
+    for row in rows:
+        tally.count(tally.judge.poses(qs[row]), bool(touching[row]), TOLERANCE)
+    return tally.certificate(len(rows), seed)
+
+
+def certify_clearances(
+    world: World, qs: Array, slacks: Array, pairs: Indices, points: Array, seed: int = 0
+) -> ContactCertificate:
+    """Compare what `nearest_pairs` returns with Coal's; raises CertificationFailed.
+
+    Of configurations in contact, Coal checks that the stated displacement takes the stated pair apart.
+    """
+    judge = _judge(world)
+    tally, rows = _Tally(judge), sampled_rows(len(qs), seed)
+    for row in rows:
+        poses, slack = judge.poses(qs[row]), float(slacks[row])
+        least = tally.count(poses, slack <= 0.0, max(slack, 0.0) + 2.0 * TOLERANCE)
+        if slack > 0.0:
+            tally.add(least - slack if np.isfinite(slack) or np.isfinite(least) else 0.0)
+        elif slack + world.flat.margins[pairs[row]] < 0.0:
+            shift = points[row, :3] - points[row, 3:]
+            tally.add(min(judge.distance(poses, int(pairs[row]), True, shift), 0.0))
+    return tally.certificate(len(rows), seed)
+
+
+class _Tally:
+    """What a certificate says, so far."""
+
+    def __init__(self, judge: Judge) -> None:
+        self.judge = judge
+        self.pairs = self.touching = 0
+        self.error = 0.0
+
+    def count(self, poses: list[pin.SE3], is_contact: bool, most: float) -> float:
+        """Count a verdict, and return Coal's slack up to `most`; raises CertificationFailed if it contradicts."""
+        slack, compared = self.judge.least_slack(poses, most)
+        self.pairs += compared
+        if (slack <= 0.0) != is_contact:
+            slack, _ = self.judge.least_slack(poses, most, is_signed=True)
+        if (slack <= 0.0) != is_contact:
+            self.touching += 1
+            if not abs(slack) <= TOLERANCE:
+                raise CertificationFailed("a contact", abs(slack), TOLERANCE)
+        return slack
+
+    def add(self, difference: float) -> None:
+        """Count a difference of distances; raises CertificationFailed if it is too large."""
+        self.error = max(self.error, abs(difference))
+        if not abs(difference) <= TOLERANCE:
+            raise CertificationFailed("a distance", abs(difference), TOLERANCE)
+
+    def certificate(self, samples: int, seed: int) -> ContactCertificate:
+        """Return the certificate of all that was counted."""
+        return ContactCertificate(samples, self.pairs, self.error, self.touching, TOLERANCE, seed)
+
+
+def _request(is_signed: bool) -> coal.DistanceRequest:
+    request = coal.DistanceRequest()
+    request.enable_signed_distance = is_signed
+    request.gjk_tolerance = request.epa_tolerance = _GJK_TOLERANCE
+    request.gjk_max_iterations = request.epa_max_iterations = _MOST_STEPS
+    return request
+
+
+def _local_box(shape: coal.CollisionGeometry) -> Array:
+    """Return centre and half sizes of Coal's box around a shape; a half-space has none, and so is never left out."""
+    if isinstance(shape, coal.Halfspace):
+        return np.array([0.0, 0.0, 0.0, _FAR, _FAR, _FAR])
+    shape.computeLocalAABB()
+    low, high = np.ravel(shape.aabb_local.min_), np.ravel(shape.aabb_local.max_)
+    return np.concatenate((0.5 * (low + high), 0.5 * (high - low)))
+
+
+def _shape(body: Body) -> coal.CollisionGeometry:
+    match body.kind:
+        case "sphere":
+            return coal.Sphere(*body.size)
+        case "capsule":
+            return coal.Capsule(*body.size)
+        case "cylinder":
+            return coal.Cylinder(*body.size)
+        case "box":
+            return coal.Box(*body.size)
+        case "half_space":
+            return coal.Halfspace(np.array([0.0, 0.0, 1.0]), 0.0)
+        case _:
+            points = coal.StdVec_Vec3s()
+            points.extend(list(body.points))
+            return coal.Convex.convexHull(points, True, "Qt")

@@ -1,0 +1,27 @@
+"""The certificate of contacts, without the code that computes it."""
+
+from dataclasses import dataclass
+
+from gelenk.robot.result import Result
+
+
+@dataclass(frozen=True, slots=True)
+class ContactCertificate(Result):
+    """Differences of these contacts from those computed through Pinocchio and Coal.
+
+    Attributes:
+        samples: Configurations that were recomputed: all of a small batch.
+        pairs: Pairs of pieces that were compared there.
+        max_distance_error: Largest difference of a distance, [m]; in contact, of what is left after the stated
+            displacement.
+        touching: Samples with another verdict, but within `tolerance` of touching, so that either is right.
+        tolerance: Allowed difference, [m].
+        seed: Random seed of the sampling.
+    """
+
+    samples: int
+    pairs: int
+    max_distance_error: float
+    touching: int
+    tolerance: float
+    seed: int
