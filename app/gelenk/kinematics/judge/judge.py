@@ -10,7 +10,7 @@ import numpy as np
 import pinocchio as pin
 
 from gelenk.errors import CertificationFailed
-from gelenk.kinematics.judge.placements import relative_poses, walk_to
+from gelenk.kinematics.judge.placements import expanded, relative_poses, walk_to
 from gelenk.kinematics.judge.words import JacobianCertificate, PoseCertificate, Reference, View
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -128,31 +128,31 @@ def recomputed_poses(robot: RobotModel, chain: Chain, qs: Array) -> Poses:
 
     Pinocchio's own poses must agree: all of a few, a sample of many. Raises CertificationFailed.
     """
-    expansion = robot.expansion(chain)
-    full_qs = expansion.offset + qs @ expansion.matrix.T
     walks = walk_to(robot, chain.base_frame), walk_to(robot, chain.tip_frame)
-    found, rows = Poses(*relative_poses(*walks, full_qs)), sampled_rows(len(qs))
-    exact = pinocchio_poses(robot, chain, chain.tip_frame, qs, rows)
-    agreed("a position", exact.positions - found.positions[rows], largest(exact.positions))
-    agreed("an orientation", exact.rotations - found.rotations[rows], 1.0)
+    found = Poses(*relative_poses(*walks, _expanded(robot, chain, qs)))
+    certify_poses(robot, chain, qs, {chain.tip_frame: found})
     return found
 
 
 def pinocchio_poses(robot: RobotModel, chain: Chain, frame: str, qs: Array, rows: Sequence[int]) -> Poses:
     """Compute T_base_frame through Pinocchio at the configurations with the given row numbers."""
-    model, data, lock = robot.model, robot.data, robot.lock
-    expansion = robot.expansion(chain)
-    base, tip = robot.frame_id(chain.base_frame), robot.frame_id(frame)
-    full_qs = expansion.offset + (qs if len(rows) == len(qs) else qs[rows]) @ expansion.matrix.T
-    found = np.empty((len(rows), 4, 4))
-    for k, q in enumerate(full_qs):
-        with lock:
-            pin.forwardKinematics(model, data, q)
+    model, data, tip = robot.model, robot.data, robot.frame_id(frame)
+    base = None if chain.base_frame == robot.description.root else robot.frame_id(chain.base_frame)
+    full_qs = _expanded(robot, chain, qs if len(rows) == len(qs) else qs[rows])
+    positions, rotations = np.empty((len(rows), 3)), np.empty((len(rows), 3, 3))
+    for k in range(len(rows)):
+        with robot.lock:
+            pin.forwardKinematics(model, data, full_qs[k])
             T_base_frame = pin.updateFramePlacement(model, data, tip)
-            if chain.base_frame != robot.description.root:
+            if base is not None:
                 T_base_frame = pin.updateFramePlacement(model, data, base).actInv(T_base_frame)
-            found[k] = T_base_frame.homogeneous
-    return Poses(found[:, :3, 3].copy(), found[:, :3, :3].copy())
+            positions[k], rotations[k] = T_base_frame.translation, T_base_frame.rotation
+    return Poses(positions, rotations)
+
+
+def _expanded(robot: RobotModel, chain: Chain, qs: Array) -> Array:
+    expansion = robot.expansion(chain)
+    return expanded(expansion.offset, expansion.matrix, np.ascontiguousarray(qs))
 
 
 def pinocchio_jacobian(robot: RobotModel, chain: Chain, q: Array, reference: Reference) -> Array:

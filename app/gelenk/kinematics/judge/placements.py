@@ -43,6 +43,22 @@ def walk_to(robot: RobotModel, frame: str) -> Array:
 
 
 @compiled
+def expanded(offset: Array, matrix: Array, qs: Array) -> Array:
+    """Map configurations of a chain, (N, n), to Pinocchio's: offset + matrix q; shape (N, nq).
+
+    For a few numbers NumPy takes longer to prepare a product of matrices than to compute it.
+    """
+    full_qs = np.empty((len(qs), len(offset)))
+    for i in range(len(qs)):
+        for j in range(len(offset)):
+            value = offset[j]
+            for k in range(qs.shape[1]):
+                value += matrix[j, k] * qs[i, k]
+            full_qs[i, j] = value
+    return full_qs
+
+
+@compiled
 def relative_poses(base: Array, tip: Array, full_qs: Array) -> tuple[Array, Array]:
     """Compute T_base_tip at Pinocchio's configurations, (N, nq): positions, (N, 3), [m], and rotations, (N, 3, 3)."""
     positions, rotations = np.empty((len(full_qs), 3)), np.empty((len(full_qs), 3, 3))
