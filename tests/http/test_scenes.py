@@ -4,16 +4,21 @@ import io
 import json
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
+from gelenk.contract.common import Payload
 from gelenk.contract.endpoint import Scope
-from gelenk.contract.scene import EXAMPLE_SCENE, SceneInfo, SceneList
+from gelenk.contract.scene import EXAMPLE_SCENE, Scene, SceneInfo, SceneList, SceneOrName
+from gelenk.errors import UnknownScene
+from gelenk.http import dispatch
 from gelenk.http.access.keyring import new_key
-from gelenk.store.scenes import Scenes
+from gelenk.http.workers.task import TaskRequest, buffers
+from gelenk.store.scenes import Scenes, SceneUpload
 from tests.http.test_quotas import served
 
 BALL = {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}}
@@ -161,3 +166,30 @@ def test_each_key_has_its_own_room_and_a_restart_forgets_nothing(tmp_path: Path)
         assert status(client, "POST", "anna2", "anna") == 201
     lines = (tmp_path / "audit" / "audit.jsonl").read_text().splitlines()
     assert {"add_scene", "replace_scene"} <= {json.loads(line)["operation"] for line in lines}
+
+
+class Call(Payload):
+    """A request that may name a scene."""
+
+    scene: SceneOrName | None = None
+
+
+@pytest.mark.parametrize("body", [b'{"scene": "cell"}', b'{"scene": {"objects": []}}', b"{}"])
+def test_a_worker_gets_the_scene_that_a_call_names(tmp_path: Path, body: bytes) -> None:
+    context, endpoint = (
+        SimpleNamespace(scenes=Scenes(tmp_path)),
+        SimpleNamespace(request=Call, options=None, robot_field=""),
+    )
+    given = Call.model_validate_json(body)
+    assert dispatch._names_scene(given) == (body == b'{"scene": "cell"}')
+    request = TaskRequest(buffers([body]))
+    if dispatch._names_scene(given):
+        with pytest.raises(UnknownScene):
+            dispatch._robot_and_call(cast(Any, context), cast(Any, endpoint), request)
+        stored = Scene.model_validate({"objects": [SHELF]})
+        context.scenes.add(SceneUpload("cell", stored, {"shelf.stl": b"solid"}))
+    _, call = dispatch._robot_and_call(cast(Any, context), cast(Any, endpoint), request)
+    if dispatch._names_scene(given):
+        assert (call.scene.files, call.scene.read("shelf.stl")) == (("shelf.stl",), b"solid")
+    else:
+        assert call == given

@@ -24,7 +24,7 @@ from gelenk.errors import (
 )
 from gelenk.store import folders
 from gelenk.store.quota import Quota
-from gelenk.store.scenes import Scenes, SceneUpload, scene_of
+from gelenk.store.scenes import Scenes, SceneUpload
 
 KILLS = 4
 
@@ -106,8 +106,7 @@ def test_files_and_objects_fit_together(scenes: Scenes) -> None:
 def test_a_scene_of_a_call_has_no_files(scenes: Scenes) -> None:
     scenes.add(upload("cell", mesh("a.stl"), a_stl=b"solid"))
     inline = Scene.model_validate({"objects": [mesh("a.stl")]})
-    assert scene_of(scenes, "cell").read("a.stl") == b"solid"
-    assert scene_of(scenes, inline) is inline
+    assert scenes.get("cell").read("a.stl") == b"solid"
     with pytest.raises(InvalidField, match="store the scene with its files"):
         inline.read("a.stl")
 

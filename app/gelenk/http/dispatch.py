@@ -46,7 +46,6 @@ from gelenk.jobs.runner import Runner
 from gelenk.operations.operation import Operation, operation
 from gelenk.operations.outcome import Limits, Outcome, PictureFormat
 from gelenk.operations.request_counts import REQUEST_COUNTS, RequestCounts
-from gelenk.store.library import Library
 from gelenk.store.records import LoadedRobot
 
 _PICTURES: dict[str, PictureFormat] = {SVG: "svg", PNG: "png"}
@@ -62,20 +61,20 @@ FormatQuery = Annotated[
 def answer(context: Context, task_request: TaskRequest) -> Response:
     """Answer any request, in a worker, however long it takes."""
     found = operation(task_request.endpoint)
-    robot, call = _robot_and_call(context.library, found.endpoint, task_request)
+    robot, call = _robot_and_call(context, found.endpoint, task_request)
     return _answered(found.endpoint, call, found.run(robot, call, context.limits), task_request.wanted)
 
 
 def plan_job(context: Context, task_request: TaskRequest) -> Response:
     """Check the request for a job, and return the files that the job is computed from, packed into one."""
-    robot, call = _robot_and_call(context.library, BY_NAME[task_request.endpoint], task_request)
+    robot, call = _robot_and_call(context, BY_NAME[task_request.endpoint], task_request)
     return Response(LONG_WORK[task_request.endpoint].planned(cast(LoadedRobot, robot), call, context.limits))
 
 
 def find(context: Context, task_request: TaskRequest) -> Response:
     """Find what has to be known about a robot before requests of this kind are fast, and return it pickled."""
     warm_up = operation(task_request.endpoint).warm_up
-    robot, call = _robot_and_call(context.library, BY_NAME[task_request.endpoint], task_request)
+    robot, call = _robot_and_call(context, BY_NAME[task_request.endpoint], task_request)
     return Response(b"" if warm_up is None else pickle.dumps(warm_up.find(cast(LoadedRobot, robot), call)))
 
 
@@ -109,7 +108,7 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
             return await submitted(runner, endpoint.name, request, planned, pieces, applied)
         if request.length <= INLINE_BYTES and pool_client.may_compute_here:
             call, found = _parsed(endpoint, query, b"".join(pieces), is_npy), operation(endpoint.name)
-            if wanted not in _PICTURES and not found.is_heavy(call):
+            if not (wanted in _PICTURES or _names_scene(call) or found.is_heavy(call)):
                 robot = await _prepared(found, pool_client, request, call, task_request)
                 began = time.thread_time()
                 outcome = found.run(None, call, limits) if robot is None else found.attempt(robot, call, limits)
@@ -172,13 +171,21 @@ def route(endpoint: Endpoint[Any, Any], handle: Handler, max_body_bytes: int) ->
 
 
 def _robot_and_call(
-    library: Library, endpoint: Endpoint[Any, Any], task_request: TaskRequest
+    context: Context, endpoint: Endpoint[Any, Any], task_request: TaskRequest
 ) -> tuple[LoadedRobot | None, Any]:
-    robot = library.get(task_request.robot) if task_request.robot else None
+    """Return the robot of a request and its call, which has the scene itself where it named a stored one."""
+    robot = context.library.get(task_request.robot) if task_request.robot else None
     call = _parsed(endpoint, task_request.query, task_request.body, task_request.npy)
     if endpoint.robot_field and (name := getattr(call, endpoint.robot_field)) is not None:
-        robot = library.get(name)
+        robot = context.library.get(name)
+    if _names_scene(call):
+        call = call.model_copy(update={"scene": context.scenes.get(call.scene)})
     return robot, call
+
+
+def _names_scene(call: Any) -> bool:
+    """Check whether a call names a stored scene; a worker answers it, because scenes are read from disk."""
+    return isinstance(getattr(call, "scene", None), str)
 
 
 def _parsed(endpoint: Endpoint[Any, Any], query: str, body: bytes, npy: bool) -> Any:

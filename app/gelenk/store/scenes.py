@@ -27,8 +27,8 @@ from gelenk.store.records import Stamp, stamp_of
 _DOCUMENT = "scene.json"
 _SUFFIX = ".zip"
 _BROKEN = (zipfile.BadZipFile, ValueError, TypeError, KeyError, NotImplementedError)
-QUICK_BYTES = 64 * 1024
-"""Largest scene, files apart, that an event loop reads; that takes a millisecond."""
+_KEPT_BYTES = 64 * 1024
+"""Largest file that stays open and parsed until it changes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,12 +80,7 @@ class Scenes:
     def get(self, name: str) -> StoredScene:
         """Return a scene; raises UnknownScene, or InvalidSceneFile if somebody else has written its file."""
         path, stamp = self._found(name)
-        return _kept(path, stamp) if stamp[2] <= QUICK_BYTES else _opened(path)
-
-    def is_quick(self, name: str) -> bool:
-        """Return whether `get` takes no longer than an event loop may."""
-        stamp = stamp_of(self._path(name))
-        return stamp is None or stamp[2] <= QUICK_BYTES
+        return _kept(path, stamp) if stamp[2] <= _KEPT_BYTES else _opened(path)
 
     def document(self, name: str) -> tuple[bytes, list[SceneFile]]:
         """Return a scene as JSON, the object that has its `objects`, and its files; raises as `get`."""
@@ -174,11 +169,6 @@ class Scenes:
         if stamp is None:
             raise UnknownScene(name, tuple(difflib.get_close_matches(name[:64], self._names(), n=3)))
         return path, stamp
-
-
-def scene_of(scenes: Scenes, scene: Scene | str) -> Scene:
-    """Return the scene of a call, which names a stored one or brings its own; raises as `Scenes.get`."""
-    return scenes.get(scene) if isinstance(scene, str) else scene
 
 
 @lru_cache(maxsize=64)
