@@ -28,7 +28,8 @@ from gelenk.trajectory.audit.pieces import Pieces
 _SWEEPS = 12
 _ORTHOGONAL = 1e-12
 """Cosine of two vectors that count as orthogonal."""
-_TINY = 1e-300
+_TINY = 1e-150
+"""Keeps two zero vectors as they are; its square is still a double."""
 
 Triple: TypeAlias = tuple[Lanes, Lanes, Lanes]
 
@@ -185,9 +186,8 @@ def _make_orthogonal(vectors: Array, a: int, b: int, length: int) -> int:
     if askew:
         half = 0.5 * (bb - aa)
         size = abs_lanes(half) + sqrt_lanes(half * half + ab * ab) + _TINY
-        t = where(half >= 0.0, ab, -ab) / size
-        c = 1.0 / sqrt_lanes(1.0 + t * t)
-        s = c * t
+        per_length = 1.0 / sqrt_lanes(size * size + ab * ab)
+        c, s = size * per_length, where(half >= 0.0, ab, -ab) * per_length
         for k in range(length):
             x, y = load(vectors, a + k), load(vectors, b + k)
             store(vectors, a + k, c * x - s * y)
