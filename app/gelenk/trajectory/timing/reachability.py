@@ -20,6 +20,8 @@ _NO_WEIGHT = 1e-12
 """α of a row, as a fraction of the largest in its interval, below which the row does not bound u."""
 _UNBOUNDED = 1e30
 _MOST_STEPS = 100
+_ALL = (1 << LANES) - 1
+"""A mask that is true in every lane."""
 
 
 class Further(NamedTuple):
@@ -151,15 +153,17 @@ def _store_line(block: _Block, k: int, offset: Lanes, slope: Lanes) -> None:
 @inlined
 def _store_lines(block: _Block, rows: int) -> Lanes:
     """Replace α and β by lines; return the largest x that the rows without α allow."""
-    square, weight, highest = load(block.values, _SQUARE), lanes(0.0), lanes(_UNBOUNDED)
+    slower, weight, highest = 1.0 / load(block.values, _SQUARE), lanes(0.0), lanes(_UNBOUNDED)
     for k in range(rows):
         weight = max_lanes(weight, abs_lanes(load(block.alpha, k)))
     for k in range(rows):
         a, b = load(block.alpha, k), load(block.beta, k)
         bounds = abs_lanes(a) > _NO_WEIGHT * weight
-        highest = where(bounds, highest, where(b > 0.0, min_lanes(1.0 / (square * b), highest), highest))
-        store(block.alpha, k, where(bounds, 1.0 / (square * a), 0.0))
-        store(block.beta, k, where(bounds, -b / a, 0.0))
+        if bits(bounds) != _ALL:
+            highest = where(bounds, highest, where(b > 0.0, min_lanes(slower / b, highest), highest))
+        inverse = where(bounds, 1.0 / a, 0.0)
+        store(block.alpha, k, slower * inverse)
+        store(block.beta, k, -b * inverse)
     return highest
 
 
