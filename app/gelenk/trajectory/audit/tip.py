@@ -110,7 +110,8 @@ def path_peaks(pieces: Pieces, chain: Chain, path: PathOfTime, task: Task = FULL
         if task != FULL_POSE:
             return np.nan_to_num(np.column_stack(tuple(task.errors(wanted, poses))), nan=np.inf)
         goals = np.ascontiguousarray(wanted.positions), np.ascontiguousarray(wanted.rotations)
-        return deviations(poses.positions, poses.rotations, *goals)
+        found: Array = deviations(poses.positions, poses.rotations, *goals)
+        return found
 
     piece, tau, inner = grid(pieces, MIN_SAMPLES, 2)
     found = between(tau, piece, inner, off, np.full(2, _ROUNDING))

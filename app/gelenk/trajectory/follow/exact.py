@@ -113,7 +113,9 @@ def _with_exact_knots(field: RateField, positions: PiecewisePolynomial, parts: I
     coefficients = hermite_pieces(starts, ends, lengths)
     hull = bernstein(coefficients * lengths[:, None, None] ** np.arange(coefficients.shape[1])[:, None])
     beyond = (hull < field.chain.lower - SLACK) | (hull > field.chain.upper + SLACK)
-    unchanged = np.isin(piece, piece[beyond.any(axis=(1, 2))])
+    is_beyond = np.zeros(len(parts), dtype=bool)
+    is_beyond[piece[beyond.any(axis=(1, 2))]] = True
+    unchanged = is_beyond[piece]
     coefficients[unchanged] = own[unchanged]
     return PiecewisePolynomial(breaks, coefficients)
 
