@@ -108,7 +108,8 @@ def path_peaks(pieces: Pieces, chain: Chain, path: PathOfTime, task: Task = FULL
         poses = Poses(*chain_poses(chain.flat, values_at(pieces, piece, tau, 0)))
         wanted = path(pieces.times(piece, tau))
         if task != FULL_POSE:
-            return np.nan_to_num(np.column_stack(tuple(task.errors(wanted, poses))), nan=np.inf)
+            errors = task.errors(wanted, poses).T
+            return np.ascontiguousarray(np.where(np.isnan(errors), np.inf, errors))
         goals = np.ascontiguousarray(wanted.positions), np.ascontiguousarray(wanted.rotations)
         found: Array = deviations(poses.positions, poses.rotations, *goals)
         return found
