@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from gelenk.contract.ik import MAX_JOB_STEPWISE, MAX_JOB_TARGETS, MAX_TRACE, InverseRequest
 from gelenk.errors import InvalidField
 from gelenk.http.jobs.long_work import AS_SENT, HEADERS, LongWork, as_bytes, headers_file, npy_file
-from gelenk.http.messages.payloads import JSON, NPY, read_json
+from gelenk.http.messages.payloads import NPY, read_json
 from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.solve import solve
 from gelenk.jobs.parts import packed, unpacked
