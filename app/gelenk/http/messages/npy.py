@@ -34,9 +34,9 @@ _NUMBERS = re.compile(r"""['"]([<>=|]?(?:f[248]|[iu][1248]))['"]""", re.ASCII)
 
 def npy_response(array: Array, headers: dict[str, str]) -> Response:
     """Return an array as an npy response."""
-    buffer = BytesIO()
-    np.lib.format.write_array(buffer, np.ascontiguousarray(array), allow_pickle=False)
-    return Response(buffer.getvalue(), headers=headers, media_type=NPY)
+    head, rows = BytesIO(), np.ascontiguousarray(array)
+    np.lib.format.write_array_header_1_0(head, np.lib.format.header_data_from_array_1_0(rows))
+    return Response(b"".join((head.getvalue(), rows.data)), headers=headers, media_type=NPY)
 
 
 def read_npy(body: bytes) -> Array:
