@@ -33,6 +33,7 @@ from gelenk.http.messages import openapi, problems
 from gelenk.http.messages.payloads import Bodies
 from gelenk.http.messages.routes import Application
 from gelenk.http.pictures import pictures_router
+from gelenk.http.robots.pairs import pair_routes
 from gelenk.http.robots.robots import documented_routes, robots_router
 from gelenk.http.scenes import scene_routes, scenes_router
 from gelenk.http.service import Readiness, service_router
@@ -133,7 +134,12 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         if isinstance(endpoint, RobotEndpoint):
             app.operations[endpoint.name] = route
     app.router.routes.extend(
-        [*documented_routes(pool_client, size), *scene_routes(pool_client, size), picture_route(pool_client, size)]
+        [
+            *documented_routes(pool_client, size),
+            *pair_routes(pool_client, size),
+            *scene_routes(pool_client, size),
+            picture_route(pool_client, size),
+        ]
     )
     app.include_router(scenes_router(scenes))
     app.include_router(exercises_router())

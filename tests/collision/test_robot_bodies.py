@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gelenk.collision.pairs import find_pairs
+from gelenk.collision.link_pairs import disabled_pairs, find_pairs
 from gelenk.collision.robot_bodies import RobotBodies, find_bodies
 from gelenk.errors import InvalidMesh
 from gelenk.operations.robot_bodies import bodies_of
@@ -74,8 +74,10 @@ def test_neighbours_are_rigidly_joined_or_have_one_joint_and_no_body_between_the
 
 
 def test_an_srdf_leaves_pairs_out() -> None:
-    bodies = arm().bodies
-    pairs = {(pair.a, pair.b): pair for pair in find_pairs(read_urdf(ARM), bodies, [("tool", "base")])}
+    srdf = "<robot><disable_collisions link1='tool' link2='base'/><group name='a'/><disable_collisions/></robot>"
+    disabled = disabled_pairs(srdf)
+    assert disabled == [("tool", "base")]
+    pairs = {(pair.a, pair.b): pair for pair in find_pairs(read_urdf(ARM), arm().bodies, disabled)}
     assert (pairs["base", "tool"].active, pairs["base", "tool"].reason) == (False, "srdf")
 
 

@@ -45,6 +45,7 @@ from gelenk.contract import (
     triangle,
     velocity,
 )
+from gelenk.contract.collision_pairs import CollisionPairs, PairChoices
 from gelenk.contract.common import Answer
 from gelenk.contract.endpoint import Endpoint, RobotEndpoint
 from gelenk.contract.endpoints import ENDPOINTS
@@ -135,6 +136,8 @@ class Operations:
     replace_robot = _about_robot("v1/robots/{robot}", RobotReplacement, RobotInfo, "PUT")
     replace_archive = Sent(stored.replace_archive)
     remove_robot = Sent(stored.remove)
+    collision_pairs = Sent(stored.collision_pairs)
+    choose_collision_pairs = _about_robot("v1/robots/{robot}/collision-pairs", PairChoices, CollisionPairs, "PUT")
 
     scenes = Sent(stored.scenes)
     scene = Sent(stored.scene)

@@ -10,6 +10,7 @@ from httpx2 import Response
 
 from gelenk.client.call import Call
 from gelenk.client.exchange import encoded, json_call, query_of, reader, segment
+from gelenk.contract.collision_pairs import CollisionPairs
 from gelenk.contract.common import Answer, ChainEnds
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer
 from gelenk.contract.exercises import ExerciseList
@@ -37,6 +38,11 @@ def robot(robot: str) -> Call[RobotInfo]:
 def urdf(robot: str) -> Call[str]:
     """A robot as URDF."""
     return Call("GET", f"v1/robots/{segment(robot)}/urdf", _text, accept="application/xml")
+
+
+def collision_pairs(robot: str) -> Call[CollisionPairs]:
+    """Pairs of a robot's links, and whether contacts between them are looked for."""
+    return Call("GET", f"v1/robots/{segment(robot)}/collision-pairs", reader(CollisionPairs))
 
 
 def table(

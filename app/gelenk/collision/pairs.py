@@ -1,18 +1,14 @@
-"""Which pairs of a robot's links can touch: not neighbours, nor those that always or never do."""
+"""Pairs of a robot's links, and whether contacts between them are looked for."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from itertools import combinations
-from typing import Literal
+from typing import Literal, TypeAlias
 
-from gelenk.collision.bodies import Body
-from gelenk.robot.description import Description
-
-PairReason = Literal["neighbours", "srdf", "always", "never", "edited"]
+PairReason: TypeAlias = Literal["neighbours", "srdf", "always", "never", "edited"]
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
+class LinkPair:
     """Two links that have bodies, in the order of the description.
 
     Attributes:
@@ -27,37 +23,12 @@ class Pair:
     reason: PairReason | None = None
 
 
-def find_pairs(
-    description: Description, bodies: Sequence[Body], disabled: Sequence[tuple[str, str]] = ()
-) -> tuple[Pair, ...]:
-    """Find all pairs of links that have bodies, and why some need no look; `disabled` are those of an SRDF."""
-    links = list(dict.fromkeys(body.link for body in bodies))
-    apart = _neighbours(description, frozenset(links))
-    left_out = {frozenset(pair) for pair in disabled}
-    pairs = []
-    for a, b in combinations(links, 2):
-        pair = frozenset((a, b))
-        reason: PairReason | None = "neighbours" if pair in apart else "srdf" if pair in left_out else None
-        pairs.append(Pair(a, b, reason is None, reason))
-    return tuple(pairs)
-
-
-def _neighbours(description: Description, links: frozenset[str]) -> set[frozenset[str]]:
-    """Return pairs of links with bodies that are rigidly joined, or have one joint and no other body between them."""
-    found = set()
-    for link in links:
-        waiting, seen = [(link, 0, False)], {link}
-        while waiting:
-            here, moved, is_past_body = waiting.pop()
-            above = [joint] if (joint := description.joint_above.get(here)) else []
-            for joint in (*description.joints_below[here], *above):
-                other = joint.child if joint.parent == here else joint.parent
-                crossed = moved + (joint.type != "fixed")
-                if other in seen or crossed > 1 or (crossed and is_past_body):
-                    continue
-                seen.add(other)
-                if other in links:
-                    found.add(frozenset((link, other)))
-                if other not in links or not crossed:
-                    waiting.append((other, crossed, is_past_body or other in links))
-    return found
+def edited(pairs: Sequence[LinkPair], choices: Iterable[tuple[str, str, bool]]) -> tuple[LinkPair, ...]:
+    """Return the pairs as a person chose them; what names no pair, or says the same, changes nothing."""
+    chosen = {frozenset((a, b)): active for a, b, active in choices}
+    return tuple(
+        pair
+        if chosen.get(frozenset((pair.a, pair.b)), pair.active) == pair.active
+        else LinkPair(pair.a, pair.b, not pair.active, "edited")
+        for pair in pairs
+    )

@@ -8,10 +8,11 @@ from typing import TypeAlias
 import numpy as np
 
 from gelenk.collision.bodies import Body, PieceKind
-from gelenk.collision.covers import cover
-from gelenk.collision.hulls import hull_of, parts_of
-from gelenk.collision.meshes import read_triangles
-from gelenk.collision.pairs import Pair, find_pairs
+from gelenk.collision.link_pairs import find_pairs
+from gelenk.collision.pairs import LinkPair
+from gelenk.collision.shapes.covers import cover
+from gelenk.collision.shapes.hulls import hull_of, parts_of
+from gelenk.collision.shapes.meshes import read_triangles
 from gelenk.errors import listed, meshes_are
 from gelenk.robot.arrays import Array
 from gelenk.robot.description import Description, Link, Shape
@@ -33,7 +34,7 @@ class RobotBodies:
     """
 
     bodies: tuple[Body, ...]
-    pairs: tuple[Pair, ...]
+    pairs: tuple[LinkPair, ...]
     warnings: tuple[str, ...]
 
 

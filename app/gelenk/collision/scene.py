@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from gelenk.collision.bodies import Body
-from gelenk.collision.covers import cover
+from gelenk.collision.shapes.covers import cover
 from gelenk.errors import InvalidField, quoted
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import rotation_to_axis

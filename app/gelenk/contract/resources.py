@@ -3,6 +3,7 @@
 from functools import partial
 from typing import Any
 
+from gelenk.contract.collision_pairs import CollisionPairs
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer
 from gelenk.contract.endpoint import Resource, Scope
 from gelenk.contract.exercises import ExerciseGrade, ExerciseList, ExerciseSolution, ExerciseVariant
@@ -116,6 +117,34 @@ RESOURCES = (
         The file exactly as uploaded; the server does not inspect it.
 
         A file that is stored compressed is sent compressed to clients whose `Accept-Encoding` names `gzip`.
+        """,
+    ),
+    _query(
+        name="get_collision_pairs",
+        path="v1/robots/{robot}/collision-pairs",
+        tag="Robots",
+        answer=CollisionPairs,
+        problems=_OF_ROBOT,
+        summary="Which links can touch each other",
+        description="""
+        Lists the pairs of links that have bodies, whether contacts between them are looked for, and if not, why.
+
+        The bodies are the collision shapes; of a link without them the visual ones, and of meshes the convex hulls of
+        their parts. The first call on a robot may take seconds.
+        """,
+    ),
+    Resource(
+        name="choose_collision_pairs",
+        method="PUT",
+        path="v1/robots/{robot}/collision-pairs",
+        tag="Robots",
+        answer=CollisionPairs,
+        problems=(400, 403, 404, 413, 415, 422, 507, *_BY_WORKER),
+        example={"pairs": [{"a": "link_1", "b": "link_2", "active": True}]},
+        summary="Choose which links can touch each other",
+        description="""
+        Replaces the choices of before for an uploaded robot; with no pairs all are as found. They are on disk when the
+        answer is sent, and gone when the robot is replaced.
         """,
     ),
     Resource(

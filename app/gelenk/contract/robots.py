@@ -4,6 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
+from gelenk.contract.collision_pairs import PairChoice
 from gelenk.contract.common import Answer, ChainEnds, FrameName, Payload, RobotName, Strict, optional
 from gelenk.contract.dh import DhTablePayload
 from gelenk.contract.pose import Pose
@@ -25,6 +26,7 @@ class RobotFile(Payload):
     description: Text = ""
     format: Literal["urdf", "dh"]
     model: str | PackagedFile = Field(description="The URDF or DH file, in this folder or in a package.")
+    srdf: PackagedFile | None = optional("The SRDF, of a robot of the catalogue.")
     meshes: str | None = optional("Folder of the mesh files, in this folder.")
     urdf_folder: str = Field(default="", description="Where the URDF stood among the mesh files.")
     digest: str | None = optional("SHA-256 of the model and its meshes, of an uploaded robot.")
@@ -33,6 +35,7 @@ class RobotFile(Payload):
     left_out: int = Field(default=0, description="Files of the archive, meshes or pictures, that nothing names.")
     default_chain: ChainEnds | None = None
     chains: dict[str, ChainEnds] = Field(default_factory=dict)
+    collision_pairs: list[PairChoice] = Field(default_factory=list, description="As a person chose them.")
     licence: str | None = None
     source: str | None = None
 

@@ -1,45 +1,123 @@
-"""The bodies of a stored robot: found once, in a process that can be killed, because they are read from its meshes."""
+"""The bodies of a stored robot: found once, in a process that can be killed, and then read from disk."""
 
 import gzip
+import hashlib
+import math
+from contextlib import suppress
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
 from typing import Any
 from weakref import WeakKeyDictionary
 
-from gelenk.collision.meshes import MAX_BYTES
+import numpy as np
+import orjson
+
+from gelenk import collision
+from gelenk.collision.bodies import Body
+from gelenk.collision.link_pairs import disabled_pairs
+from gelenk.collision.pairs import LinkPair, edited
 from gelenk.collision.robot_bodies import RobotBodies, find_bodies
+from gelenk.collision.shapes.meshes import MAX_BYTES
+from gelenk.errors import StorageFailed
 from gelenk.operations.warm_up import WarmUp
 from gelenk.robot.robot import RobotModel
-from gelenk.store.records import LoadedRobot, mesh_file
+from gelenk.store import folders
+from gelenk.store.records import LoadedRobot, mesh_file, package_data, stamp_of
 
-_KNOWN: WeakKeyDictionary[RobotModel, RobotBodies] = WeakKeyDictionary()
+_KEPT = 500
+"""Number of robots whose bodies stay on disk, the last found ones."""
+_known: WeakKeyDictionary[RobotModel, RobotBodies] = WeakKeyDictionary()
 
 
 def bodies_of(loaded: LoadedRobot) -> RobotBodies:
-    """Return the bodies of a robot and its pairs of links; raises InvalidMesh for a mesh that cannot be read."""
-    known = _KNOWN.get(loaded.robot)
+    """Return the bodies of a robot, and its pairs of links as found or as a person chose them.
+
+    The first time this may take seconds, unless they are on disk. Raises InvalidMesh for a mesh that cannot be read.
+    """
+    known = _known.get(loaded.robot)
     if known is None:
-        known = _KNOWN[loaded.robot] = _found(loaded)
+        found = _stored_or_found(loaded)
+        choices = ((pair.a, pair.b, pair.active) for pair in loaded.record.file.collision_pairs)
+        known = _known[loaded.robot] = replace(found, pairs=edited(found.pairs, choices))
     return known
 
 
+def _keep(loaded: LoadedRobot, _: object, bodies: RobotBodies) -> None:
+    _known[loaded.robot] = bodies
+
+
+WARM_UP: WarmUp[Any] = WarmUp(
+    is_known=lambda loaded, _: loaded.robot in _known, find=lambda loaded, _: bodies_of(loaded), keep=_keep
+)
+"""For operations that need the bodies."""
+
+
+def _stored_or_found(loaded: LoadedRobot) -> RobotBodies:
+    file = None if loaded.derived is None else loaded.derived / f"{_digest(loaded)}.json"
+    if file is not None:
+        with suppress(OSError, ValueError, TypeError, KeyError):
+            return _read(folders.read_plain(file))
+    found = _found(loaded)
+    if file is not None:
+        _write(file, found)
+    return found
+
+
 def _found(loaded: LoadedRobot) -> RobotBodies:
-    return find_bodies(loaded.robot.description, lambda mesh: _content(loaded, mesh), has_own=loaded.table is None)
+    srdf = loaded.record.file.srdf
+    disabled = [] if srdf is None else disabled_pairs((package_data() / srdf.path).read_text(encoding="utf-8"))
+    return find_bodies(loaded.robot.description, lambda mesh: _content(loaded, mesh), disabled, loaded.table is None)
 
 
 def _content(loaded: LoadedRobot, mesh: str) -> bytes | None:
     """Return a mesh's bytes, at most one more than are allowed; None if the file is missing."""
-    path = loaded.meshes.get(mesh)
-    file = None if path is None else mesh_file(loaded, path)
+    file = _mesh_file(loaded, mesh)
     if file is None:
         return None
     with gzip.open(file) if file.suffix == ".gz" else file.open("rb") as content:
         return content.read(MAX_BYTES + 1)
 
 
-def _keep(loaded: LoadedRobot, _: object, bodies: RobotBodies) -> None:
-    _KNOWN[loaded.robot] = bodies
+def _mesh_file(loaded: LoadedRobot, mesh: str) -> Path | None:
+    path = loaded.meshes.get(mesh)
+    return None if path is None else mesh_file(loaded, path)
 
 
-WARM_UP: WarmUp[Any] = WarmUp(
-    is_known=lambda loaded, _: loaded.robot in _KNOWN, find=lambda loaded, _: bodies_of(loaded), keep=_keep
-)
-"""For operations that need the bodies."""
+def _digest(loaded: LoadedRobot) -> str:
+    """Return what changes with the description, its SRDF, its meshes, and the code that makes bodies of them."""
+    srdf = loaded.record.file.srdf
+    files = [_mesh_file(loaded, mesh) for mesh in loaded.meshes]
+    stamps = [stamp_of(file) for file in [*files, srdf and package_data() / srdf.path] if file]
+    return hashlib.sha256(repr((_code(), loaded.urdf, loaded.table is None, stamps)).encode()).hexdigest()
+
+
+@cache
+def _code() -> str:
+    sources = sorted(Path(next(iter(collision.__path__))).rglob("*.py"))
+    return hashlib.sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()
+
+
+def _write(file: Path, found: RobotBodies) -> None:
+    """Store bodies, and remove the oldest beyond those that stay; a full disk only costs time later."""
+    content = orjson.dumps(found, default=np.ndarray.tolist)
+    with suppress(StorageFailed, OSError):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        folders.replace_file(file.parent, file.name, content, is_durable=False)
+        stored = sorted(file.parent.glob("*.json"), key=lambda path: path.stat().st_mtime)
+        for old in stored[:-_KEPT]:
+            old.unlink(missing_ok=True)
+
+
+def _read(content: bytes) -> RobotBodies:
+    """Read stored bodies; raises ValueError, TypeError or KeyError if they are damaged."""
+    stored = orjson.loads(content)
+    bodies = tuple(map(_body, stored["bodies"]))
+    return RobotBodies(bodies, tuple(LinkPair(**pair) for pair in stored["pairs"]), tuple(stored["warnings"]))
+
+
+def _body(stored: dict[str, Any]) -> Body:
+    arrays = {"points": (-1, 3), "T_link_body": (4, 4), "spheres": (-1, 4)}
+    read = {name: np.array(stored[name], dtype=float).reshape(shape) for name, shape in arrays.items()}
+    excess = math.nan if stored["excess"] is None else stored["excess"]
+    return Body(**{**stored, **read, "size": tuple(stored["size"]), "excess": excess})

@@ -15,12 +15,13 @@ import uuid
 from collections import OrderedDict
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
 import orjson
 
+from gelenk.contract.collision_pairs import PairChoice
 from gelenk.contract.common import ChainEnds
 from gelenk.contract.robots import RobotFile
 from gelenk.errors import (
@@ -57,6 +58,8 @@ _VERSION = re.compile(r"files-[0-9a-f]{12}")
 _MODEL_NAMES = {"urdf": "robot.urdf", "dh": "dh.json"}
 _TICK = 2_000_000_000
 """Nanoseconds within which two changes of a folder may have the same time."""
+_DERIVED = ".derived"
+"""Folder for what is computed once of robots: a name that no robot has."""
 _ATTEMPTS = 3
 """Attempts to load a robot, since its folder may be replaced between the reading of its record and of its model."""
 
@@ -181,7 +184,7 @@ class Library:
             if found is not None:
                 return found
             try:
-                found = load(self._record(name))
+                found = replace(load(self._record(name)), derived=self.uploads / _DERIVED)
             except FileNotFoundError:
                 continue
             self._keep(found)
@@ -247,6 +250,15 @@ class Library:
                 for path in folder.iterdir():
                     if path.name not in {ROBOT_FILE, version}:
                         path.rename(staging / uuid.uuid4().hex)
+
+    def choose_pairs(self, name: str, choices: list[PairChoice]) -> None:
+        """Store which pairs of an uploaded robot's links differ from those found; raises as `replace`."""
+        folder = self._writable(name)
+        with folders.exclusive(self.uploads):
+            self._writable(name)
+            file = self._record(name).file.model_copy(update={"collision_pairs": choices})
+            folders.replace_file(folder, ROBOT_FILE, _as_bytes(file))
+            self._index.note(name, file)
 
     def remove(self, name: str) -> None:
         """Remove an uploaded robot; raises as `replace`."""
@@ -361,7 +373,7 @@ def _stands(folder: Path, wanted: RobotFile) -> bool:
     """Return whether an identical robot is stored, whatever the names of its files; RobotExists for another one."""
     if not folder.exists():
         return False
-    record, apart = uploaded_record(folder), {"model", "meshes", "owner", "kept_bytes", "left_out"}
+    record, apart = uploaded_record(folder), {"model", "meshes", "owner", "kept_bytes", "left_out", "collision_pairs"}
     is_same = record is not None and record.file.model_dump(exclude=apart) == wanted.model_dump(exclude=apart)
     if not is_same:
         raise RobotExists(folder.name)

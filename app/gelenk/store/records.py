@@ -68,6 +68,7 @@ class LoadedRobot:
         urdf: The description as URDF text: as uploaded, or as written from the DH table.
         table: The DH table; None for a URDF.
         found: Files below `mesh_root` that each mesh name of the description may refer to.
+        derived: Folder for what is computed once of a robot; None without one.
     """
 
     record: Record
@@ -75,6 +76,7 @@ class LoadedRobot:
     urdf: str
     table: DhTable | None
     found: dict[str, list[str]]
+    derived: Path | None = None
 
     @property
     def meshes(self) -> dict[str, str | None]:

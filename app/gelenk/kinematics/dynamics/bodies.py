@@ -38,7 +38,7 @@ class Load:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Body:
+class RigidBody:
     """A rigid group of links that move together, or a payload.
 
     Attributes:
@@ -81,7 +81,7 @@ def _locked_joint(description: Description, chain: Chain, joint: Joint) -> Joint
     return replace(joint, type="fixed", origin=origin, mimic=None)
 
 
-def bodies(description: Description, chain: Chain) -> tuple[Body, ...]:
+def bodies(description: Description, chain: Chain) -> tuple[RigidBody, ...]:
     """Return the bodies that a chain's variables move, one per moving joint; other joints are `locked` already."""
     parts: dict[str, list[tuple[Link, Array]]] = {j.child: [] for j in description.joints if j.type in MOVABLE}
     for link in description.links:
@@ -92,10 +92,10 @@ def bodies(description: Description, chain: Chain) -> tuple[Body, ...]:
     return tuple(_joined(description, chain, first, links) for first, links in parts.items())
 
 
-def loaded(description: Description, chain: Chain, load: Load) -> Body:
+def loaded(description: Description, chain: Chain, load: Load) -> RigidBody:
     """Return a payload as a body; its columns are empty if no variable moves it."""
     part = build_chain(description, description.root, chain.tip_frame)
-    return Body(None, (), load.mass, load.center, load.inertia, part.flat, _columns(part, chain))
+    return RigidBody(None, (), load.mass, load.center, load.inertia, part.flat, _columns(part, chain))
 
 
 def _carrier(description: Description, link: str) -> tuple[str, Array]:
@@ -108,7 +108,7 @@ def _carrier(description: Description, link: str) -> tuple[str, Array]:
     return description.root, T
 
 
-def _joined(description: Description, chain: Chain, first: str, links: Sequence[tuple[Link, Array]]) -> Body:
+def _joined(description: Description, chain: Chain, first: str, links: Sequence[tuple[Link, Array]]) -> RigidBody:
     """Merge links into one body by Steiner's theorem."""
     weights = [_weight(link.inertial, T) for link, T in links if link.inertial is not None]
     mass = sum(weight[0] for weight in weights)
@@ -121,7 +121,7 @@ def _joined(description: Description, chain: Chain, first: str, links: Sequence[
     part = build_chain(description, description.root, first)
     names = tuple(link.name for link, _ in links)
     joint = description.joint_above[first].name
-    return Body(joint, names, float(mass), center, inertia, part.flat, _columns(part, chain))
+    return RigidBody(joint, names, float(mass), center, inertia, part.flat, _columns(part, chain))
 
 
 def _weight(inertial: Inertial, T: Array) -> tuple[float, Array, Array]:
@@ -201,7 +201,7 @@ class Motions:
         return np.asarray(self.masses[:, None, None] * self.linear)
 
 
-def motions(carried: Sequence[Body], qs: Array, speeds: Array | None = None) -> Motions:
+def motions(carried: Sequence[RigidBody], qs: Array, speeds: Array | None = None) -> Motions:
     """Compute positions, inertias and Jacobians of bodies at configurations (N, n), and their rates if q̇ is given."""
     shape = len(qs), len(carried), 6, qs.shape[1]
     Js, rates = np.zeros(shape), np.zeros(shape if speeds is not None else (0,) * 4)

@@ -16,7 +16,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 import pinocchio as pin
 
-from gelenk.kinematics.dynamics.bodies import Body, Load, bodies, loaded, locked
+from gelenk.kinematics.dynamics.bodies import Load, RigidBody, bodies, loaded, locked
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
@@ -40,12 +40,12 @@ class ChainMechanism:
 
     robot: RobotModel
     chain: Chain
-    bodies: tuple[Body, ...]
+    bodies: tuple[RigidBody, ...]
     without_mass: tuple[str, ...]
     base: tuple[int, pin.SE3]
     tip: tuple[int, pin.SE3]
 
-    def carried(self, load: Load | None) -> tuple[Body, ...]:
+    def carried(self, load: Load | None) -> tuple[RigidBody, ...]:
         """Return the bodies, including a payload if there is one that moves."""
         if load is None or not self.moves_tip:
             return self.bodies
@@ -91,7 +91,7 @@ def _carrier(robot: RobotModel, frame: str) -> tuple[int, pin.SE3]:
     return int(found.parentJoint), found.placement.copy()
 
 
-def _without_mass(robot: RobotModel, parts: Sequence[Body]) -> tuple[str, ...]:
+def _without_mass(robot: RobotModel, parts: Sequence[RigidBody]) -> tuple[str, ...]:
     shaped = {link.name for link in robot.description.links if link.shapes}
     heavy = {link.name for link in robot.description.links if link.inertial is not None and link.inertial.mass > 0.0}
     return tuple(

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from gelenk.kinematics.dynamics.bodies import Body, Load
+from gelenk.kinematics.dynamics.bodies import Load, RigidBody
 from gelenk.kinematics.dynamics.mechanism import ChainMechanism, PinocchioDynamics
 from gelenk.kinematics.dynamics.newton_euler import add_torques
 from gelenk.robot.arrays import Array
@@ -33,5 +33,5 @@ def torque_limits(found: ChainMechanism, most: Array, gravity: Array, load: Load
     return TorqueLimits(most, parts, recomputed, names, units)
 
 
-def _weights(body: Body) -> Array:
+def _weights(body: RigidBody) -> Array:
     return np.concatenate(([body.mass], body.center, body.inertia.ravel()))

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from gelenk.collision.bodies import PieceKind
-from gelenk.collision.covers import MAX_SPHERES, cover
-from gelenk.collision.hulls import convex_hull
+from gelenk.collision.shapes.covers import MAX_SPHERES, cover
+from gelenk.collision.shapes.hulls import convex_hull
 from gelenk.robot.arrays import Array
 
 NOTHING = np.empty((0, 3))

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gelenk.collision.collada import read_collada
+from gelenk.collision.shapes.collada import read_collada
 from gelenk.errors import InvalidMesh, quoted
 from gelenk.robot.arrays import Array
 
@@ -49,5 +49,5 @@ def _read(kind: str, content: bytes) -> Array:
 
     mesh: Any = trimesh.load_mesh(BytesIO(content), file_type=kind, process=False, skip_materials=True)
     if len(mesh.faces) > MAX_TRIANGLES:
-        raise ValueError(f"it has {len(mesh.faces)} triangles; at most {MAX_TRIANGLES} are allowed")
+        raise ValueError(f"it has more than {MAX_TRIANGLES} triangles")
     return np.asarray(mesh.vertices.view(np.ndarray)[mesh.faces], dtype=float)

@@ -6,20 +6,22 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from gelenk.collision.hulls import MAX_VERTICES, convex_hull, enclosed_volume, hull_of, parts_of
+from gelenk.collision.shapes.hulls import MAX_VERTICES, convex_hull, enclosed_volume, hull_of, parts_of
 from gelenk.robot.arrays import Array
 
 
 def triangles_of(points: Array) -> Array:
     hull = ConvexHull(points)
-    found: Array = points[hull.simplices]
+    found = points[hull.simplices]
     out = (np.cross(found[:, 1] - found[:, 0], found[:, 2] - found[:, 0]) * hull.equations[:, :3]).sum(axis=1) > 0
-    return np.asarray(np.where(out[:, None, None], found, found[:, ::-1]))
+    found[~out] = found[~out][:, ::-1]
+    return np.asarray(found)
 
 
 def cloud(count: int, seed: int = 0) -> Array:
     directions = np.random.default_rng(seed).normal(size=(count, 3))
-    return directions / np.linalg.norm(directions, axis=1, keepdims=True) * [0.3, 0.1, 0.05] + [1.0, -2.0, 0.5]
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    return np.asarray(directions * [0.3, 0.1, 0.05] + [1.0, -2.0, 0.5])
 
 
 def largest_distance_outside(vertices: Array, points: Array) -> float:

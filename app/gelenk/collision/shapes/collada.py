@@ -10,6 +10,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from defusedxml.ElementTree import fromstring
 
+from gelenk.errors import counted
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.notations import rotations_from_vectors
 from gelenk.robot.poses import transform
@@ -43,7 +44,7 @@ def read_collada(content: bytes, most: int) -> Array:
     for geometry, T in _placed(find(shown.get("url")), find):
         parts += [triangles @ T[:3, :3].T + T[:3, 3] for triangles in _triangles(geometry, find)]
         if sum(map(len, parts)) > most:
-            raise ValueError(f"it has more than {most} triangles")
+            raise ValueError(f"it has more than {counted(most, 'triangle')}")
     given = root.find("asset/unit")
     unit = 1.0 if given is None else float(given.get("meter", "1"))
     if not 0.0 < unit < np.inf:

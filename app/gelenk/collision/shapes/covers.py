@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from gelenk.collision.bodies import PieceKind
-from gelenk.collision.hulls import convex_hull
+from gelenk.collision.shapes.hulls import convex_hull
 from gelenk.robot.arrays import Array
 
 MAX_SPHERES = 16
