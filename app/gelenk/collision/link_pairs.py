@@ -1,4 +1,4 @@
-"""Which pairs of a robot's links can touch: not neighbours, nor those that always or never do."""
+"""Which pairs of a robot's links can touch: not neighbours, nor those that an SRDF leaves out."""
 
 from collections.abc import Sequence
 from itertools import combinations

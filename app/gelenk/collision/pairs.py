@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-PairReason: TypeAlias = Literal["neighbours", "srdf", "always", "never", "edited"]
+PairReason: TypeAlias = Literal["neighbours", "srdf", "edited"]
 
 
 @dataclass(frozen=True, slots=True)
