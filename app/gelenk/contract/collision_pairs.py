@@ -27,8 +27,8 @@ class PairInfo(Answer):
     b: str = Field(description="Name of the other one.")
     active: bool = Field(description="Whether contacts between them are looked for.")
     reason: PairReason | None = Field(
-        description="Why not: they are rigidly joined, or by one joint with no body between (`neighbours`), or the SRDF "
-        "says so. `edited`: a person chose. null: nothing speaks against it."
+        description="Why not: they are rigidly joined, or by one joint with no body between (`neighbours`), or the "
+        "SRDF says so. `edited`: a person chose. null: nothing speaks against it."
     )
 
 
