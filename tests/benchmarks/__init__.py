@@ -6,6 +6,7 @@
 - `requests`: one `fk` over HTTP against an empty endpoint, one `ik` against one `fk`.
 - `volume`: large batches over HTTP, end to end, with the server's peak memory.
 - `jobs`: the same jobs by the processes of this machine and by a Ray cluster on it, their results compared.
+- `collision`: contacts and clearances of the Panda among boxes against Coal through Pinocchio.
 - `start`: from `./dev serve` to ready.
 - `ik`: all but the last.
 """

@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 from tests.benchmarks import (
     batch,
+    collision,
     fairness,
     ik,
     ik_all,
@@ -30,6 +31,7 @@ BENCHMARKS: dict[str, Callable[[], list[Row]]] = {
     "workspace": workspace.measure,
     "jobs": jobs.measure,
     "trajectory": trajectory.measure,
+    "collision": collision.measure,
     "start": start.measure,
 }
 ON_REQUEST: dict[str, Callable[[], list[Row]]] = {

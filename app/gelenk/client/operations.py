@@ -14,6 +14,7 @@ from gelenk.client import stored
 from gelenk.client.call import EXERCISE, NPY, ROBOT, Call, Sent, documented
 from gelenk.client.exchange import described_by, encoded, fits_query, json_call, packed, query_of, reader, segment
 from gelenk.contract import (
+    collisions,
     compare_dh,
     convert_dh,
     dc_motor,
@@ -157,6 +158,7 @@ class Operations:
     singularities = _operation(singularities.ENDPOINT)
     trajectory = _operation(trajectory.ENDPOINT)
     trajectories = _operation(trajectories.ENDPOINT)
+    collisions = _operation(collisions.ENDPOINT)
 
     workspace = _about_robot("v1/robots/{robot}/workspace", WorkspaceRequest, JobInfo)
     workspace_result = Sent(stored.result(WorkspaceAnswer))

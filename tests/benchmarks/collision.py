@@ -1,0 +1,103 @@
+"""Contacts of the Panda with itself and ten boxes: the kernels against Coal through Pinocchio, on the same pieces.
+
+The peer's loop over pairs is Pinocchio's, in C++; only that over configurations is in Python.
+"""
+
+import statistics
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pinocchio as pin
+
+from gelenk.collision.contact.judge import Judge
+from gelenk.collision.contact.kernels import first_contacts, nearest_pairs
+from gelenk.collision.contact.world import World, build_world
+from gelenk.collision.scene import Obstacle, solid
+from gelenk.operations.robot_bodies import bodies_of
+from gelenk.robot.arrays import Array
+from gelenk.settings import Settings
+from gelenk.store.library import Library
+from tests.benchmarks.table import Row
+
+COUNT = 10_000
+ROUNDS = 7
+PEERS = 200
+"""Configurations of a round for the peer, and for single calls."""
+
+
+def measure() -> list[Row]:
+    """Compare verdicts and clearances, round by round."""
+    world = panda_among_boxes()
+    qs = np.random.default_rng(1).uniform(world.chain.lower, world.chain.upper, (COUNT, len(world.chain)))
+    some, judge = qs[:PEERS], Judge(world)
+    peer, whole = Peer(world, judge), [judge.whole(q) for q in some]
+    share = float((first_contacts(world.flat, qs) >= 0).mean())
+    runs: dict[str, Callable[[], object]] = {
+        "one": lambda: [first_contacts(world.flat, q[None]) for q in some],
+        "batch": lambda: first_contacts(world.flat, qs),
+        "peer": lambda: [peer.touches(q) for q in whole],
+        "distance": lambda: [nearest_pairs(world.flat, q[None]) for q in some],
+        "distances": lambda: nearest_pairs(world.flat, qs),
+        "peer distance": lambda: [peer.distance(q) for q in whole],
+    }
+    each = {name: COUNT if name in {"batch", "distances"} else PEERS for name in runs}
+    times: dict[str, list[float]] = {name: [] for name in runs}
+    for _ in range(ROUNDS):
+        for name, run in runs.items():
+            started = time.perf_counter()
+            run()
+            times[name].append((time.perf_counter() - started) / each[name])
+    median = {name: statistics.median(values) * 1e6 for name, values in times.items()}
+    return [
+        Row(
+            f"Panda and 10 boxes, {len(world.flat.pairs)} pairs: {what}",
+            f"{median[name]:.2f} µs",
+            f"Coal through Pinocchio, {median[other]:.1f} µs",
+            median[other] / median[name],
+            wanted,
+        )
+        for name, other, what, wanted in (
+            ("one", "peer", f"exact verdict, one call each ({share:.0%} in contact)", "≤ 15 µs"),
+            ("batch", "peer", f"exact verdict, {COUNT} at once", "≤ 10 µs"),
+            ("distance", "peer distance", "clearance and nearest points, one call each", "≤ 100 µs"),
+            ("distances", "peer distance", f"clearance and nearest points, {COUNT} at once", ""),
+        )
+    ]
+
+
+def panda_among_boxes() -> World:
+    """Return the Panda with ten boxes around it, always the same."""
+    rng = np.random.default_rng(0)
+    loaded = Library(Settings().catalogue_dir, Settings().catalogue_dir / "none").get("panda")
+    root, obstacles = loaded.robot.description.root, []
+    for i in range(10):
+        T, angle = np.eye(4), 2.0 * np.pi * i / 10
+        T[:3, 3] = [*(rng.uniform(0.5, 0.9) * np.array([np.cos(angle), np.sin(angle)])), rng.uniform(0.0, 0.9)]
+        size = tuple(rng.uniform(0.05, 0.3, 3).tolist())
+        obstacles.append(Obstacle(f"box {i}", (solid(f"box {i}", root, "box", size, T),)))
+    return build_world(loaded.robot, loaded.robot.chain(None, None), bodies_of(loaded), tuple(obstacles))
+
+
+class Peer:
+    """Pinocchio's own loop over the pairs of a world."""
+
+    def __init__(self, world: World, judge: Judge) -> None:
+        self._model, self._data = world.robot.model, world.robot.model.createData()
+        self._geometry = pin.GeometryModel()
+        for i, (body, shape) in enumerate(zip(world.bodies, judge.shapes, strict=True)):
+            frame = self._model.frames[world.robot.frame_id(body.link)]
+            place = frame.placement * pin.SE3(body.T_link_body)
+            self._geometry.addGeometryObject(pin.GeometryObject(str(i), frame.parentJoint, place, shape))
+        for a, b in world.flat.pairs.tolist():
+            self._geometry.addCollisionPair(pin.CollisionPair(a, b))
+        self._found = self._geometry.createData()
+
+    def touches(self, q: Array) -> bool:
+        """Return whether any pair is in contact at a configuration of the whole robot; stops at the first."""
+        return bool(pin.computeCollisions(self._model, self._data, self._geometry, self._found, q, True))
+
+    def distance(self, q: Array) -> float:
+        """Return the smallest distance."""
+        nearest = pin.computeDistances(self._model, self._data, self._geometry, self._found, q)
+        return float(self._found.distanceResults[nearest].min_distance)
