@@ -26,7 +26,7 @@ _MOST_STEPS = 500
 _FAR = 1e9
 
 
-class Judge:
+class ContactJudge:
     """Coal's pieces of a world, and Pinocchio's poses of them."""
 
     def __init__(self, world: World) -> None:
@@ -89,7 +89,7 @@ class Judge:
         return np.asarray(apart.max(axis=1, initial=-np.inf))
 
 
-_judge = lru_cache(16)(Judge)
+_judge = lru_cache(16)(ContactJudge)
 
 
 def certify_contacts(world: World, qs: Array, touching: Flags, seed: int = 0) -> ContactCertificate:
@@ -130,7 +130,7 @@ def certify_clearances(
 class _Tally:
     """What a certificate says, so far."""
 
-    def __init__(self, judge: Judge) -> None:
+    def __init__(self, judge: ContactJudge) -> None:
         self.judge = judge
         self.pairs = self.touching = 0
         self.error = 0.0
