@@ -62,6 +62,17 @@ def test_flat_thin_and_single_points_have_a_hull_around_them(flatness: list[floa
     assert np.ptp(hull.vertices, axis=0).max() <= np.ptp(points, axis=0).max() * (1.0 + 1e-5) + 1e-8
 
 
+def test_a_finely_drawn_disc_gets_a_hull_slightly_larger() -> None:
+    """Quickhull refuses vertices with more than 255 edges."""
+    angles = np.linspace(0.0, 2 * np.pi, 600, endpoint=False)
+    points = np.array([(np.cos(a), 0.2 * np.sin(a), z) for a in angles for z in (0.0, 0.05)])
+    hull = convex_hull(points)
+    around = ConvexHull(hull.vertices)
+    assert (points @ around.equations[:, :3].T + around.equations[:, 3]).max() < 1e-9
+    assert 1.0 <= hull.volume / (0.2 * np.pi * 0.05) < 1.06
+    assert len(hull.vertices) < 400
+
+
 def test_parts_share_no_corner() -> None:
     boxes = [triangles_of(np.array(np.meshgrid([0, 1], [0, 1], [3 * i, 3 * i + 1])).reshape(3, -1).T) for i in range(4)]
     parts = parts_of(np.concatenate(boxes)[np.random.default_rng(0).permutation(48)])

@@ -15,6 +15,8 @@ _THINNEST = 1e-6
 _FACES = MAX_VERTICES // 2 + 2
 """Of a simplified hull: F faces meet in at most 2 F - 4 vertices."""
 _FACES_A_ROUND = 6
+_CELLS = 128
+"""Of a coarser hull, along its size: a polygon on such a grid has some 90 corners at most."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,15 +64,26 @@ def convex_hull(points: Array) -> Hull:
     """Return the hull of points, shape (N, 3); a flat one is thickened.
 
     Quickhull crashes on flat points. Hence it gets them scaled along their principal axes to a size of one, which
-    changes nothing of what is a vertex.
+    changes nothing of what is a vertex. It refuses vertices of more than 255 edges, as of finely drawn discs: these
+    get a slightly larger hull of fewer vertices.
     """
     centre, axes, sizes = _box(points)
     scaled = (points - centre) @ axes / sizes
     for axis in np.flatnonzero(np.ptp(scaled, axis=0) < 0.5):
         step = np.eye(3)[axis] / 2
         scaled = np.concatenate((scaled - step, scaled + step))
-    hull = _quickhull(np.unique(scaled, axis=0))
+    try:
+        hull = _quickhull(np.unique(scaled, axis=0))
+    except RuntimeError:
+        hull = _quickhull(_cell_corners(scaled))
     return Hull(hull.vertices * sizes @ axes.T + centre, hull.faces, hull.volume * float(np.prod(sizes)))
+
+
+def _cell_corners(points: Array) -> Array:
+    """Return the corners of the cells of a grid that contain points of a size of one; of a plane few are vertices."""
+    cells = np.unique(np.floor(points * _CELLS), axis=0)
+    corners = np.stack(np.meshgrid(*[(0, 1)] * 3), axis=-1).reshape(8, 1, 3)
+    return np.unique((cells + corners).reshape(-1, 3), axis=0) / _CELLS
 
 
 def _quickhull(points: Array) -> Hull:
