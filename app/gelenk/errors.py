@@ -163,9 +163,9 @@ class InvalidName(InvalidInput):
     """A name is not suitable for a path and a URL; the error says of what it is to be the name."""
 
     name: str
-    kind: str = "robot"
+    thing: str = "robot"
     template = (
-        "{name!q} is not a {kind}'s name: 1 to 64 letters, digits, '_', '.' or '-', the first one a letter or digit"
+        "{name!q} is not a {thing}'s name: 1 to 64 letters, digits, '_', '.' or '-', the first one a letter or digit"
     )
 
 
@@ -371,11 +371,11 @@ class QuotaExceeded(KinematicsError):
     used: int
     more: int
     allowed: int
-    kind: str
-    _variable = property(lambda self: f"GELENK_CLIENT_{self.kind.upper()}")
+    thing: str
+    _variable = property(lambda self: f"GELENK_CLIENT_{self.thing.upper()}")
     template = (
-        "{used} {what} are stored for {client!q}, and this would add {more}; {allowed} are allowed: remove {kind}s "
-        "that are no longer needed (DELETE /v1/{kind}s/{{{kind}}}), or have the operator raise {_variable}S or "
+        "{used} {what} are stored for {client!q}, and this would add {more}; {allowed} are allowed: remove {thing}s "
+        "that are no longer needed (DELETE /v1/{thing}s/{{{thing}}}), or have the operator raise {_variable}S or "
         "{_variable}_BYTES"
     )
 

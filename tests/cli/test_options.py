@@ -169,12 +169,13 @@ def test_each_option_is_compared() -> None:
     others = {(command, option) for command, option in options() if option not in ELSEWHERE} - compared
     left = {(command, option) for command, option in others if command not in {"exercises", "sheet", "grade"}}
     # Those are compared in `test_homework`.
-    # No question with an answer to compare; and what is given to a new robot, `test_every_operation` asks for.
+    # No question with an answer to compare; and what is given to a new robot or scene, `test_every_operation` asks for.
     assert left == {
         ("bench", "base"),
         ("bench", "tip"),
         ("add", "base"),
         ("add", "tip"),
         ("add", "name"),
+        ("scenes put", "name"),
         ("jobs cancel", "finished"),
     }

@@ -188,7 +188,7 @@ def test_every_operation_on_a_robot_bounds_its_configurations() -> None:
         if "{robot}" in path and body and "joint_positions" in example_of(body):
             request = schemas[body["schema"]["$ref"].rpartition("/")[2]]
             bounds[path] = request["properties"]["joint_positions"]["maxItems"]
-    assert len(bounds) == 7
+    assert len(bounds) == 8
     assert set(bounds.values()) == {MAX_CONFIGURATIONS}
 
 

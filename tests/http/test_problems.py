@@ -14,6 +14,7 @@ from starlette.requests import Request
 from starlette.testclient import TestClient
 
 from gelenk import errors
+from gelenk.collision.shapes.meshes import read_triangles
 from gelenk.contract.scene import Scene
 from gelenk.http.messages.npy import read_npy
 from gelenk.http.messages.payloads import Bodies
@@ -135,6 +136,7 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.DeadlineExceeded: lambda: by_a_crew(calls.sleep, 60.0, 0.1),
     errors.WorkerCrashed: lambda: by_a_crew(calls.leave, 3, LONG),
     errors.WorkerOutOfMemory: lambda: by_a_crew(calls.take, 200, LONG),
+    errors.InvalidMesh: lambda: read_triangles("thing.stl", b"solid"),
     errors.AuditFailed: lambda: refuse_failed(audit(PLANAR, PLANAR.chain(None, None), JUMP, Demands())),
     errors.CertificationFailed: lambda: certify_poses(PLANAR, PLANAR.chain(None, None), np.zeros((1, 2)), WRONG),
 }

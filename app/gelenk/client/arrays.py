@@ -10,6 +10,7 @@ from pydantic import BaseModel
 
 from gelenk.client.call import NPY, ROBOT, Awaited, Blocking, Call, Sent, documented
 from gelenk.client.exchange import encoded, packed, query_of, segment, unpacked
+from gelenk.contract.collisions import CollisionOptions
 from gelenk.contract.dynamics import DynamicsOptions
 from gelenk.contract.endpoints import BY_NAME
 from gelenk.contract.fk import ForwardOptions
@@ -109,6 +110,7 @@ class ArrayOperations:
     dynamics = _batch("dynamics", DynamicsOptions, unpacked)
     manipulability = _batch("manipulability", ManipulabilityOptions, unpacked)
     singularities = _batch("singularities", SingularityOptions, unpacked)
+    collisions = _batch("collisions", CollisionOptions, unpacked)
     trajectories = _batch("trajectories", MotionsOptions, unpacked)
     trajectory = _trajectory(TrajectoryRequest)
     job_result = Sent(_result)
