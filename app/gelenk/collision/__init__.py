@@ -3,7 +3,7 @@
 Map:
 - `bodies`: the convex pieces that everything here is about; `shapes` makes them of meshes, and covers them by spheres.
 - `robot_bodies`: the pieces of a robot's links.
-- `pairs` of these links that are looked at; `link_pairs` finds which can touch, and reads an SRDF.
+- `pairs` of these links that are looked at; `link_pairs` finds which need no look, and reads an SRDF.
 - `scene`: objects around the robot.
-- `contact`: which of all these touch, and how far apart they are.
+- `contact`: which of all these touch, which links always do, and how far apart they are.
 """

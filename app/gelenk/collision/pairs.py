@@ -4,7 +4,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-PairReason: TypeAlias = Literal["neighbours", "srdf", "edited"]
+PairReason: TypeAlias = Literal["neighbours", "srdf", "always", "edited"]
+SAMPLES = 10_000
+"""Number of configurations at all of which links must be in contact to be so `always`."""
 
 
 @dataclass(frozen=True, slots=True)

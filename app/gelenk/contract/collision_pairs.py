@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from gelenk.collision.pairs import PairReason
+from gelenk.collision.pairs import SAMPLES, PairReason
 from gelenk.contract.common import Answer, FrameName, Payload
 
 
@@ -28,7 +28,9 @@ class PairInfo(Answer):
     active: bool = Field(description="Whether contacts between them are looked for.")
     reason: PairReason | None = Field(
         description="Why not: they are rigidly joined, or by one joint with no body between (`neighbours`), or the "
-        "SRDF says so. `edited`: a person chose. null: nothing speaks against it."
+        "SRDF says so (`srdf`), or they are in contact wherever the joints stand (`always`: at each of "
+        f"{SAMPLES:,} random configurations within the limits). `edited`: a person chose. null: nothing "
+        "speaks against it."
     )
 
 

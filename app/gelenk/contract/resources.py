@@ -131,6 +131,8 @@ RESOURCES = (
 
         The bodies are the collision shapes; of a link without them the visual ones, and of meshes the convex hulls of
         their parts. The first call on a robot may take seconds.
+
+        Pairs that never touch stay active: that would be a claim from samples, and they cost next to nothing.
         """,
     ),
     Resource(

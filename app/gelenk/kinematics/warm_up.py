@@ -8,7 +8,13 @@ from multiprocessing import get_context
 
 import numpy as np
 
-from gelenk.collision.contact.kernels import all_contacts, first_contacts, nearest_pairs, pair_distances
+from gelenk.collision.contact.kernels import (
+    all_contacts,
+    always_in_contact,
+    first_contacts,
+    nearest_pairs,
+    pair_distances,
+)
 from gelenk.collision.contact.world import build_world
 from gelenk.collision.robot_bodies import RobotBodies
 from gelenk.collision.scene import Obstacle, solid
@@ -156,6 +162,7 @@ def _contacts() -> None:
     nearest_pairs(world, qs)
     pair_distances(world, qs, np.zeros(1, dtype=np.int64))
     all_contacts(world, qs[0])
+    always_in_contact(world, qs, np.zeros(1, dtype=np.int64), 1)
 
 
 def _answers() -> None:

@@ -15,6 +15,7 @@ import orjson
 
 from gelenk import collision
 from gelenk.collision.bodies import Body
+from gelenk.collision.contact.always import without_lasting_contacts
 from gelenk.collision.link_pairs import disabled_pairs
 from gelenk.collision.pairs import LinkPair, edited
 from gelenk.collision.robot_bodies import RobotBodies, find_bodies
@@ -67,7 +68,9 @@ def _stored_or_found(loaded: LoadedRobot) -> RobotBodies:
 def _found(loaded: LoadedRobot) -> RobotBodies:
     srdf = loaded.record.file.srdf
     disabled = [] if srdf is None else disabled_pairs((package_data() / srdf.path).read_text(encoding="utf-8"))
-    return find_bodies(loaded.robot.description, lambda mesh: _content(loaded, mesh), disabled, loaded.table is None)
+    description = loaded.robot.description
+    found = find_bodies(description, lambda mesh: _content(loaded, mesh), disabled, loaded.table is None)
+    return without_lasting_contacts(description, found)
 
 
 def _content(loaded: LoadedRobot, mesh: str) -> bytes | None:

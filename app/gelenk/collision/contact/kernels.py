@@ -14,7 +14,7 @@ from gelenk.collision.contact.gjk import WORK, turned_back_by, turned_by
 from gelenk.collision.contact.pair import is_near, pair_distance
 from gelenk.collision.contact.penetration import Polytope, empty_polytope
 from gelenk.kinematics.simd.vectors import Vector, dot, minus, row
-from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.compilation import compiled, inlined, unmanaged
 
 
@@ -104,6 +104,26 @@ def all_contacts(world: FlatWorld, q: Array) -> tuple[Array, Array]:
         if _touches(world, k, room):
             distances[k] = _distance(world, k, np.inf, room, points[k])
     return distances, points
+
+
+@compiled
+def always_in_contact(world: FlatWorld, qs: Array, groups: Indices, count: int) -> Flags:
+    """Check which groups of pairs have one in contact at each of the configurations; (N, n) → (`count`,).
+
+    `groups` has the number of each pair's group, shape (M,). A group found apart is not looked at again.
+    """
+    room, always, touching = _room(world), np.ones(count, dtype=np.bool_), np.empty(count, dtype=np.bool_)
+    for i in range(len(qs)):
+        if not always.any():
+            break
+        _place(world, qs[i], room)
+        touching[:] = False
+        for k in range(len(world.pairs)):
+            group = groups[k]
+            if always[group] and not touching[group]:
+                touching[group] = _touches(world, k, room)
+        always &= touching
+    return always
 
 
 @compiled

@@ -1,13 +1,13 @@
-"""Nodes of a robot: what moves together at the configurations of one chain, and the joints between."""
+"""Nodes of a robot: what moves together at the configurations of some joints, and the joints between."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
 
 from gelenk.robot.arrays import Array, Indices
-from gelenk.robot.chain import Chain, build_chain, crossed_joints
+from gelenk.robot.chain import build_chain, crossed_joints
 from gelenk.robot.description import Description, Drive
 from gelenk.robot.notations import placement
 
@@ -33,10 +33,10 @@ def _moved(slides: bool, value: float) -> Array:
 
 
 class Nodes:
-    """The joints that the chain moves, found one after another on the ways from the root to links."""
+    """The joints that those named `moving` move, found one after another on the ways from the root to links."""
 
-    def __init__(self, description: Description, chain: Chain, others: Mapping[str, float]) -> None:
-        self._description, self._chain, self._others = description, chain, others
+    def __init__(self, description: Description, moving: Sequence[str], others: Mapping[str, float]) -> None:
+        self._description, self._moving, self._others = description, moving, others
         self._numbers: dict[str, int] = {}
         self._rows: list[_Row] = []
         self._found: dict[str, tuple[int, Array]] = {}
@@ -52,8 +52,8 @@ class Nodes:
         node, T = 0, way.flat.placement(0)
         for i, joint in enumerate(crossed_joints(self._description, way)):
             drive = self._description.drives[joint.name]
-            if drive.leader in self._chain.joint_names:
-                column = self._chain.joint_names.index(drive.leader)
+            if drive.leader in self._moving:
+                column = self._moving.index(drive.leader)
                 row = node, T, (int(joint.type == "prismatic"), column), (drive.multiplier, drive.offset)
                 node, T = self._number(joint.name, row), np.eye(4)
             else:

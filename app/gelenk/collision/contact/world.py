@@ -1,6 +1,6 @@
 """A robot and what is around it, prepared for contacts: where its pieces are carried, and which of them may touch."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,16 +48,22 @@ def build_world(
     check_scene(description, obstacles)
     bodies = (*own.bodies, *(body for one in obstacles for body in one.bodies))
     names = (*(body.link for body in own.bodies), *(one.name for one in obstacles for _ in one.bodies))
-    nodes = Nodes(description, chain, others or {})
+    flat = flat_world(Nodes(description, chain.joint_names, others or {}), bodies, names, _pairs(own, obstacles))
+    return World(robot, chain, others or {}, bodies, names, flat)
+
+
+def flat_world(
+    nodes: Nodes, bodies: Sequence[Body], names: Sequence[str], pairs: Iterable[tuple[str, str, float]]
+) -> FlatWorld:
+    """Return pieces as arrays; `names` says what each is of, `pairs` which of these may not touch, with margins [m]."""
     placed = [(body, *nodes.of(body.link)) for body in bodies]
-    pairs = list(_piece_pairs(placed, names, _pairs(own, obstacles)))
-    flat = FlatWorld(
+    found = list(_piece_pairs(placed, names, pairs))
+    return FlatWorld(
         *nodes.flat(),
         flat_bodies(placed),
-        np.array([pair[:2] for pair in pairs], dtype=np.int64).reshape(-1, 2),
-        np.array([margin for _, _, margin in pairs], dtype=float),
+        np.array([pair[:2] for pair in found], dtype=np.int64).reshape(-1, 2),
+        np.array([margin for _, _, margin in found], dtype=float),
     )
-    return World(robot, chain, others or {}, bodies, names, flat)
 
 
 def _pairs(own: RobotBodies, obstacles: tuple[Obstacle, ...]) -> Iterator[tuple[str, str, float]]:
@@ -75,11 +81,11 @@ def _pairs(own: RobotBodies, obstacles: tuple[Obstacle, ...]) -> Iterator[tuple[
 
 
 def _piece_pairs(
-    placed: list[Placed], names: tuple[str, ...], pairs: Iterator[tuple[str, str, float]]
+    placed: list[Placed], names: Sequence[str], pairs: Iterable[tuple[str, str, float]]
 ) -> Iterator[tuple[int, int, float]]:
     """Yield the pairs of pieces, a half-space always the second.
 
-    Left out are two half-spaces, and pieces of one node: the chain does not move them relative to each other.
+    Left out are two half-spaces, and pieces of one node: no joint moves them relative to each other.
     """
     pieces: dict[str, list[int]] = {}
     for i, name in enumerate(names):
