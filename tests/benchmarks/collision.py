@@ -10,7 +10,7 @@ from collections.abc import Callable
 import numpy as np
 import pinocchio as pin
 
-from gelenk.collision.contact.judge import Judge
+from gelenk.collision.contact.judge import ContactJudge
 from gelenk.collision.contact.kernels import first_contacts, nearest_pairs
 from gelenk.collision.contact.world import World, build_world
 from gelenk.collision.scene import Obstacle, solid
@@ -30,7 +30,7 @@ def measure() -> list[Row]:
     """Compare verdicts and clearances, round by round."""
     world = panda_among_boxes()
     qs = np.random.default_rng(1).uniform(world.chain.lower, world.chain.upper, (COUNT, len(world.chain)))
-    some, judge = qs[:PEERS], Judge(world)
+    some, judge = qs[:PEERS], ContactJudge(world)
     peer, whole = Peer(world, judge), [judge.whole(q) for q in some]
     share = float((first_contacts(world.flat, qs) >= 0).mean())
     runs: dict[str, Callable[[], object]] = {
@@ -82,7 +82,7 @@ def panda_among_boxes() -> World:
 class Peer:
     """Pinocchio's own loop over the pairs of a world."""
 
-    def __init__(self, world: World, judge: Judge) -> None:
+    def __init__(self, world: World, judge: ContactJudge) -> None:
         self._model, self._data = world.robot.model, world.robot.model.createData()
         self._geometry = pin.GeometryModel()
         for i, (body, shape) in enumerate(zip(world.bodies, judge.shapes, strict=True)):
