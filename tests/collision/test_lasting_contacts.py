@@ -1,17 +1,25 @@
 """Links in contact wherever the joints stand are left out; links apart somewhere, or everywhere, are not."""
 
+import gzip
+from itertools import product
+
+import coal
 import numpy as np
+import pinocchio as pin
 import pytest
 
 from gelenk.collision.contact.always import without_lasting_contacts
-from gelenk.collision.contact.kernels import first_contacts
+from gelenk.collision.contact.kernels import all_contacts, first_contacts
 from gelenk.collision.contact.world import build_world
 from gelenk.collision.pairs import LinkPair
 from gelenk.collision.robot_bodies import RobotBodies, find_bodies
+from gelenk.collision.shapes.meshes import read_triangles
 from gelenk.operations.robot_bodies import bodies_of
 from gelenk.package_data import catalogue
+from gelenk.robot.description import Shape
+from gelenk.robot.notations import placement
 from gelenk.robot.urdf import read_urdf
-from gelenk.store.records import load, read_record
+from gelenk.store.records import LoadedRobot, load, mesh_file, read_record
 
 BALL = '<link name="l{i}"><collision><geometry><sphere radius="{radius}"/></geometry></collision></link>'
 JOINT = """<joint name="j{i}" type="{type}"><parent link="l{before}"/><child link="l{i}"/><origin xyz="{x} 0 0"/>
@@ -28,6 +36,51 @@ def balls(radii: list[float], steps: list[float], last: str = "continuous", uppe
     ]
     description = read_urdf(f'<robot name="r">{"".join(links)}{"".join(joints)}</robot>')
     return without_lasting_contacts(description, find_bodies(description, lambda _: None))
+
+
+def of_catalogue(name: str) -> LoadedRobot:
+    record = read_record(catalogue() / name, "catalogue")
+    assert record is not None
+    return load(record)
+
+
+def drawn(loaded: LoadedRobot, link: str) -> list[tuple[coal.CollisionGeometry, coal.Transform3s]]:
+    """Return the shapes of a link with all joints at zero: triangles, not hulls; placed by Pinocchio."""
+    shapes = next(one.shapes for one in loaded.robot.description.links if one.name == link)
+    model, data = loaded.robot.model, loaded.robot.data
+    pin.framesForwardKinematics(model, data, np.zeros(model.nq))
+    place = data.oMf[loaded.robot.frame_id(link)]
+    meant = [shape for shape in shapes if shape.role == "collision"] or shapes
+    poses = [place * pin.SE3(placement(shape.origin.xyz, shape.origin.rpy)) for shape in meant]
+    return [
+        (geometry(loaded, shape), coal.Transform3s(pose.rotation, pose.translation))
+        for shape, pose in zip(meant, poses, strict=True)
+    ]
+
+
+def geometry(loaded: LoadedRobot, shape: Shape) -> coal.CollisionGeometry:
+    if shape.mesh is None:
+        return {"sphere": coal.Sphere, "cylinder": coal.Cylinder, "box": coal.Box}[shape.kind](*shape.size)
+    file = mesh_file(loaded, loaded.meshes[shape.mesh])
+    content = gzip.decompress(file.read_bytes()) if file.suffix == ".gz" else file.read_bytes()
+    corners = read_triangles(shape.mesh, content).reshape(-1, 3) * np.array(shape.size)
+    vertices, faces = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
+    vertices.extend(list(corners))
+    for i in range(0, len(corners), 3):
+        faces.append(coal.Triangle(i, i + 1, i + 2))
+    mesh = coal.BVHModelOBBRSS()
+    mesh.beginModel(len(faces), len(vertices))
+    mesh.addSubModel(vertices, faces)
+    mesh.endModel()
+    return mesh
+
+
+def touch(loaded: LoadedRobot, a: str, b: str) -> bool:
+    request = coal.CollisionRequest()
+    return any(
+        coal.collide(*one, *other, request, coal.CollisionResult())
+        for one, other in product(drawn(loaded, a), drawn(loaded, b))
+    )
 
 
 def test_links_that_overlap_at_every_configuration_are_left_out() -> None:
@@ -56,9 +109,7 @@ def test_samples_are_the_same_each_time() -> None:
 
 
 def test_a_robot_without_srdf_is_free_where_it_is() -> None:
-    record = read_record(catalogue() / "puma560", "catalogue")
-    assert record is not None
-    loaded = load(record)
+    loaded = of_catalogue("puma560")
     found = bodies_of(loaded)
     chain = loaded.robot.chain(None, None)
     at_zero = np.zeros((1, len(chain)))
@@ -66,3 +117,14 @@ def test_a_robot_without_srdf_is_free_where_it_is() -> None:
     assert first_contacts(build_world(loaded.robot, chain, found).flat, at_zero) == [-1]
     looked_at = RobotBodies(found.bodies, tuple(LinkPair(pair.a, pair.b, True) for pair in found.pairs), ())
     assert first_contacts(build_world(loaded.robot, chain, looked_at).flat, at_zero) >= 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["ur5", "ur10", "so100", "z1"])
+def test_a_catalogue_arm_is_in_collision_at_zero_only_if_its_shapes_are(name: str) -> None:
+    loaded = of_catalogue(name)
+    chain = loaded.robot.chain(None, None)
+    world = build_world(loaded.robot, chain, bodies_of(loaded))
+    distances = all_contacts(world.flat, np.zeros(len(chain)))[0]
+    pairs = {(world.names[a], world.names[b]) for a, b in world.flat.pairs[distances < np.inf]}
+    assert bool(pairs) == any(touch(loaded, a, b) for a, b in pairs) == (name in {"so100", "z1"})
