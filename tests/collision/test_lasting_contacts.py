@@ -61,7 +61,8 @@ def drawn(loaded: LoadedRobot, link: str) -> list[tuple[coal.CollisionGeometry, 
 def geometry(loaded: LoadedRobot, shape: Shape) -> coal.CollisionGeometry:
     if shape.mesh is None:
         return {"sphere": coal.Sphere, "cylinder": coal.Cylinder, "box": coal.Box}[shape.kind](*shape.size)
-    file = mesh_file(loaded, loaded.meshes[shape.mesh])
+    file = mesh_file(loaded, loaded.meshes[shape.mesh] or "")
+    assert file is not None
     content = gzip.decompress(file.read_bytes()) if file.suffix == ".gz" else file.read_bytes()
     corners = read_triangles(shape.mesh, content).reshape(-1, 3) * np.array(shape.size)
     vertices, faces = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
