@@ -1,4 +1,4 @@
-"""Processes of the service are killed at random moments while robots are written and jobs run.
+"""Processes of the service are killed at random moments while robots and scenes are written and jobs run.
 
 Nothing that was acknowledged is lost, nothing half is shown, and every job comes to an end that is true.
 """
@@ -98,12 +98,14 @@ class Client(threading.Thread):
 
 
 class Writer(Client):
-    """Writes robots and jobs of its own, keeps what was acknowledged, and looks at it again."""
+    """Writes robots, scenes and jobs of its own, keeps what was acknowledged, and looks at it again."""
 
     def __init__(self, number: int, url: str) -> None:
         super().__init__(url)
         self._chance, self._number = random.Random(number), number
-        self.may_be: dict[str, set[Upload | None]] = {f"arm_{number}_{i}": {None} for i in range(NAMES)}
+        self.may_be: dict[str, set[Upload | None]] = {
+            f"{what}_{number}_{i}": {None} for what in ("arm", "cell") for i in range(NAMES)
+        }
         self.jobs: dict[str, set[str]] = {}
         self.acknowledged = self.looks = 0
         self._result: bytes | None = None
@@ -118,7 +120,7 @@ class Writer(Client):
         self.looks += 1
         possible = self.may_be[name]
         found: set[Upload | None] = {one for one in possible if one is not None and one.is_what(self._url, name)}
-        if not found and (answer := read(self._url, f"/v1/robots/{name}")).status == 404:
+        if not found and (answer := read(self._url, _path(name))).status == 404:
             found = {None}
         if not found & possible:
             self.complaints.append(f"{name} is none of {possible}: {answer}")
@@ -130,10 +132,11 @@ class Writer(Client):
         (before,) = self.may_be[name] or {None}
         after = None
         if before is None or self._chance.random() < 0.7:
-            after = Upload(self._chance.choice(("urdf", "zip", "dh")), self._chance.randrange(1000))
+            forms: tuple[Any, ...] = ("scene",) if name.startswith("cell") else ("urdf", "zip", "dh")
+            after = Upload(self._chance.choice(forms), self._chance.randrange(1000))
         self.may_be[name] = {before, after}
         if after is None:
-            answer, allowed = ask(self._url, f"/v1/robots/{name}", "DELETE"), {204}
+            answer, allowed = ask(self._url, _path(name), "DELETE"), {204}
         else:
             answer, allowed = after.send(self._url, name, before is None), {200, 201}
         if self._is_done(answer, allowed, name):
@@ -180,26 +183,31 @@ class Writer(Client):
         return False
 
 
+def _path(name: str) -> str:
+    return f"/v1/{'scenes' if name.startswith('cell') else 'robots'}/{name}"
+
+
 def _was_killed(error: dict[str, Any]) -> bool:
     """Whether a job was given up because its service, or the process of one of its parts, was killed three times."""
     return error["type"] == "urn:gelenk:job-interrupted" or "its process died 3 times" in error["detail"]
 
 
 class Reader(Client):
-    """Asks for every robot that is listed: it can be loaded, or has just been removed."""
+    """Asks for every robot and scene that is listed: it can be loaded, or has just been removed."""
 
     def ask(self) -> None:
         """Read all."""
         self.read()
 
     def read(self) -> set[str]:
-        """The uploaded robots, each of which has been asked for."""
+        """The uploaded robots and the scenes, each of which has been asked for."""
         listed = ask(self._url, "/v1/robots")
         if listed.status != 200:
             return set()
         names = {robot["name"] for robot in listed.content["robots"] if robot["source"] == "uploaded"}
+        names |= {scene["name"] for scene in ask(self._url, "/v1/scenes").content["scenes"]}
         for name in names:
-            answer = ask(self._url, f"/v1/robots/{name}")
+            answer = ask(self._url, _path(name))
             if answer.status not in {200, 404, 500, 503} or b"invalid" in answer.body[:60]:
                 self.complaints.append(f"{name} is listed, and cannot be loaded: {answer}")
         return names

@@ -1,4 +1,4 @@
-"""Robots to upload in each form, which tell by what comes back which one it is; and a call of the service."""
+"""Robots to upload in each form, and scenes; what comes back shows which one it is. And a call of the service."""
 
 import io
 import json
@@ -65,24 +65,31 @@ class Upload:
         number: Which one.
     """
 
-    form: Literal["urdf", "zip", "dh"]
+    form: Literal["urdf", "zip", "dh", "scene"]
     number: int
 
     def send(self, url: str, name: str, is_new: bool) -> Answer:
         """Add it, or put it in the place of another one."""
         path, method = ("/v1/robots", "POST") if is_new else (f"/v1/robots/{name}", "PUT")
         named = {"name": name} if is_new else {}
+        if self.form == "scene":
+            path, scene = path.replace("robots", "scenes"), json.dumps(named | {"objects": [self._object()]})
+            return ask(url, path, method, self._form({"scene": scene}), f"multipart/form-data; boundary={_BOUNDARY}")
         if self.form == "zip":
             return ask(url, path, method, self._form(named), f"multipart/form-data; boundary={_BOUNDARY}")
         content = {"dh": self._table()} if self.form == "dh" else {"urdf": self._urdf()}
         return ask(url, path, method, json.dumps(named | content).encode())
 
     def is_what(self, url: str, name: str) -> bool:
-        """Whether the robot of a name is this one to the last byte: its table, or its URDF and its mesh.
+        """Whether what has the name is this one: a table, a URDF with its mesh to the last byte, a scene.
 
         Raises:
             OSError: As `read`.
         """
+        if self.form == "scene":
+            scene = read(url, f"/v1/scenes/{name}")
+            file = {"name": "part.stl", "size": len(self._mesh())}
+            return scene.status == 200 and scene.content == {"name": name, "objects": [self._object()], "files": [file]}
         if self.form == "dh":
             robot = read(url, f"/v1/robots/{name}")
             return robot.status == 200 and robot.content["dh"] is not None and self._is_table(robot.content["dh"])
@@ -91,6 +98,9 @@ class Upload:
             return False
         mesh = read(url, f"/v1/robots/{name}/meshes/meshes/part.stl")
         return (mesh.status, mesh.body) == (200, self._mesh()) if self.form == "zip" else mesh.status == 404
+
+    def _object(self) -> dict[str, Any]:
+        return {"name": f"part {self.number}", "shape": {"type": "mesh", "file": "part.stl"}}
 
     def _table(self) -> dict[str, Any]:
         row = {"type": "revolute", "a": float(self.number), "alpha": 0.0, "d": 0.0, "theta": 0.0}
@@ -106,13 +116,19 @@ class Upload:
         return random.Random(self.number).randbytes(200_000)
 
     def _form(self, fields: dict[str, str]) -> bytes:
-        file = io.BytesIO()
-        with zipfile.ZipFile(file, "w") as archive:
-            archive.writestr("arm.urdf", self._urdf())
-            archive.writestr("meshes/part.stl", self._mesh())
         parts = [f'name="{name}"\r\n\r\n{value}'.encode() for name, value in fields.items()]
-        parts.append(b'name="archive"; filename="r.zip"\r\n\r\n' + file.getvalue())
+        if self.form == "scene":
+            parts.append(b'name="files"; filename="part.stl"\r\n\r\n' + self._mesh())
+        else:
+            parts.append(b'name="archive"; filename="r.zip"\r\n\r\n' + self._archive())
         lines = b"".join(
             f"--{_BOUNDARY}\r\nContent-Disposition: form-data; ".encode() + part + b"\r\n" for part in parts
         )
         return lines + f"--{_BOUNDARY}--\r\n".encode()
+
+    def _archive(self) -> bytes:
+        file = io.BytesIO()
+        with zipfile.ZipFile(file, "w") as archive:
+            archive.writestr("arm.urdf", self._urdf())
+            archive.writestr("meshes/part.stl", self._mesh())
+        return file.getvalue()

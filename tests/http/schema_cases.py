@@ -21,6 +21,7 @@ from schemathesis.specs.openapi.checks import (
 )
 from starlette.testclient import TestClient
 
+from gelenk.contract.scene import EXAMPLE_SCENE
 from tests.corpus import npy, zips
 from tests.openapi import example_of
 from tests.robots import robot
@@ -107,6 +108,7 @@ def make_real(case: Any, data: st.DataObject) -> None:
     robot_name = EXAMPLE_ROBOT if is_near_example or case.path.endswith("/meshes/{path}") else chain.robot
     places = {
         "robot": UPLOADED if of_others else robot_name,
+        "scene": EXAMPLE_SCENE["name"],
         "job": NEW_JOB if of_others else JOB,
         "path": data.draw(st.sampled_from(_MESHES)),
         "exercise": EXAMPLE_EXERCISE,

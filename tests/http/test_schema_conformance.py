@@ -16,6 +16,7 @@ from schemathesis import GenerationMode
 from schemathesis.core.failures import FailureGroup
 from starlette.testclient import TestClient
 
+from gelenk.contract.scene import EXAMPLE_SCENE
 from tests.corpus import dh
 from tests.http.schema_cases import CHECKS, JOB, NEW_JOB, UPLOADED, make_real, sent
 from tests.openapi import document, example_of
@@ -33,6 +34,8 @@ def put_there(client: TestClient, operation: Any) -> None:
     if operation.method.upper() in {"PUT", "DELETE"}:
         if "{robot}" in operation.path:
             assert client.post("/v1/robots", json={"name": UPLOADED, "dh": dh.TABLE}).status_code in {200, 201, 409}
+        elif "{scene}" in operation.path:
+            assert client.post("/v1/scenes", json=EXAMPLE_SCENE).status_code in {200, 201, 409, 413}
         else:
             call = {"samples": 100, "job_id": NEW_JOB}
             assert client.post("/v1/robots/panda/workspace", json=call).status_code in {202, 409, 429}
