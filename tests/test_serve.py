@@ -17,6 +17,7 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from http.client import HTTPConnection
+from itertools import pairwise
 from pathlib import Path
 from threading import Semaphore
 from typing import IO, Any
@@ -102,6 +103,31 @@ def test_every_worker_sees_an_upload_at_once(tmp_path: Path) -> None:
                 assert (status, answer["poses"][0]["position"]) == (200, [length, 0.0, 0.0])
         assert get(f"{url}/v1/robots/arm", "DELETE")[0] == 204
         assert {get(f"{url}/v1/robots/arm")[0] for _ in range(8)} == {404}
+
+
+@pytest.mark.slow
+def test_every_worker_sees_a_scene_at_once(tmp_path: Path) -> None:
+    ball = {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}}
+    call = {"joint_positions": [[0.0, 0.0]], "scene": "cell", "clearance": True}
+
+    def answers(url: str) -> list[tuple[int, dict[str, Any]]]:
+        # Each on a new connection, so that both workers get some.
+        return [get(f"{url}/v1/robots/planar_2r/collisions", "POST", call) for _ in range(12)]
+
+    with service(tmp_path, "--workers", "2") as (_, url):
+        clearances = []
+        for height in (1.0, 2.0, 3.0):
+            objects = [{**ball, "pose": {"position": [0.0, 0.0, height]}}]
+            if height == 1.0:
+                assert get(f"{url}/v1/scenes", "POST", {"name": "cell", "objects": objects})[0] == 201
+            else:
+                assert get(f"{url}/v1/scenes/cell", "PUT", {"objects": objects})[0] == 200
+            found = {answer["results"][0]["clearance"] for _, answer in answers(url)}
+            assert len(found) == 1
+            clearances.append(found.pop())
+        assert [round(b - a, 6) for a, b in pairwise(clearances)] == [1.0, 1.0]
+        assert get(f"{url}/v1/scenes/cell", "DELETE")[0] == 204
+        assert {(status, answer["pointer"]) for status, answer in answers(url)} == {(404, "#/scene")}
 
 
 @pytest.mark.slow

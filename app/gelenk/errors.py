@@ -301,11 +301,12 @@ class UnknownRobot(NotFound):
 
 
 class UnknownScene(NotFound):
-    """No scene has this name."""
+    """No scene has this name; in a call that names one, the error says in which field."""
 
     scene: str
     close: tuple[str, ...] = ()
-    template = "there is no scene named {scene!q}<; did you mean {close!q}?>"
+    field: str | None = None
+    template = "<{field!q}: >there is no scene named {scene!q}<; did you mean {close!q}?>"
 
 
 class UnknownFrame(NotFound):

@@ -13,7 +13,8 @@ import pinocchio as pin
 from gelenk.collision.contact.judge import ContactJudge
 from gelenk.collision.contact.kernels import first_contacts, nearest_pairs
 from gelenk.collision.contact.world import World, build_world
-from gelenk.collision.scene import Obstacle, solid
+from gelenk.collision.scene import Obstacle
+from gelenk.collision.shapes.covers import covered_body
 from gelenk.operations.robot_bodies import bodies_of
 from gelenk.robot.arrays import Array
 from gelenk.settings import Settings
@@ -75,7 +76,7 @@ def panda_among_boxes() -> World:
         T, angle = np.eye(4), 2.0 * np.pi * i / 10
         T[:3, 3] = [*(rng.uniform(0.5, 0.9) * np.array([np.cos(angle), np.sin(angle)])), rng.uniform(0.0, 0.9)]
         size = tuple(rng.uniform(0.05, 0.3, 3).tolist())
-        obstacles.append(Obstacle(f"box {i}", (solid(f"box {i}", root, "box", size, T),)))
+        obstacles.append(Obstacle(f"box {i}", (covered_body(f"box {i}", root, "box", size, T),)))
     return build_world(loaded.robot, loaded.robot.chain(None, None), bodies_of(loaded), tuple(obstacles))
 
 

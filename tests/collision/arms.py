@@ -5,7 +5,8 @@ import numpy as np
 from gelenk.collision.bodies import Body
 from gelenk.collision.contact.world import World, build_world
 from gelenk.collision.robot_bodies import find_bodies
-from gelenk.collision.scene import Obstacle, half_space, solid
+from gelenk.collision.scene import Obstacle, half_space
+from gelenk.collision.shapes.covers import covered_body
 from gelenk.robot.robot import RobotModel
 from gelenk.robot.urdf import read_urdf
 
@@ -46,10 +47,10 @@ def obstacles() -> tuple[Obstacle, ...]:
     rod[:3, 3] = (0.0, 0.0, 0.25)
     return (
         Obstacle("floor", (half_space("floor", "l0", np.array([0.0, 0.0, 2.0]), -0.2, np.eye(4)),)),
-        Obstacle("box", (solid("box", "l0", "box", (0.3, 0.4, 0.5), box),), clearance=0.02),
-        Obstacle("post", (solid("post", "l0", "cylinder", (0.05, 0.8), post),)),
-        Obstacle("ball", (solid("ball", "l0", "sphere", (0.2,), ball),)),
-        Obstacle("rod", (solid("rod", "l4", "capsule", (0.02, 0.2), rod),), "l4", frozenset({"left", "right"})),
+        Obstacle("box", (covered_body("box", "l0", "box", (0.3, 0.4, 0.5), box),), clearance=0.02),
+        Obstacle("post", (covered_body("post", "l0", "cylinder", (0.05, 0.8), post),)),
+        Obstacle("ball", (covered_body("ball", "l0", "sphere", (0.2,), ball),)),
+        Obstacle("rod", (covered_body("rod", "l4", "capsule", (0.02, 0.2), rod),), "l4", frozenset({"left", "right"})),
     )
 
 

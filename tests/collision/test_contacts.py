@@ -7,7 +7,8 @@ from gelenk.collision.contact.judge import certify_clearances, certify_contacts
 from gelenk.collision.contact.kernels import all_contacts, first_contacts, nearest_pairs, pair_distances
 from gelenk.collision.contact.world import build_world
 from gelenk.collision.robot_bodies import find_bodies
-from gelenk.collision.scene import Obstacle, solid
+from gelenk.collision.scene import Obstacle
+from gelenk.collision.shapes.covers import covered_body
 from gelenk.errors import CertificationFailed, InvalidField
 from tests.collision.arms import arm, obstacles, world
 
@@ -72,7 +73,7 @@ def test_a_configuration_that_only_touches_is_not_withheld() -> None:
     own, T = find_bodies(robot.description, lambda _: None), np.eye(4)
     # The last link's ball ends at 1.25 m + 0.08 m.
     T[2, 3] = 0.1 + 0.4 + 0.4 + 0.3 + 0.05 + 0.08 + 0.5
-    top = Obstacle("lid", (solid("lid", "l0", "sphere", (0.5,), T),), touch_links=frozenset({"left", "right"}))
+    top = Obstacle("lid", (covered_body("lid", "l0", "sphere", (0.5,), T),), touch_links=frozenset({"left", "right"}))
     here = build_world(robot, robot.chain(None, None), own, (top,))
     q = np.zeros((1, 4))
     for verdict in (True, False):

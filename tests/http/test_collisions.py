@@ -1,10 +1,13 @@
 """Contacts over HTTP: what the answer holds, and every way to ask wrongly."""
 
+import json
+from collections.abc import Iterator
 from io import BytesIO
 from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from starlette.testclient import TestClient
 
 from gelenk.contract.collisions import CollisionAnswer
@@ -105,7 +108,7 @@ def test_npy_has_a_row_a_configuration(client: TestClient) -> None:
             "/scene/objects/0/pose",
             "length 2",
         ),
-        (with_table(shape={"type": "mesh", "file": "table.stl"}), "/scene/objects/0/shape/file", "boxes"),
+        (with_table(shape={"type": "mesh", "file": "table.stl"}), "/scene", "store the scene with its files"),
         ({"other_joints": {"panda_joint1": 0.0}}, "/other_joints", "panda_finger_joint1"),
         ({"joint_positions": [[0.0]]}, "/joint_positions", "7"),
         ({"pairs": "some"}, "/pairs", "first"),
@@ -118,3 +121,102 @@ def test_a_bad_request_is_refused_at_its_field(
     assert answer.status_code == 422, answer.text
     assert pointer in answer.text
     assert words in answer.text
+
+
+@pytest.fixture
+def own(client: TestClient) -> Iterator[TestClient]:
+    """The client, without scenes afterwards."""
+    yield client
+    for scene in client.get("/v1/scenes").json()["scenes"]:
+        client.delete(f"/v1/scenes/{scene['name']}")
+
+
+def store(client: TestClient, shape: dict[str, Any], content: bytes, method: str = "POST", **changes: Any) -> None:
+    """Store a scene of the table, of another shape that is read from a file."""
+    scene = {"name": "cell"} if method == "POST" else {}
+    path = "/v1/scenes" if method == "POST" else "/v1/scenes/cell"
+    objects = [{**TABLE, "shape": shape, **changes}]
+    parts: list[tuple[str, Any]] = [("files", (shape["file"], content))]
+    parts.append(("scene", ("scene.json", json.dumps({**scene, "objects": objects}))))
+    answer = client.request(method, path, files=parts)
+    assert answer.status_code == {"POST": 201, "PUT": 200}[method], answer.text
+
+
+def stl(mesh: Any) -> bytes:
+    content: bytes = mesh.export(file_type="stl")
+    return content
+
+
+def npy(points: Any) -> bytes:
+    stream = BytesIO()
+    np.save(stream, points)
+    return stream.getvalue()
+
+
+def test_a_stored_mesh_is_what_it_looks_like_until_it_is_replaced(own: TestClient) -> None:
+    mesh = {"type": "mesh", "file": "table.stl"}
+    for method, size in (("POST", [0.6, 1.2, 0.1]), ("PUT", [0.6, 1.2, 0.5])):
+        store(own, mesh, stl(trimesh.creation.box(size)), method)
+        named, drawn = (
+            ask(own, {"scene": scene, "clearance": True})
+            for scene in ("cell", with_table(shape={"type": "box", "size": size})["scene"])
+        )
+        assert named["results"][0]["clearance"] == pytest.approx(drawn["results"][0]["clearance"], abs=1e-6)
+        assert named["warnings"] == drawn["warnings"]
+    assert own.delete("/v1/scenes/cell").status_code == 204
+    gone = own.post("/v1/robots/panda/collisions", json={"joint_positions": [READY], "scene": "cell"})
+    assert (gone.status_code, gone.json()["type"]) == (404, "urn:gelenk:unknown-scene")
+    assert gone.json()["pointer"] == "#/scene"
+
+
+def test_a_mesh_that_is_not_convex_says_how_much_larger_it_counts(own: TestClient) -> None:
+    store(own, {"type": "mesh", "file": "ring.stl"}, stl(trimesh.creation.annulus(0.1, 0.2, 0.1)))
+    (warning,) = ask(own, {"scene": "cell"})["warnings"]
+    assert "'table' counts as 1 convex hull around what it is made of; the loosest has 3" in warning
+    sheet = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    store(own, {"type": "mesh", "file": "sheet.stl"}, stl(sheet), "PUT")
+    assert "not closed" in ask(own, {"scene": "cell"})["warnings"][0]
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "words"),
+    [("broken.stl", b"solid", "'broken.stl'"), ("none.obj", b"v 0 0 0", "'none.obj'"), ("bomb.dae", b"<a/>", "'bomb.")],
+)
+def test_a_mesh_that_cannot_be_read_is_named(own: TestClient, name: str, content: bytes, words: str) -> None:
+    store(own, {"type": "mesh", "file": name}, content)
+    answer = own.post("/v1/robots/panda/collisions", json={"joint_positions": [READY], "scene": "cell"})
+    assert (answer.status_code, answer.json()["type"]) == (422, "urn:gelenk:invalid-mesh")
+    assert words in answer.json()["detail"]
+
+
+def test_a_stored_cloud_is_never_farther_than_its_points(own: TestClient) -> None:
+    cloud = {"type": "points", "file": "scan.npy", "radius": 0.005}
+    few = np.random.default_rng(0).uniform(-0.3, 0.3, (400, 3)).astype("f4")
+    store(own, cloud, npy(few))
+    points = with_table(shape={"type": "points", "points": few.tolist(), "radius": 0.005})["scene"]
+    named, given = (ask(own, {"scene": scene, "clearance": True})["results"][0] for scene in ("cell", points))
+    assert named == given
+    many = np.repeat(few, 30, axis=0) + np.random.default_rng(1).uniform(-1e-3, 1e-3, (12_000, 3))
+    store(own, cloud, npy(many), "PUT")
+    answer = ask(own, {"scene": "cell", "clearance": True})
+    (warning,) = answer["warnings"]
+    assert "'table': its 12000 points count as " in warning
+    excess = float(warning.split("at most ")[1].split(" m")[0])
+    assert -excess - 2e-3 <= answer["results"][0]["clearance"] - given["clearance"] <= 2e-3
+
+
+def test_a_scene_of_too_many_pieces_or_pairs_is_refused(client: TestClient) -> None:
+    random = np.random.default_rng(0)
+
+    def cloud(name: str, count: int, **more: Any) -> dict[str, Any]:
+        points = random.uniform(-1.0, 1.0, (count, 3)).tolist()
+        return {"name": name, "shape": {"type": "points", "points": points, "radius": 0.001}, **more}
+
+    for objects, status, words in (
+        ([cloud("a", 9000), cloud("b", 9000), cloud("c", 9000)], 422, "/scene/objects/2/shape"),
+        ([cloud("a", 1500), cloud("b", 1500, attached_to="panda_hand")], 413, "pairs of pieces"),
+    ):
+        body = {"joint_positions": [READY], "scene": {"objects": objects}}
+        answer = client.post("/v1/robots/panda/collisions", json=body)
+        assert answer.status_code == status, answer.text
+        assert words in answer.text

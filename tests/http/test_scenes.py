@@ -115,7 +115,8 @@ def test_a_scene_that_cannot_be(own: TestClient, objects: list[Any], status: int
         (b"no array", "'scan.npy': the body is not npy"),
         (npy(np.zeros((4, 2))), "its shape is (4, 2)"),
         (npy(np.zeros((0, 3))), "its shape is (0, 3)"),
-        (npy([[0.0, np.nan, 0.0]]), "finite"),
+        (npy([[0.0, np.nan, 0.0]]), "magnitude"),
+        (npy([[0.0, 1e7, 0.0]]), "magnitude"),
         (npy(np.zeros((1_000_001, 3), np.int8)), "1000001 is more than the 1000000"),
     ],
 )

@@ -232,3 +232,14 @@ def test_a_kill_at_any_moment_leaves_the_old_scene_or_the_new(scenes: Scenes) ->
         assert not [path for path in scenes.root.iterdir() if path.name.startswith((".new-", ".old-"))]
         last = max(number, *(int(name.removeprefix("new")) for name in listed - {"cell"}), last)
     assert len(added) > KILLS
+
+
+def test_what_tells_scenes_apart_and_a_file_that_got_damaged(scenes: Scenes) -> None:
+    assert scenes.add(upload("cell", mesh("shelf.stl"), shelf_stl=b"solid shelf"))
+    assert scenes.add(upload("same", mesh("shelf.stl"), shelf_stl=b"solid shelf"))
+    assert scenes.add(upload("other", mesh("shelf.stl"), shelf_stl=b"solid other"))
+    assert scenes.get("cell").identity == scenes.get("same").identity != scenes.get("other").identity
+    path = scenes.root / "cell.zip"
+    path.write_bytes(path.read_bytes().replace(b"solid shelf", b"solid shelg"))
+    with pytest.raises(InvalidSceneFile, match=r"cell\.zip.*'shelf\.stl' in it is damaged"):
+        scenes.get("cell").read("shelf.stl")

@@ -10,8 +10,8 @@ import numpy as np
 from gelenk.collision.bodies import Body, PieceKind
 from gelenk.collision.link_pairs import find_pairs
 from gelenk.collision.pairs import LinkPair
-from gelenk.collision.shapes.covers import cover
-from gelenk.collision.shapes.hulls import hull_of, parts_of
+from gelenk.collision.shapes.covers import NO_POINTS, covered_body
+from gelenk.collision.shapes.hulls import hulls_of
 from gelenk.collision.shapes.meshes import read_triangles
 from gelenk.errors import listed, meshes_are
 from gelenk.robot.arrays import Array
@@ -75,23 +75,21 @@ def _shapes(link: Link) -> list[Shape]:
 
 
 def _mesh_pieces(mesh: str, content: bytes | None) -> list[tuple[Array, float]] | None:
-    return None if content is None else [hull_of(part) for part in parts_of(read_triangles(mesh, content))]
+    return None if content is None else hulls_of(read_triangles(mesh, content))
 
 
 def _bodies(link: str, shapes: Sequence[Shape], pieces_of: _Pieces) -> Iterator[Body]:
     placed = [piece for shape in shapes for piece in _placed(shape, pieces_of)]
     for number, (kind, size, points, excess, T) in enumerate(placed, 1):
-        spheres = cover(kind, size, points)
-        spheres[:, :3] = spheres[:, :3] @ T[:3, :3].T + T[:3, 3]
         name = f"{link} {number}" if len(placed) > 1 else link
-        yield Body(name, link, kind, size, points, T, spheres, excess)
+        yield covered_body(name, link, kind, size, T, points, excess)
 
 
 def _placed(shape: Shape, pieces_of: _Pieces) -> Iterator[tuple[PieceKind, tuple[float, ...], Array, float, Array]]:
     """Yield kind, size, points, excess and pose of each convex piece of a shape."""
     T = placement(shape.origin.xyz, shape.origin.rpy)
     if shape.kind != "mesh":
-        yield shape.kind, shape.size, np.empty((0, 3)), 0.0, T
+        yield shape.kind, shape.size, NO_POINTS, 0.0, T
         return
     for points, excess in pieces_of(shape.mesh or "") or []:
         yield "convex", (), points * np.array(shape.size), excess, T

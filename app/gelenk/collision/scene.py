@@ -1,19 +1,16 @@
 """Objects around a robot, and attached to it, as bodies."""
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from gelenk.collision.bodies import Body
-from gelenk.collision.shapes.covers import cover
+from gelenk.collision.shapes.covers import covered_body
 from gelenk.errors import InvalidField, quoted
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import rotation_to_axis
 from gelenk.robot.description import Description
 from gelenk.robot.poses import transform
-
-SolidKind = Literal["box", "sphere", "cylinder", "capsule"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -25,6 +22,7 @@ class Obstacle:
         link: That link; None of an object at rest.
         touch_links: Links that may touch it.
         clearance: What comes nearer than this counts as in contact, [m].
+        note: Where its bodies are larger than it is, by how much; a sentence.
     """
 
     name: str
@@ -32,20 +30,14 @@ class Obstacle:
     link: str | None = None
     touch_links: frozenset[str] = frozenset()
     clearance: float = 0.0
-
-
-def solid(name: str, link: str, kind: SolidKind, size: tuple[float, ...], T_link_body: Array) -> Body:
-    """Return a piece with the spheres that cover it; its sizes are as those of `Body`."""
-    spheres = cover(kind, size, np.zeros((0, 3)))
-    spheres[:, :3] = spheres[:, :3] @ T_link_body[:3, :3].T + T_link_body[:3, 3]
-    return Body(name, link, kind, size, np.zeros((0, 3)), T_link_body, spheres)
+    note: str | None = None
 
 
 def half_space(name: str, link: str, normal: Array, offset: float, T_link_object: Array) -> Body:
     """Return all points x of the object's frame with normal · x ≤ offset, for a normal of any length but 0."""
     up = normal / np.linalg.norm(normal)
     T = T_link_object @ transform(offset * up, rotation_to_axis((float(up[0]), float(up[1]), float(up[2]))))
-    return Body(name, link, "half_space", (), np.zeros((0, 3)), T, np.zeros((0, 4)))
+    return covered_body(name, link, "half_space", (), T)
 
 
 def check_scene(description: Description, obstacles: tuple[Obstacle, ...]) -> None:

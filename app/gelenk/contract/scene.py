@@ -68,7 +68,7 @@ class SceneMesh(Payload):
 
 
 class ScenePoints(Payload):
-    """A cloud of points, each a small sphere."""
+    """A cloud of points, each a small sphere; more than 10,000 are grouped into boxes around them."""
 
     type: Literal["points"] = Field(description="Which shape it is.")
     points: (
@@ -143,6 +143,11 @@ class Scene(Payload):
         """Names of the files that its objects are read from."""
         named = (getattr(one.shape, "file", None) for one in self.objects)
         return tuple(dict.fromkeys(file for file in named if file is not None))
+
+    @property
+    def identity(self) -> str:
+        """What scenes with the same objects and files have in common, and others do not."""
+        return self.model_dump_json()
 
     def read(self, file: str) -> bytes:
         """Return the content of one of `files`; raises InvalidField, because only stored scenes have files."""

@@ -18,7 +18,7 @@ from starlette.responses import Response
 from gelenk.contract.endpoint import Endpoint, RobotEndpoint
 from gelenk.contract.endpoints import BY_NAME
 from gelenk.contract.trajectory import JOINT_TRAJECTORY, URSCRIPT, YAML
-from gelenk.errors import InvalidArray, InvalidField, quoted
+from gelenk.errors import InvalidArray, InvalidField, UnknownScene, quoted
 from gelenk.http.jobs.long_work import submitted
 from gelenk.http.jobs.long_works import LONG_WORK
 from gelenk.http.messages.npy import npy_response, read_npy
@@ -179,7 +179,10 @@ def _robot_and_call(
     if endpoint.robot_field and (name := getattr(call, endpoint.robot_field)) is not None:
         robot = context.library.get(name)
     if _names_scene(call):
-        call = call.model_copy(update={"scene": context.scenes.get(call.scene)})
+        try:
+            call = call.model_copy(update={"scene": context.scenes.get(call.scene)})
+        except UnknownScene as error:
+            raise UnknownScene(error.scene, error.close, "scene") from None
     return robot, call
 
 

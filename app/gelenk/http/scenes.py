@@ -9,6 +9,7 @@ import orjson
 from fastapi import APIRouter, Path, Response
 from starlette.datastructures import UploadFile
 
+from gelenk.contract.pose import MAX_MAGNITUDE
 from gelenk.contract.scene import MAX_FILES, MAX_POINTS, NamedScene, Scene, SceneForm, SceneList, ScenePoints
 from gelenk.errors import InvalidArray, InvalidField, TooLarge, quoted
 from gelenk.http.messages.npy import read_npy
@@ -137,8 +138,8 @@ def _check_points(scene: Scene, files: dict[str, bytes]) -> None:
             points = read_npy(files[file])
         except InvalidArray as error:
             raise InvalidField("files", f"{quoted(file)}: {error.reason}") from None
-        if points.ndim != 2 or points.shape[1] != 3 or not len(points) or not np.isfinite(points).all():
-            shape = f"its shape is {points.shape}, and there must be finite numbers in (N, 3)"
+        if points.ndim != 2 or points.shape[1] != 3 or not len(points) or not (np.abs(points) <= MAX_MAGNITUDE).all():
+            shape = f"its shape is {points.shape}, and there must be numbers of magnitude ≤ {MAX_MAGNITUDE:g} in (N, 3)"
             raise InvalidField("files", f"{quoted(file)}: {shape}")
         if len(points) > MAX_POINTS:
             raise TooLarge(f"points in {quoted(file)}", len(points), MAX_POINTS)

@@ -17,7 +17,8 @@ from gelenk.collision.contact.kernels import (
 )
 from gelenk.collision.contact.world import build_world
 from gelenk.collision.robot_bodies import RobotBodies
-from gelenk.collision.scene import Obstacle, solid
+from gelenk.collision.scene import Obstacle
+from gelenk.collision.shapes.covers import covered_body
 from gelenk.dh.tables.convert import describe_dh
 from gelenk.ik.closed.closed_form import closed_form
 from gelenk.ik.closed.nearest_branch import nearest_branch
@@ -154,8 +155,8 @@ def _motions() -> None:
 def _contacts() -> None:
     """Find the contacts of an arm with a ball on its tip."""
     robot, chain, qs = _small_arm()
-    held = (solid("held", chain.tip_frame, "sphere", (0.1,), np.eye(4)),)
-    near = (solid("near", chain.base_frame, "sphere", (0.1,), np.eye(4)),)
+    held = (covered_body("held", chain.tip_frame, "sphere", (0.1,), np.eye(4)),)
+    near = (covered_body("near", chain.base_frame, "sphere", (0.1,), np.eye(4)),)
     scene = Obstacle("held", held, chain.tip_frame), Obstacle("near", near)
     world = build_world(robot, chain, RobotBodies((), (), ()), scene).flat
     first_contacts(world, qs)

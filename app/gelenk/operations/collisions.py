@@ -9,8 +9,8 @@ from gelenk.collision.contact.judge import certify_clearances, certify_contacts
 from gelenk.collision.contact.kernels import all_contacts, first_contacts, nearest_pairs, pair_distances
 from gelenk.collision.contact.world import World, build_world
 from gelenk.collision.robot_bodies import RobotBodies
+from gelenk.collision.scene import Obstacle
 from gelenk.contract.collisions import CollisionRequest
-from gelenk.contract.scene import Scene
 from gelenk.errors import InvalidField, listed, quoted
 from gelenk.operations.chains import check_numbers, head
 from gelenk.operations.outcome import Limits, Outcome
@@ -32,11 +32,9 @@ def run(loaded: LoadedRobot, call: CollisionRequest, limits: Limits) -> Outcome:
     chain = loaded.robot.chain(call.base_frame, call.tip_frame)
     qs = configurations(chain, call.joint_positions)
     check_numbers(len(qs) * _NUMBERS, limits)
-    own, scene = bodies_of(loaded), call.scene
-    if isinstance(scene, str):
-        raise InvalidField("scene", f"no scene is named {quoted(scene)}")
-    others = _others(loaded.robot, chain, call.other_joints or {})
-    world = _world(loaded.robot, chain, own, None if scene is None else scene.model_dump_json(), others)
+    own, obstacles = bodies_of(loaded), obstacles_of(call.scene, loaded.robot.description.root)
+    world = _world(loaded.robot, chain, own, obstacles, _others(loaded.robot, chain, call.other_joints or {}))
+    warnings = [*own.warnings, *(one.note for one in obstacles if one.note)]
     if call.clearance:
         slacks, pairs, points = nearest_pairs(world.flat, qs)
         touching, certificate = slacks <= 0.0, certify_clearances(world, qs, slacks, pairs, points)
@@ -54,7 +52,7 @@ def run(loaded: LoadedRobot, call: CollisionRequest, limits: Limits) -> Outcome:
             found = _every_pair(world, qs) if call.pairs == "all" else _one_pair(world, qs, pairs)
             for result, some in zip(results, found, strict=True):
                 result["pairs"] = some
-        about = {"root_frame": loaded.robot.description.root, "warnings": own.warnings, "certificate": certificate}
+        about = {"root_frame": loaded.robot.description.root, "warnings": warnings, "certificate": certificate}
         return head(chain) | about | {"results": results}
 
     return Outcome(content, lambda: (np.column_stack((touching, slacks)), {}))
@@ -67,9 +65,12 @@ def is_heavy(call: CollisionRequest) -> bool:
 
 @lru_cache(32)
 def _world(
-    robot: RobotModel, chain: Chain, own: RobotBodies, scene: str | None, others: tuple[tuple[str, float], ...]
+    robot: RobotModel,
+    chain: Chain,
+    own: RobotBodies,
+    obstacles: tuple[Obstacle, ...],
+    others: tuple[tuple[str, float], ...],
 ) -> World:
-    obstacles = () if scene is None else obstacles_of(Scene.model_validate_json(scene), robot.description.root)
     return build_world(robot, chain, own, obstacles, dict(others))
 
 

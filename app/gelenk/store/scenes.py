@@ -18,7 +18,7 @@ import orjson
 from pydantic import PrivateAttr, ValidationError
 
 from gelenk.contract.scene import Scene, SceneFile, SceneSummary
-from gelenk.errors import InvalidField, InvalidName, InvalidSceneFile, SceneExists, UnknownScene, listed
+from gelenk.errors import InvalidField, InvalidName, InvalidSceneFile, SceneExists, UnknownScene, listed, quoted
 from gelenk.store import folders
 from gelenk.store.index import NAME
 from gelenk.store.quota import SCENES, Quota
@@ -54,10 +54,21 @@ class StoredScene(Scene):
     """A scene with its files, as it was when it was opened."""
 
     _archive: zipfile.ZipFile = PrivateAttr()
+    _digest: str = PrivateAttr()
+
+    @property
+    def identity(self) -> str:
+        """The digest of its objects and files."""
+        return self._digest
 
     def read(self, file: str) -> bytes:
-        """Return the content of one of `files`."""
-        return self._archive.read(file)
+        """Return the content of one of `files`; raises InvalidSceneFile if it is damaged."""
+        try:
+            return self._archive.read(file)
+        except _BROKEN as error:
+            raise InvalidSceneFile(
+                f"{quoted(file)} in it is damaged", Path(str(self._archive.filename)).name
+            ) from error
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,9 +191,9 @@ def _opened(path: Path) -> StoredScene:
     archive = _archive(path)
     try:
         scene = StoredScene.model_validate_json(archive.read(_DOCUMENT))
+        scene._archive, scene._digest = archive, _About(**orjson.loads(archive.comment)).digest
     except (*_BROKEN, ValidationError) as error:
         raise InvalidSceneFile(f"it holds no scene: {str(error)[:200]}", path.name) from error
-    scene._archive = archive
     return scene
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice, product
 
 import numpy as np
 
@@ -11,8 +12,12 @@ from gelenk.collision.contact.kernels import FlatWorld
 from gelenk.collision.contact.nodes import Nodes, without_free_joints
 from gelenk.collision.robot_bodies import RobotBodies
 from gelenk.collision.scene import Obstacle, check_scene
+from gelenk.errors import TooLarge
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
+
+MAX_PAIRS = 1_000_000
+"""Pairs of pieces that are compared: that many take a second to list, and a hundredth for a configuration."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,7 +45,7 @@ def build_world(
     obstacles: tuple[Obstacle, ...] = (),
     others: Mapping[str, float] | None = None,
 ) -> World:
-    """Prepare a robot and its scene; raises InvalidField for a frame of the scene that the robot does not have.
+    """Prepare a robot and its scene; raises InvalidField for a frame that the robot does not have, and TooLarge.
 
     Joints off the chain stand at 0 unless `others` says where; floating and planar ones are taken for fixed.
     """
@@ -55,9 +60,14 @@ def build_world(
 def flat_world(
     nodes: Nodes, bodies: Sequence[Body], names: Sequence[str], pairs: Iterable[tuple[str, str, float]]
 ) -> FlatWorld:
-    """Return pieces as arrays; `names` says what each is of, `pairs` which of these may not touch, with margins [m]."""
+    """Return pieces as arrays; `names` says what each is of, `pairs` which of these may not touch, with margins [m].
+
+    Raises TooLarge.
+    """
     placed = [(body, *nodes.of(body.link)) for body in bodies]
-    found = list(_piece_pairs(placed, names, pairs))
+    found = list(islice(_piece_pairs(placed, names, pairs), MAX_PAIRS + 1))
+    if len(found) > MAX_PAIRS:
+        raise TooLarge("pairs of pieces of links and objects", len(found), MAX_PAIRS)
     return FlatWorld(
         *nodes.flat(),
         flat_bodies(placed),
@@ -90,9 +100,11 @@ def _piece_pairs(
     pieces: dict[str, list[int]] = {}
     for i, name in enumerate(names):
         pieces.setdefault(name, []).append(i)
+    nodes = {name: placed[some[0]][1] for name, some in pieces.items()}  # All pieces of a name are on one.
     for a, b, margin in pairs:
-        for i in pieces.get(a, ()):
-            for j in pieces.get(b, ()):
-                (first, node, _), (second, other, _) = placed[i], placed[j]
-                if node != other and {first.kind, second.kind} != {"half_space"}:
-                    yield (j, i, margin) if first.kind == "half_space" else (i, j, margin)
+        if nodes.get(a) == nodes.get(b):
+            continue
+        for i, j in product(pieces.get(a, ()), pieces.get(b, ())):
+            first, second = placed[i][0].kind, placed[j][0].kind
+            if not first == second == "half_space":
+                yield (j, i, margin) if first == "half_space" else (i, j, margin)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from gelenk.collision.bodies import PieceKind
+from gelenk.collision.bodies import Body, PieceKind
 from gelenk.collision.shapes.hulls import convex_hull
 from gelenk.robot.arrays import Array
 
@@ -13,6 +13,24 @@ _SIDES = 16
 """Of the prism around a cylinder."""
 _ROUND = 1.75
 """A sphere is not divided whose radius is at most this multiple of half the piece's thickness; a cube's is 1.73."""
+
+
+NO_POINTS = np.empty((0, 3))
+
+
+def covered_body(
+    name: str,
+    link: str,
+    kind: PieceKind,
+    size: tuple[float, ...],
+    T_link_body: Array,
+    points: Array = NO_POINTS,
+    excess: float = 0.0,
+) -> Body:
+    """Return a piece with the spheres that cover it; the arguments are those of `Body`."""
+    spheres = cover(kind, size, points)
+    spheres[:, :3] = spheres[:, :3] @ T_link_body[:3, :3].T + T_link_body[:3, 3]
+    return Body(name, link, kind, size, points, T_link_body, spheres, excess)
 
 
 def cover(kind: PieceKind, size: tuple[float, ...], points: Array) -> Array:

@@ -48,6 +48,11 @@ def _components(faces: Indices) -> Indices:
             return labels
 
 
+def hulls_of(triangles: Array) -> list[tuple[Array, float]]:
+    """Return the pieces around a mesh's triangles, shape (F, 3, 3), as `hull_of` returns each."""
+    return [hull_of(part) for part in parts_of(triangles)]
+
+
 def hull_of(triangles: Array) -> tuple[Array, float]:
     """Return the vertices of a convex piece around triangles, shape (V, 3), V ≤ `MAX_VERTICES`, and its excess.
 
