@@ -15,6 +15,8 @@ _THINNEST = 1e-6
 _FACES = MAX_VERTICES // 2 + 2
 """Of a simplified hull: F faces meet in at most 2 F - 4 vertices."""
 _FACES_A_ROUND = 6
+_PLANES_AT_ONCE = 16
+"""Compared with all vertices: all at once would take gigabytes of a finely drawn hull."""
 _CELLS = 128
 """Of a coarser hull, along its size: a polygon on such a grid has some 90 corners at most."""
 
@@ -125,7 +127,8 @@ def _around(hull: Hull) -> Array:
     normals = np.cross(second - first, third - first)
     box = np.concatenate((np.eye(3), -np.eye(3)))
     planes = np.concatenate((box, normals * np.sign((normals * first).sum(axis=1, keepdims=True))))
-    planes /= (scaled @ planes.T).max(axis=0)[:, None] * (1.0 + 1e-9)
+    parts = np.array_split(planes, len(planes) // _PLANES_AT_ONCE + 1)
+    planes /= np.concatenate([(part @ scaled.T).max(axis=1) for part in parts])[:, None] * (1.0 + 1e-9)
     chosen = np.arange(len(box))
     vertices = _dual_vertices(planes[chosen])
     while len(chosen) < _FACES:
