@@ -200,7 +200,7 @@ def test_a_stored_cloud_is_never_farther_than_its_points(own: TestClient) -> Non
     store(own, cloud, npy(many), "PUT")
     answer = ask(own, {"scene": "cell", "clearance": True})
     (warning,) = answer["warnings"]
-    assert "'table': its 12000 points count as " in warning
+    assert "'table' counts as boxes around its 12000 points" in warning
     excess = float(warning.split("at most ")[1].split(" m")[0])
     assert -excess - 2e-3 <= answer["results"][0]["clearance"] - given["clearance"] <= 2e-3
 

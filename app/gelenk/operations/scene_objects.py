@@ -89,7 +89,7 @@ def _bodies(one: SceneObject, place: str, link: str, scene: Scene) -> tuple[tupl
         case ScenePoints(radius=radius) as cloud:
             points = _points(cloud, scene)
             some, excess = cloud_bodies(name, link, points, radius, T)
-            return tuple(some), _about_boxes(name, len(points), len(some), excess)
+            return tuple(some), _about_boxes(name, len(points), excess)
     raise TypeError(type(one.shape))
 
 
@@ -108,11 +108,11 @@ def _about_hulls(name: str, excesses: Sequence[float]) -> str | None:
     return f"{counts}; the loosest has {max(excesses):.0%} more volume than its part"
 
 
-def _about_boxes(name: str, points: int, boxes: int, excess: float) -> str | None:
+def _about_boxes(name: str, points: int, excess: float) -> str | None:
     if not excess:
         return None
-    counts = f"{quoted(name)}: its {points} points count as {boxes} boxes around them"
-    return f"{counts}, which reach at most {excess:.3g} m beyond their spheres"
+    counts = f"{quoted(name)} counts as boxes around its {counted(points, 'point')}"
+    return f"{counts}; they reach at most {excess:.3g} m beyond the points' spheres"
 
 
 def _pose(one: SceneObject, place: str) -> Array:
