@@ -9,7 +9,7 @@ import pytest
 from gelenk import errors
 from gelenk.errors import KinematicsError, kinds, listed, quoted
 
-OURS = {"reason", "element", "parameter", "quantity", "what", "joint_type", "representation", "angle", "kind"}
+OURS = {"reason", "element", "parameter", "quantity", "what", "joint_type", "representation", "angle", "kind", "thing"}
 """Fields whose text we write; all other texts come from outside."""
 
 
