@@ -17,7 +17,7 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 
 MAX_PAIRS = 1_000_000
-"""Pairs of pieces that are compared: that many take a second to list, and a hundredth for a configuration."""
+"""Pairs of pieces that are compared at most: their list takes memory and seconds."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
