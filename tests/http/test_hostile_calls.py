@@ -13,6 +13,7 @@ from starlette.testclient import TestClient
 from gelenk.http.workers.pool_client import PARSED_HERE_BYTES
 from tests.corpus.bodies import Call, of_json
 from tests.corpus.calls import FORMS, HEADERS, NPY, PATHS, PLANAR, QUERIES
+from tests.corpus.dh import TABLE
 from tests.corpus.fields import FIELDS, PANDA
 from tests.corpus.judging import MAX_SECONDS, complaints
 from tests.corpus.npy import GOOD_NPY, REFUSED_NPY, GoodNpy, RefusedNpy
@@ -39,7 +40,8 @@ def is_large(call: Call) -> bool:
 
 def wrong_bodies(method: str, path: str, robot: str, example: dict[str, Any]) -> Iterator[Call]:
     """Bodies that an operation does not take, and how it refuses each."""
-    for call in of_json(method, path.replace("{robot}", robot).replace("{exercise}", EXERCISE), example):
+    place = path.replace("{robot}", robot).replace("{scene}", robot).replace("{exercise}", EXERCISE)
+    for call in of_json(method, place, example):
         if path == GRADE and " at answers." in call.name:
             call = call._replace(statuses=(200, 400, 422))  # noqa: PLW2901
         refused = path in TAKE_LITTLE and is_large(call)
@@ -51,13 +53,15 @@ GROUPS = {"fields": FIELDS, "paths": PATHS, "queries": QUERIES, "forms": FORMS, 
 
 @pytest.fixture(scope="module", autouse=True)
 def still_there(client: TestClient) -> Iterator[None]:
-    """After all of it the service answers as before, and has no robot that it had not."""
+    """After all of it the service answers as before, and has no robot or scene that it had not."""
     before = client.get("/v1/robots").json()
+    scenes = client.get("/v1/scenes").json()
     yield
     assert client.get("/healthz").status_code == 200
     answer = client.post(f"{PLANAR}/fk", json={"joint_positions": [[0.0, 0.0]]})
     assert answer.json()["poses"][0]["position"] == [1.7, 0.0, 0.0]
     assert client.get("/v1/robots").json() == before
+    assert client.get("/v1/scenes").json() == scenes
 
 
 def check(client: TestClient, calls: Iterable[Call]) -> None:
@@ -85,12 +89,14 @@ def test_a_body_that_an_operation_does_not_take(
 ) -> None:
     name = "hostile" if method == "PUT" else "panda"
     if method == "PUT":
-        assert client.post("/v1/robots", json={"name": name, "dh": example["dh"]}).status_code == 201
+        things, thing = ("scenes", example) if "{scene}" in path else ("robots", {"dh": example.get("dh", TABLE)})
+        assert client.post(f"/v1/{things}", json={"name": name, **thing}).status_code == 201
     try:
         check(client, wrong_bodies(method, path, name, example))
     finally:
         for added in ("hostile", example.get("name")):
             client.delete(f"/v1/robots/{added}")
+            client.delete(f"/v1/scenes/{added}")
 
 
 @pytest.mark.quick(1)
@@ -116,7 +122,7 @@ def test_an_array_that_is_none(client: TestClient, case: RefusedNpy) -> None:
 
 @pytest.mark.quick(2)
 @pytest.mark.parametrize(
-    "operation", ["jacobian", "ik", "statics", "dynamics", "manipulability", "velocity", "singularities"]
+    "operation", ["jacobian", "ik", "statics", "dynamics", "manipulability", "velocity", "singularities", "collisions"]
 )
 def test_no_operation_takes_an_array_that_is_none(client: TestClient, operation: str) -> None:
     """The array is of the wrong chain for most of them, so that what is wrong with it may differ."""

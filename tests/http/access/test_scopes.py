@@ -15,6 +15,10 @@ WRITING = {
     ("POST", "/v1/robots"),
     ("PUT", "/v1/robots/{robot}"),
     ("DELETE", "/v1/robots/{robot}"),
+    ("PUT", "/v1/robots/{robot}/collision-pairs"),
+    ("POST", "/v1/scenes"),
+    ("PUT", "/v1/scenes/{scene}"),
+    ("DELETE", "/v1/scenes/{scene}"),
     ("POST", "/v1/robots/{robot}/workspace"),
     ("DELETE", "/v1/jobs/{job}"),
 }

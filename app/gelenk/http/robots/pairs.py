@@ -9,7 +9,8 @@ from gelenk.collision.robot_bodies import RobotBodies
 from gelenk.contract.collision_pairs import CollisionPairs, PairChoice, PairChoices, PairInfo
 from gelenk.errors import InvalidField, quoted
 from gelenk.http.messages.openapi import RobotPath, UploadedRobotPath, documentation
-from gelenk.http.messages.payloads import BoundedRequest, JsonResponse, read_json
+from gelenk.http.messages.payloads import JSON, BoundedRequest, JsonResponse, read_json
+from gelenk.http.messages.problems import UnsupportedMediaType
 from gelenk.http.messages.routes import DocumentedRoute
 from gelenk.http.workers.pool_client import PoolClient
 from gelenk.http.workers.task import Context, TaskRequest, buffers
@@ -23,6 +24,8 @@ def pair_routes(pool_client: PoolClient, max_body_bytes: int) -> list[Documented
         return await pool_client.answer(request, _listed, TaskRequest(robot=request.path_params["robot"]))
 
     async def choose(request: BoundedRequest) -> Response:
+        if request.media_type != JSON:
+            raise UnsupportedMediaType(request.media_type, (JSON,))
         given = TaskRequest(buffers(await request.pieces()), robot=request.path_params["robot"])
         return await pool_client.answer(request, _chosen, given)
 
