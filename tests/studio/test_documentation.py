@@ -13,7 +13,7 @@ def test_operations_are_found_by_words_of_path_name_or_description(studio: Studi
     all_of_them = page.locator(".opblock").count()
     assert page.locator(".authorization__btn, .auth-wrapper").count() == 0
     groups = [heading.split("\n")[0] for heading in page.locator(".opblock-tag").all_inner_texts()]
-    assert groups == ["Robots", "DH tables", "Kinematics", "Course", "Jobs", "Service"]
+    assert groups == ["Robots", "Scenes", "DH tables", "Kinematics", "Course", "Jobs", "Service"]
     field = page.get_by_label("Find an operation")
     for words, path in {
         "FORCE ellipsoids": "/v1/robots/{robot}/manipulability",  # of the description
