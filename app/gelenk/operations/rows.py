@@ -19,7 +19,7 @@ _LINE_END = "\r\n"
 
 def json_rows(array: Array) -> orjson.Fragment | Array:
     """Encode a large array as a part of a JSON answer, and let other threads run in between; return a small one."""
-    return array if array.size <= _FEW else json_list(_encoded(array))
+    return np.ascontiguousarray(array) if array.size <= _FEW else json_list(_encoded(array))
 
 
 def json_list(pieces: Iterable[bytes]) -> orjson.Fragment:
