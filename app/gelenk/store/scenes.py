@@ -91,7 +91,7 @@ class Scenes:
     def get(self, name: str) -> StoredScene:
         """Return a scene; raises UnknownScene, or InvalidSceneFile if somebody else has written its file."""
         path, stamp = self._found(name)
-        return _kept(path, stamp) if stamp[2] <= _KEPT_BYTES else _opened(path)
+        return _cached(path, stamp) if stamp[2] <= _KEPT_BYTES else _opened(path)
 
     def document(self, name: str) -> tuple[bytes, list[SceneFile]]:
         """Return a scene as JSON, the object that has its `objects`, and its files; raises as `get`."""
@@ -183,7 +183,7 @@ class Scenes:
 
 
 @lru_cache(maxsize=64)
-def _kept(path: Path, _: Stamp) -> StoredScene:
+def _cached(path: Path, _: Stamp) -> StoredScene:
     return _opened(path)
 
 

@@ -42,7 +42,7 @@ class TrustedHosts:
         self._any = "*" in names
         self._names = {*names, *LOCAL}
         self._endings = tuple(name[1:] for name in names if name.startswith("*."))
-        self._is_ours = lru_cache(64)(self._is_ours)  # type: ignore[method-assign]
+        self._is_ours = lru_cache(64)(self._names_us)
 
     def __call__(self, exchange: RequestContext) -> Response | None:
         """Return the refusal, or None to let the request pass."""
@@ -58,7 +58,7 @@ class TrustedHosts:
         detail = f"the service does not answer for the host {quoted(name)}; GELENK_TRUSTED_HOSTS adds names"
         return problem(exchange.request, HTTPStatus.MISDIRECTED_REQUEST, "unknown-host", detail)
 
-    def _is_ours(self, host: bytes) -> bool:
+    def _names_us(self, host: bytes) -> bool:
         if not _HOST.fullmatch(host):
             return False
         name = _without_port(host.decode("latin-1").lower())
