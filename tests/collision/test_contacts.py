@@ -1,18 +1,29 @@
 """Contacts of a whole robot in its scene, against Pinocchio and Coal; what the judge withholds."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
-from gelenk.collision.contact.judge import certify_clearances, certify_contacts
+from gelenk.collision.contact.judge import PairContacts, certify_clearances, certify_contacts
 from gelenk.collision.contact.kernels import all_contacts, first_contacts, nearest_pairs, pair_distances
 from gelenk.collision.contact.world import build_world
 from gelenk.collision.robot_bodies import find_bodies
 from gelenk.collision.scene import Obstacle
 from gelenk.collision.shapes.covers import covered_body
 from gelenk.errors import CertificationFailed, InvalidField
+from gelenk.robot.arrays import Array, Indices
 from tests.collision.arms import arm, obstacles, world
 
 WORLD = world()
+
+
+def of_pairs(pairs: Indices, distances: Array, points: Array) -> Callable[[int], PairContacts]:
+    """One pair at each configuration, as the judge takes it."""
+    return lambda row: (pairs[row : row + 1], distances[row : row + 1], points[row : row + 1])
+
+
+NOTHING = of_pairs(*(np.zeros(shape, dtype=int) for shape in [(0,), (0,), (0, 6)]))
 QS = np.random.default_rng(0).uniform(-3.0, 3.0, (32, 4))
 
 
@@ -24,8 +35,9 @@ def test_contacts_and_clearances_are_as_coal_says(others: dict[str, float]) -> N
     assert ((found >= 0) == (slacks <= 0.0)).all()
     for first in range(0, len(QS), 16):
         part = slice(first, first + 16)
-        assert certify_contacts(here, QS[part], found[part] >= 0).samples == 16
-        certify_clearances(here, QS[part], slacks[part], pairs[part], points[part])
+        assert certify_contacts(here, QS[part], found[part] >= 0, NOTHING).samples == 16
+        distances = slacks[part] + here.flat.margins[pairs[part]]
+        certify_clearances(here, QS[part], slacks[part], of_pairs(pairs[part], distances, points[part]))
 
 
 def test_the_nearest_pair_is_the_nearest_of_all() -> None:
@@ -55,7 +67,7 @@ def test_what_the_chain_does_not_move_is_no_pair() -> None:
 def test_a_wrong_verdict_is_withheld() -> None:
     touching = first_contacts(WORLD.flat, QS[:8]) >= 0
     with pytest.raises(CertificationFailed, match="a contact"):
-        certify_contacts(WORLD, QS[:8], ~touching)
+        certify_contacts(WORLD, QS[:8], ~touching, NOTHING)
 
 
 @pytest.mark.parametrize("is_contact", [True, False])
@@ -65,7 +77,23 @@ def test_a_wrong_distance_is_withheld(is_contact: bool) -> None:
     less = points[rows].copy()
     less[:, :3] += 0.01 * (less[:, 3:] - less[:, :3])
     with pytest.raises(CertificationFailed, match="a distance"):
-        certify_clearances(WORLD, QS[rows], slacks[rows] * 1.001, pairs[rows], less)
+        certify_clearances(WORLD, QS[rows], slacks[rows] * 1.001, of_pairs(pairs[rows], slacks[rows], less))
+
+
+@pytest.mark.parametrize("at_fault", ["depth", "direction"])
+def test_a_wrong_contact_is_withheld_where_no_clearance_is_asked_for(at_fault: str) -> None:
+    pairs = first_contacts(WORLD.flat, QS)
+    distances, points = pair_distances(WORLD.flat, QS, pairs)
+    rows = np.flatnonzero((pairs >= 0) & (distances < -0.01))[:4]
+    told, wrong = distances[rows], points[rows].copy()
+    if at_fault == "depth":
+        told = told * 1.01
+    else:
+        wrong[:, 3:] = wrong[:, :3] + 0.01 * (wrong[:, 3:] - wrong[:, :3])
+        told = -np.linalg.norm(wrong[:, :3] - wrong[:, 3:], axis=1)
+    certify_contacts(WORLD, QS[rows], pairs[rows] >= 0, of_pairs(pairs[rows], distances[rows], points[rows]))
+    with pytest.raises(CertificationFailed, match="a distance"):
+        certify_contacts(WORLD, QS[rows], pairs[rows] >= 0, of_pairs(pairs[rows], told, wrong))
 
 
 def test_a_configuration_that_only_touches_is_not_withheld() -> None:
@@ -77,7 +105,7 @@ def test_a_configuration_that_only_touches_is_not_withheld() -> None:
     here = build_world(robot, robot.chain(None, None), own, (top,))
     q = np.zeros((1, 4))
     for verdict in (True, False):
-        certify_contacts(here, q, np.array([verdict]))
+        certify_contacts(here, q, np.array([verdict]), NOTHING)
 
 
 def test_a_scene_of_unknown_frames_is_refused() -> None:

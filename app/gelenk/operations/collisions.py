@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from gelenk.collision.contact.judge import certify_clearances, certify_contacts
+from gelenk.collision.contact.judge import PairContacts, certify_clearances, certify_contacts
 from gelenk.collision.contact.kernels import all_contacts, first_contacts, nearest_pairs, pair_distances
 from gelenk.collision.contact.world import World, build_world
 from gelenk.collision.robot_bodies import RobotBodies
@@ -14,7 +14,7 @@ from gelenk.contract.collisions import CollisionRequest
 from gelenk.errors import InvalidField, listed, quoted
 from gelenk.operations.chains import check_numbers, head
 from gelenk.operations.outcome import Limits, Outcome
-from gelenk.operations.robot_bodies import WARM_UP, bodies_of
+from gelenk.operations.robot_bodies import bodies_of
 from gelenk.operations.scene_objects import obstacles_of
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -22,7 +22,6 @@ from gelenk.robot.configuration import configurations
 from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot
 
-__all__ = ["WARM_UP", "is_heavy", "run"]
 _NUMBERS = 9
 """Numbers of a result with one pair."""
 
@@ -37,11 +36,22 @@ def run(loaded: LoadedRobot, call: CollisionRequest, limits: Limits) -> Outcome:
     warnings = [*own.warnings, *(one.note for one in obstacles if one.note)]
     if call.clearance:
         slacks, pairs, points = nearest_pairs(world.flat, qs)
-        touching, certificate = slacks <= 0.0, certify_clearances(world, qs, slacks, pairs, points)
+        touching, distances = slacks <= 0.0, slacks + np.append(world.flat.margins, 0.0)[pairs]
     else:
         pairs = first_contacts(world.flat, qs)
-        slacks, touching = np.full(len(qs), np.nan), pairs >= 0
-        certificate = certify_contacts(world, qs, touching)
+        touching, slacks = pairs >= 0, np.full(len(qs), np.nan)
+        distances, points = pair_distances(world.flat, qs, pairs)
+
+    def contacts(row: int) -> PairContacts:
+        if call.pairs == "all":
+            return _every_pair(world, qs[row])
+        end = row + int(pairs[row] >= 0)
+        return pairs[row:end], distances[row:end], points[row:end]
+
+    if call.clearance:
+        certificate = certify_clearances(world, qs, slacks, contacts)
+    else:
+        certificate = certify_contacts(world, qs, touching, contacts)
 
     def content() -> dict[str, Any]:
         results: list[dict[str, Any]] = [{"in_collision": one} for one in touching.tolist()]
@@ -49,18 +59,20 @@ def run(loaded: LoadedRobot, call: CollisionRequest, limits: Limits) -> Outcome:
             for result, slack in zip(results, slacks.tolist(), strict=True):
                 result["clearance"] = slack if slack < np.inf else None
         if call.pairs != "none":
-            found = _every_pair(world, qs) if call.pairs == "all" else _one_pair(world, qs, pairs)
-            for result, some in zip(results, found, strict=True):
-                result["pairs"] = some
+            count = 0
+            for row, result in enumerate(results):
+                result["pairs"] = _by_name(world, contacts(row))
+                count += len(result["pairs"])
+                check_numbers(count * _NUMBERS, limits)
         about = {"root_frame": loaded.robot.description.root, "warnings": warnings, "certificate": certificate}
         return head(chain) | about | {"results": results}
 
     return Outcome(content, lambda: (np.column_stack((touching, slacks)), {}))
 
 
-def is_heavy(call: CollisionRequest) -> bool:
-    """Check whether a request takes the event loop more than about a millisecond."""
-    return len(call.joint_positions) > 1 or call.scene is not None
+def is_heavy(_: CollisionRequest) -> bool:
+    """Return True: the first call about a robot or a scene prepares it, which takes long."""
+    return True
 
 
 @lru_cache(32)
@@ -84,25 +96,20 @@ def _others(robot: RobotModel, chain: Chain, given: dict[str, float]) -> tuple[t
     return tuple(given.items())
 
 
-def _one_pair(world: World, qs: Array, pairs: Any) -> list[list[dict[str, Any]]]:
-    distances, points = pair_distances(world.flat, qs, pairs)
-    return [
-        [_pair(world, int(pair), float(distance), row)] if pair >= 0 else []
-        for pair, distance, row in zip(pairs, distances, points, strict=True)
-    ]
+def _every_pair(world: World, q: Array) -> PairContacts:
+    """Return the contacts at a configuration, the deepest first."""
+    distances, points = all_contacts(world.flat, q)
+    pairs = np.argsort(distances)[: np.isfinite(distances).sum()]
+    return pairs, distances[pairs], points[pairs]
 
 
-def _every_pair(world: World, qs: Array) -> list[list[dict[str, Any]]]:
-    """Return the contacts at each configuration, the deepest pieces of each pair of names, the deepest pair first."""
-    found = []
-    for q in qs:
-        distances, points = all_contacts(world.flat, q)
-        pairs: dict[tuple[str, str], dict[str, Any]] = {}
-        for k in np.argsort(distances)[: np.isfinite(distances).sum()]:
-            pair = _pair(world, int(k), float(distances[k]), points[k])
-            pairs.setdefault((pair["a"], pair["b"]), pair)
-        found.append(list(pairs.values()))
-    return found
+def _by_name(world: World, contacts: PairContacts) -> list[dict[str, Any]]:
+    """Return pairs as they are sent, of several pieces of the same two only the first."""
+    pairs: dict[tuple[str, str], dict[str, Any]] = {}
+    for k, distance, row in zip(*contacts, strict=True):
+        pair = _pair(world, int(k), float(distance), row)
+        pairs.setdefault((pair["a"], pair["b"]), pair)
+    return list(pairs.values())
 
 
 def _pair(world: World, k: int, distance: float, points: Array) -> dict[str, Any]:

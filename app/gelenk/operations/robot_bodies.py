@@ -21,7 +21,6 @@ from gelenk.collision.pairs import LinkPair, edited
 from gelenk.collision.robot_bodies import RobotBodies, find_bodies
 from gelenk.collision.shapes.meshes import MAX_BYTES
 from gelenk.errors import StorageFailed
-from gelenk.operations.warm_up import WarmUp
 from gelenk.robot.robot import RobotModel
 from gelenk.store import folders
 from gelenk.store.records import LoadedRobot, mesh_file, package_data, stamp_of
@@ -42,16 +41,6 @@ def bodies_of(loaded: LoadedRobot) -> RobotBodies:
         choices = ((pair.a, pair.b, pair.active) for pair in loaded.record.file.collision_pairs)
         known = _known[loaded.robot] = replace(found, pairs=edited(found.pairs, choices))
     return known
-
-
-def _keep(loaded: LoadedRobot, _: object, bodies: RobotBodies) -> None:
-    _known[loaded.robot] = bodies
-
-
-WARM_UP: WarmUp[Any] = WarmUp(
-    is_known=lambda loaded, _: loaded.robot in _known, find=lambda loaded, _: bodies_of(loaded), keep=_keep
-)
-"""For operations that need the bodies."""
 
 
 def _stored_or_found(loaded: LoadedRobot) -> RobotBodies:

@@ -4,7 +4,9 @@ Nothing here is shared with the kernels but the pieces themselves. A verdict tha
 explains is never sent.
 """
 
+from collections.abc import Callable
 from functools import lru_cache
+from typing import TypeAlias
 
 import coal
 import numpy as np
@@ -18,6 +20,9 @@ from gelenk.errors import CertificationFailed
 from gelenk.kinematics.judge.judge import sampled_rows
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.description import MOVABLE
+
+PairContacts: TypeAlias = tuple[Indices, Array, Array]
+"""Pairs at one configuration: numbers (P,), distances (P,) [m], negative in contact, and nearest points (P, 6) [m]."""
 
 TOLERANCE = 1e-6
 """Allowed difference of a distance, [m]."""
@@ -92,42 +97,43 @@ class ContactJudge:
 _judge = lru_cache(16)(ContactJudge)
 
 
-def certify_contacts(world: World, qs: Array, touching: Flags, seed: int = 0) -> ContactCertificate:
+def certify_contacts(
+    world: World, qs: Array, touching: Flags, contacts: Callable[[int], PairContacts], seed: int = 0
+) -> ContactCertificate:
     """Compare verdicts with Coal's: all of a few, a sample of many; raises CertificationFailed.
 
     Args:
         world: The robot and its scene.
         qs: Configurations of the chain; shape (N, n), [rad or m].
         touching: Whether each was found to be in contact; shape (N,).
+        contacts: What was found of single pairs at a row of `qs`. Coal checks that the stated displacement takes each
+            pair in contact apart.
         seed: Seed of the choice.
     """
-    tally, rows = _Tally(_judge(world)), sampled_rows(len(qs), seed)
+    comparison, rows = _Comparison(_judge(world)), sampled_rows(len(qs), seed)
     for row in rows:
-        tally.count(tally.judge.poses(qs[row]), bool(touching[row]), TOLERANCE)
-    return tally.certificate(len(rows), seed)
+        poses = comparison.judge.poses(qs[row])
+        comparison.count(poses, bool(touching[row]), TOLERANCE)
+        comparison.displace(poses, contacts(row))
+    return comparison.certificate(len(rows), seed)
 
 
 def certify_clearances(
-    world: World, qs: Array, slacks: Array, pairs: Indices, points: Array, seed: int = 0
+    world: World, qs: Array, slacks: Array, contacts: Callable[[int], PairContacts], seed: int = 0
 ) -> ContactCertificate:
-    """Compare what `nearest_pairs` returns with Coal's; raises CertificationFailed.
-
-    Of configurations in contact, Coal checks that the stated displacement takes the stated pair apart.
-    """
+    """Compare smallest distances less their margins, (N,) [m], with Coal's; otherwise as `certify_contacts`."""
     judge = _judge(world)
-    tally, rows = _Tally(judge), sampled_rows(len(qs), seed)
+    comparison, rows = _Comparison(judge), sampled_rows(len(qs), seed)
     for row in rows:
         poses, slack = judge.poses(qs[row]), float(slacks[row])
-        least = tally.count(poses, slack <= 0.0, max(slack, 0.0) + 2.0 * TOLERANCE)
+        least = comparison.count(poses, slack <= 0.0, max(slack, 0.0) + 2.0 * TOLERANCE)
         if slack > 0.0:
-            tally.add(least - slack if np.isfinite(slack) or np.isfinite(least) else 0.0)
-        elif slack + world.flat.margins[pairs[row]] < 0.0:
-            shift = points[row, :3] - points[row, 3:]
-            tally.add(min(judge.distance(poses, int(pairs[row]), True, shift), 0.0))
-    return tally.certificate(len(rows), seed)
+            comparison.add(least - slack if np.isfinite(slack) or np.isfinite(least) else 0.0)
+        comparison.displace(poses, contacts(row))
+    return comparison.certificate(len(rows), seed)
 
 
-class _Tally:
+class _Comparison:
     """What a certificate says, so far."""
 
     def __init__(self, judge: ContactJudge) -> None:
@@ -146,6 +152,14 @@ class _Tally:
             if not abs(slack) <= TOLERANCE:
                 raise CertificationFailed("a contact", abs(slack), TOLERANCE)
         return slack
+
+    def displace(self, poses: list[pin.SE3], contacts: PairContacts) -> None:
+        """Check that each pair in contact is apart where its second piece is moved as stated."""
+        for k, distance, points in zip(*contacts, strict=True):
+            if distance < 0.0:
+                shift = points[:3] - points[3:]
+                self.add(float(np.linalg.norm(shift)) + float(distance))
+                self.add(min(self.judge.distance(poses, int(k), True, shift), 0.0))
 
     def add(self, difference: float) -> None:
         """Count a difference of distances; raises CertificationFailed if it is too large."""
