@@ -62,8 +62,8 @@ class CollisionAnswer(AboutChain):
     root_frame: str = Field(description="Frame of the robot in which the scene and all points are.")
     results: list[CollisionResult] = Field(description="Contacts at each configuration.")
     warnings: list[str] = Field(
-        description="What of the robot has no body, or not one meant for this; which "
-        " objects count as larger than they are, and by how much."
+        description="What of the robot has no body, or not one meant for this; which objects count as larger than they "
+        "are, and by how much."
     )
     certificate: ContactCertificate
 

@@ -40,7 +40,8 @@ def run(loaded: LoadedRobot, call: CollisionRequest, limits: Limits) -> Outcome:
     else:
         pairs = first_contacts(world.flat, qs)
         touching, slacks = pairs >= 0, np.full(len(qs), np.nan)
-        distances, points = pair_distances(world.flat, qs, pairs)
+        shown = pairs if call.pairs == "first" else np.full_like(pairs, -1)
+        distances, points = pair_distances(world.flat, qs, shown)
 
     def contacts(row: int) -> PairContacts:
         if call.pairs == "all":
