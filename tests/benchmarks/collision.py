@@ -6,6 +6,8 @@ The peer's loop over pairs is Pinocchio's, in C++; only that over configurations
 import statistics
 import time
 from collections.abc import Callable
+from pathlib import Path
+from tempfile import mkdtemp
 
 import numpy as np
 import pinocchio as pin
@@ -70,7 +72,7 @@ def measure() -> list[Row]:
 def panda_among_boxes() -> World:
     """Return the Panda with ten boxes around it, always the same."""
     rng = np.random.default_rng(0)
-    loaded = Library(Settings().catalogue_dir, Settings().catalogue_dir / "none").get("panda")
+    loaded = Library(Settings().catalogue_dir, Path(mkdtemp())).get("panda")
     root, obstacles = loaded.robot.description.root, []
     for i in range(10):
         T, angle = np.eye(4), 2.0 * np.pi * i / 10
