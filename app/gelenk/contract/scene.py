@@ -217,3 +217,18 @@ SceneOrName = Annotated[
     Discriminator(_form),
     Field(description="What is around the robot: the name of a stored scene, or its objects."),
 ]
+
+
+class InCell(Payload):
+    """Asks that the robot stay clear of itself and of what is around it."""
+
+    scene: SceneOrName | None = optional(
+        "What the robot must not touch, beside itself: objects, or the name of a stored scene. If left out, and "
+        "`min_clearance` too, contacts are not looked at."
+    )
+    min_clearance: float | None = optional(
+        "Two that are at most this far apart count as in contact, [m]; it adds to what an object of the scene demands. "
+        "0 if left out.",
+        ge=0.0,
+        le=MAX_SIZE,
+    )

@@ -1,17 +1,15 @@
 """Contacts of a robot with itself and a scene."""
 
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from gelenk.collision.contact.judge import PairContacts, certify_clearances, certify_contacts
 from gelenk.collision.contact.kernels import all_contacts, first_contacts, nearest_pairs, pair_distances
-from gelenk.collision.contact.world import World, build_world
-from gelenk.collision.robot_bodies import RobotBodies
-from gelenk.collision.scene import Obstacle
+from gelenk.collision.contact.world import World
 from gelenk.contract.collisions import CollisionRequest
 from gelenk.errors import InvalidField, listed, quoted
+from gelenk.operations.cells import world_of
 from gelenk.operations.chains import check_numbers, head
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.robot_bodies import bodies_of
@@ -32,7 +30,7 @@ def run(loaded: LoadedRobot, call: CollisionRequest, limits: Limits) -> Outcome:
     qs = configurations(chain, call.joint_positions)
     check_numbers(len(qs) * _NUMBERS, limits)
     own, obstacles = bodies_of(loaded), obstacles_of(call.scene, loaded.robot.description.root)
-    world = _world(loaded.robot, chain, own, obstacles, _others(loaded.robot, chain, call.other_joints or {}))
+    world = world_of(loaded.robot, chain, own, obstacles, _others(loaded.robot, chain, call.other_joints or {}))
     warnings = [*own.warnings, *(one.note for one in obstacles if one.note)]
     if call.clearance:
         slacks, pairs, points = nearest_pairs(world.flat, qs)
@@ -74,17 +72,6 @@ def run(loaded: LoadedRobot, call: CollisionRequest, limits: Limits) -> Outcome:
 def is_heavy(_: CollisionRequest) -> bool:
     """Return True: the first call about a robot or a scene prepares it, which takes long."""
     return True
-
-
-@lru_cache(32)
-def _world(
-    robot: RobotModel,
-    chain: Chain,
-    own: RobotBodies,
-    obstacles: tuple[Obstacle, ...],
-    others: tuple[tuple[str, float], ...],
-) -> World:
-    return build_world(robot, chain, own, obstacles, dict(others))
 
 
 def _others(robot: RobotModel, chain: Chain, given: dict[str, float]) -> tuple[tuple[str, float], ...]:

@@ -1,0 +1,82 @@
+"""A robot in its surroundings, and how near it may come to them and to itself."""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from gelenk.collision.contact.judge import PairContacts, certify_clearances, certify_contacts
+from gelenk.collision.contact.kernels import first_contacts, nearest_pairs, pair_distances
+from gelenk.collision.contact.words import ContactCertificate
+from gelenk.collision.contact.world import World
+from gelenk.robot.arrays import Array, Flags, Indices
+
+
+class Nearest(NamedTuple):
+    """The nearest pair of pieces at each of N configurations.
+
+    Attributes:
+        clearances: Its distance less what an object demands, the smallest of all; infinite without pairs; (N,), [m].
+        pairs: Its number, -1 without pairs; shape (N,).
+        distances: Negative the depth; shape (N,), [m].
+        points: Its nearest or deepest points in the root; shape (N, 6), [m].
+    """
+
+    clearances: Array
+    pairs: Indices
+    distances: Array
+    points: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cell:
+    """A world whose pairs all count as in contact up to a distance.
+
+    Attributes:
+        world: Its margins contain that distance.
+        min_clearance: The distance, added to what an object demands, [m].
+    """
+
+    world: World
+    min_clearance: float
+
+    def touching(self, qs: Array) -> Flags:
+        """Return whether any pair is in contact at each configuration; (N, n) → (N,)."""
+        return first_contacts(self.world.flat, qs) >= 0
+
+    def nearest(self, qs: Array) -> Nearest:
+        """Return the nearest pair at each configuration of shape (N, n)."""
+        slacks, pairs, points = nearest_pairs(self.world.flat, qs)
+        margins = np.append(self.world.flat.margins, 0.0)[pairs]
+        return Nearest(slacks + self.min_clearance, pairs, slacks + margins, points)
+
+    def names(self, pair: int) -> tuple[str, str]:
+        """Return the names of the links or objects of a pair."""
+        a, b = self.world.flat.pairs[pair].tolist()
+        return self.world.names[a], self.world.names[b]
+
+    def certified(self, qs: Array, touching: Flags) -> ContactCertificate:
+        """Check verdicts by Coal: all of a few, a sample of many; raises CertificationFailed."""
+
+        def contact(row: int) -> PairContacts:
+            pairs = first_contacts(self.world.flat, qs[row : row + 1])
+            pairs = pairs[pairs >= 0]
+            return pairs, *pair_distances(self.world.flat, qs[row : row + len(pairs)], pairs)
+
+        return certify_contacts(self.world, qs, touching, contact)
+
+    def certified_nearest(self, qs: Array, nearest: Nearest) -> ContactCertificate:
+        """Check nearest pairs by Coal: all of a few, a sample of many; raises CertificationFailed."""
+        _, pairs, distances, points = nearest
+
+        def contact(row: int) -> PairContacts:
+            rows = slice(row, row + int(pairs[row] >= 0))
+            return pairs[rows], distances[rows], points[rows]
+
+        return certify_clearances(self.world, qs, nearest.clearances - self.min_clearance, contact)
+
+
+def cell_in(world: World, min_clearance: float = 0.0) -> Cell:
+    """Return a world as a cell, in which nothing may come nearer than `min_clearance`, [m] ≥ 0."""
+    wider = world.flat._replace(margins=world.flat.margins + min_clearance)
+    return Cell(replace(world, flat=wider) if min_clearance else world, min_clearance)
