@@ -3,6 +3,7 @@
 import gzip
 import hashlib
 import math
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache
@@ -47,7 +48,7 @@ def _stored_or_found(loaded: LoadedRobot) -> RobotBodies:
     file = None if loaded.derived is None else loaded.derived / f"{_digest(loaded)}.json"
     if file is not None:
         with suppress(OSError, ValueError, TypeError, KeyError):
-            return _read(folders.read_plain(file))
+            return read_bodies(orjson.loads(folders.read_plain(file)))
     found = _found(loaded)
     if file is not None:
         _write(file, found)
@@ -101,14 +102,14 @@ def _write(file: Path, found: RobotBodies) -> None:
             old.unlink(missing_ok=True)
 
 
-def _read(content: bytes) -> RobotBodies:
-    """Read stored bodies; raises ValueError, TypeError or KeyError if they are damaged."""
-    stored = orjson.loads(content)
-    bodies = tuple(map(_body, stored["bodies"]))
+def read_bodies(stored: Mapping[str, Any]) -> RobotBodies:
+    """Return bodies that were stored as JSON; raises ValueError, TypeError or KeyError if they are damaged."""
+    bodies = tuple(map(read_body, stored["bodies"]))
     return RobotBodies(bodies, tuple(LinkPair(**pair) for pair in stored["pairs"]), tuple(stored["warnings"]))
 
 
-def _body(stored: dict[str, Any]) -> Body:
+def read_body(stored: Mapping[str, Any]) -> Body:
+    """Return a body that was stored as JSON; raises as `read_bodies` does."""
     arrays = {"points": (-1, 3), "T_link_body": (4, 4), "spheres": (-1, 4)}
     read = {name: np.array(stored[name], dtype=float).reshape(shape) for name, shape in arrays.items()}
     excess = math.nan if stored["excess"] is None else stored["excess"]
