@@ -40,7 +40,7 @@ class FlatWorld(NamedTuple):
     margins: Array
 
 
-class _Room(NamedTuple):
+class Room(NamedTuple):
     """Work arrays: poses of nodes and pieces in the root, centres of the pieces' balls, and those of GJK and EPA."""
 
     nodes: Array
@@ -54,9 +54,9 @@ class _Room(NamedTuple):
 @compiled
 def first_contacts(world: FlatWorld, qs: Array) -> Indices:
     """Return the number of a pair in contact at each configuration, -1 where there is none; (N, n) → (N,)."""
-    room, found, last = _room(world), np.empty(len(qs), dtype=np.int64), 0
+    room, found, last = room_of(world), np.empty(len(qs), dtype=np.int64), 0
     for i in range(len(qs)):
-        _place(world, qs[i], room)
+        place(world, qs[i], room)
         # Neighbouring configurations often touch with the same pair.
         found[i] = last if len(world.pairs) and _touches(world, last, room) else _first_contact(world, room)
         last = max(found[i], 0)
@@ -69,12 +69,12 @@ def nearest_pairs(world: FlatWorld, qs: Array) -> tuple[Array, Indices, Array]:
 
     Of configurations (N, n): (N,) [m], negative the depth, infinite without pairs; (N,), -1 without pairs; (N, 6) [m].
     """
-    room, count = _room(world), len(qs)
+    room, count = room_of(world), len(qs)
     distances, pairs, points = np.empty(count), np.empty(count, dtype=np.int64), np.zeros((count, 6))
     bounds, trial = np.empty(len(world.pairs)), np.empty(6)
     for i in range(count):
-        _place(world, qs[i], room)
-        distances[i], pairs[i] = _nearest(world, room, bounds, trial, points[i])
+        place(world, qs[i], room)
+        distances[i], pairs[i] = nearest(world, room, bounds, trial, points[i])
     return distances, pairs, points
 
 
@@ -84,11 +84,11 @@ def pair_distances(world: FlatWorld, qs: Array, pairs: Indices) -> tuple[Array, 
 
     Of configurations (N, n) and pairs (N,): (N,), [m], negative the depth, and (N, 6), [m].
     """
-    room, distances, points = _room(world), np.zeros(len(qs)), np.zeros((len(qs), 6))
+    room, distances, points = room_of(world), np.zeros(len(qs)), np.zeros((len(qs), 6))
     for i in range(len(qs)):
         if pairs[i] >= 0:
-            _place(world, qs[i], room)
-            distances[i] = _distance(world, pairs[i], np.inf, room, points[i])
+            place(world, qs[i], room)
+            distances[i] = distance_of(world, pairs[i], np.inf, room, points[i])
     return distances, points
 
 
@@ -98,11 +98,11 @@ def all_contacts(world: FlatWorld, q: Array) -> tuple[Array, Array]:
 
     Of a configuration (n,): (M,), [m], and (M, 6), [m].
     """
-    room, distances, points = _room(world), np.full(len(world.pairs), np.inf), np.zeros((len(world.pairs), 6))
-    _place(world, q, room)
+    room, distances, points = room_of(world), np.full(len(world.pairs), np.inf), np.zeros((len(world.pairs), 6))
+    place(world, q, room)
     for k in range(len(world.pairs)):
         if _touches(world, k, room):
-            distances[k] = _distance(world, k, np.inf, room, points[k])
+            distances[k] = distance_of(world, k, np.inf, room, points[k])
     return distances, points
 
 
@@ -112,11 +112,11 @@ def always_in_contact(world: FlatWorld, qs: Array, groups: Indices, count: int) 
 
     `groups` has the number of each pair's group, shape (M,). A group found apart is not looked at again.
     """
-    room, always, touching = _room(world), np.ones(count, dtype=np.bool_), np.empty(count, dtype=np.bool_)
+    room, always, touching = room_of(world), np.ones(count, dtype=np.bool_), np.empty(count, dtype=np.bool_)
     for i in range(len(qs)):
         if not always.any():
             break
-        _place(world, qs[i], room)
+        place(world, qs[i], room)
         touching[:] = False
         for k in range(len(world.pairs)):
             group = groups[k]
@@ -127,9 +127,10 @@ def always_in_contact(world: FlatWorld, qs: Array, groups: Indices, count: int) 
 
 
 @compiled
-def _room(world: FlatWorld) -> _Room:
+def room_of(world: FlatWorld) -> Room:
+    """Return work arrays in which all that stands still is placed."""
     bodies = world.bodies
-    room = _Room(
+    room = Room(
         np.zeros((len(world.parents) + 1, 12)),
         np.empty((len(bodies.kinds), 12)),
         np.empty((len(bodies.kinds), 3)),
@@ -145,7 +146,7 @@ def _room(world: FlatWorld) -> _Room:
 
 
 @unmanaged
-def _place(world: FlatWorld, q: Array, room: _Room) -> None:
+def place(world: FlatWorld, q: Array, room: Room) -> None:
     """Compute the poses of all nodes and pieces at a configuration."""
     for k in range(len(world.parents)):
         parent, pose = room.nodes[world.parents[k]], room.nodes[k + 1]
@@ -165,7 +166,7 @@ def _place(world: FlatWorld, q: Array, room: _Room) -> None:
 
 
 @inlined
-def _place_body(bodies: FlatBodies, i: int, room: _Room) -> None:
+def _place_body(bodies: FlatBodies, i: int, room: Room) -> None:
     node = room.nodes[bodies.nodes[i]]
     _product(node, bodies.poses[i], room.poses[i])
     centre = turned_by(node, row(bodies.balls, i))
@@ -183,7 +184,7 @@ def _product(A: Array, B: Array, C: Array) -> None:
 
 
 @unmanaged
-def _first_contact(world: FlatWorld, room: _Room) -> int:
+def _first_contact(world: FlatWorld, room: Room) -> int:
     for k in range(len(world.pairs)):
         if _touches(world, k, room):
             return k
@@ -191,17 +192,17 @@ def _first_contact(world: FlatWorld, room: _Room) -> int:
 
 
 @inlined
-def _touches(world: FlatWorld, k: int, room: _Room) -> bool:
+def _touches(world: FlatWorld, k: int, room: Room) -> bool:
     a, b, margin = world.pairs[k, 0], world.pairs[k, 1], world.margins[k]
-    if _ball_bound(world.bodies, a, b, room) > margin:
+    if ball_bound(world.bodies, a, b, room) > margin:
         return False
-    if _box_bound(world.bodies, a, b, room) > margin:
+    if box_bound(world.bodies, a, b, room) > margin:
         return False
     return is_near(world.bodies, a, b, room.poses, margin, room.T, room.work)
 
 
 @inlined
-def _ball_bound(bodies: FlatBodies, a: int, b: int, room: _Room) -> float:
+def ball_bound(bodies: FlatBodies, a: int, b: int, room: Room) -> float:
     """Return a lower bound of the distance: of the spheres around two pieces."""
     if bodies.kinds[b] == HALF_SPACE:
         B = room.poses[b]
@@ -213,7 +214,7 @@ def _ball_bound(bodies: FlatBodies, a: int, b: int, room: _Room) -> float:
 
 
 @unmanaged
-def _box_bound(bodies: FlatBodies, a: int, b: int, room: _Room) -> float:
+def box_bound(bodies: FlatBodies, a: int, b: int, room: Room) -> float:
     """Return a lower bound of the distance: of the spheres that cover the one piece from the box around the other.
 
     It says nothing of pieces that may overlap.
@@ -245,25 +246,26 @@ def _outside_box(box: Array, pose: Array, point: Vector) -> float:
 
 
 @inlined
-def _distance(world: FlatWorld, k: int, far: float, room: _Room, points: Array) -> float:
+def distance_of(world: FlatWorld, k: int, far: float, room: Room, points: Array) -> float:
+    """Return the distance of the k-th pair where it is placed, as `pair_distance` does."""
     a, b = world.pairs[k, 0], world.pairs[k, 1]
     return pair_distance(world.bodies, a, b, room.poses, far, room.T, room.work, room.polytope, points)
 
 
 @unmanaged
-def _nearest(world: FlatWorld, room: _Room, bounds: Array, trial: Array, points: Array) -> tuple[float, int]:
+def nearest(world: FlatWorld, room: Room, bounds: Array, trial: Array, points: Array) -> tuple[float, int]:
     """Return the smallest distance less the margin, and its pair; write the nearest points."""
     best, nearest = math.inf, -1
     for k in range(len(world.pairs)):
-        bounds[k] = _ball_bound(world.bodies, world.pairs[k, 0], world.pairs[k, 1], room) - world.margins[k]
+        bounds[k] = ball_bound(world.bodies, world.pairs[k, 0], world.pairs[k, 1], room) - world.margins[k]
     for _ in range(len(world.pairs)):
         k = _least(bounds)
         if bounds[k] >= best:
             break
         bounds[k] = math.inf
         margin = world.margins[k]
-        if best == math.inf or _box_bound(world.bodies, world.pairs[k, 0], world.pairs[k, 1], room) - margin < best:
-            distance = _distance(world, k, best + margin, room, trial) - margin
+        if best == math.inf or box_bound(world.bodies, world.pairs[k, 0], world.pairs[k, 1], room) - margin < best:
+            distance = distance_of(world, k, best + margin, room, trial) - margin
             if distance < best:
                 best, nearest = distance, k
                 for i in range(6):
