@@ -34,9 +34,11 @@ CLASSES = {
 
 
 def swept(names: Iterable[str], value: Callable[[str], object] = str) -> list[ParameterSet]:
-    """Parameters for a test of many robots: one of each kind, and the others of the catalogue if asked for `slow`."""
-    slow = set(catalogue.NAMES) - set(CLASSES)
-    return [pytest.param(value(name), id=name, marks=[pytest.mark.slow] * (name in slow)) for name in names]
+    """Parameters for a test of many robots: one of each kind, and one of each family if asked for `slow`."""
+    families = {catalogue.family(name): name for name in reversed(catalogue.NAMES)}
+    slow = set(families.values()) - set(CLASSES)
+    wanted = [name for name in names if name in slow or name in CLASSES]
+    return [pytest.param(value(name), id=name, marks=[pytest.mark.slow] * (name in slow)) for name in wanted]
 
 
 @cache

@@ -221,7 +221,7 @@ def strays(data: Path) -> list[Path]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kills", [5, 80])
+@pytest.mark.parametrize("kills", [5, 40])
 def test_nothing_acknowledged_is_lost(tmp_path: Path, kills: int) -> None:
     chance = random.Random(kills)
     service = Service(tmp_path)

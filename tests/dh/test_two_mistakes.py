@@ -206,7 +206,7 @@ def test_two_mistakes_are_named(names: tuple[str, str], arm: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize(("number", "arm"), list(enumerate(TABLES)))
 def test_any_two_mistakes_are_named(number: int, arm: str) -> None:
-    """All pairs, each on one of the tables."""
-    said = Counter(explained(TABLES[arm], names, number) for names in TOGETHER[number :: len(TABLES)])
+    """Half of all pairs, each on one of the tables."""
+    said = Counter(explained(TABLES[arm], names, number) for names in TOGETHER[number :: 2 * len(TABLES)])
     assert said["nothing"] == 0
     assert said["named"] >= 0.5 * (said.total() - said[None])

@@ -81,7 +81,7 @@ def random_start(table: Table, rng: np.random.Generator) -> Array | None:
 
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("kinds", ["RRRRRR", "PRRRRR", "RRPRRR"])
-@pytest.mark.parametrize("arms", [2, pytest.param(30, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("arms", [2, pytest.param(10, marks=pytest.mark.slow)])
 def test_peaks_differ_from_those_of_the_exact_way_by_no_more_than_is_stated(
     client: TestClient, kinds: str, arms: int
 ) -> None:

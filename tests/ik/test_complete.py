@@ -134,9 +134,9 @@ def test_an_arm_that_is_only_nearly_of_a_closed_form_keeps_its_own_branches() ->
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", six_joint_arms.TABLES)
-def test_thousands_of_targets_of_all_arms(name: str) -> None:
+def test_targets_of_all_arms(name: str) -> None:
     arm = six_joint_arms.arm(name)
-    qs = np.concatenate([drawn(arm, 4, seed) for seed in (1000, 2000, 3000)])
+    qs = drawn(arm, 4, 1000)
     answer = every(arm, qs)
     lost = missed(arm, qs, answer)
     assert not (lost & ~doubts_of(answer)).any()

@@ -75,7 +75,7 @@ def test_a_seed_that_solves_its_target_is_the_answer_at_any_singularity(name: st
 def test_arms_of_every_class_at_and_beside_their_special_values(name: str) -> None:
     for digits in rounded_arms.DIGITS:
         arm = rounded_arms.arm(name, digits)
-        qs = rounded_arms.configurations(arm, 60, 2)
+        qs = rounded_arms.configurations(arm, 20, 2)
         far, complete = nearest_of_all(arm, qs)
         assert not (complete & (far > CLOSE)).any(), digits
         assert from_seeds(arm, qs).max() < CLOSE, digits

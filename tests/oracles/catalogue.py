@@ -15,6 +15,11 @@ def entry(name: str) -> dict[str, Any]:
     return content
 
 
+def family(name: str) -> str:
+    """The folder that a robot's description shares with its variants; a table is its own."""
+    return entry(name)["model"]["path"].split("/")[1] if entry(name)["format"] == "urdf" else name
+
+
 def urdf_text(name: str) -> str:
     """The description of a robot that has one."""
     path: str = entry(name)["model"]["path"]

@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from functools import cache
 from multiprocessing import get_context
 
 import numpy as np
@@ -59,8 +60,9 @@ from gelenk.trajectory.problem.problem import Segment, SegmentLimits, Trajectory
 from gelenk.trajectory.tool.singularity import regular
 
 
+@cache
 def warm_up() -> None:
-    """Run every kernel once, so that all are compiled or loaded."""
+    """Run every kernel once, so that all are compiled or loaded; nothing is left to do for a second call."""
     basics()
     for part in PARTS:
         part()
