@@ -7,8 +7,7 @@ from functools import reduce
 from random import Random
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from gelenk.dh.derive.algebra import (
     LENGTH,

@@ -12,14 +12,12 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio as pin
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 from gelenk.dh import worked
 from gelenk.dh.derive.algebra import Polynomial, derivative
 from gelenk.dh.derive.typeset import MatrixFormula, Style
-from gelenk.dh.lagrangian import equations, symbolic
-from gelenk.dh.lagrangian import solution as solution_module
+from gelenk.dh.lagrangian import equations, solution as solution_module, symbolic
 from gelenk.dh.lagrangian.bodies import Gravity, LinkBody, MassProperties
 from gelenk.dh.lagrangian.numeric import NumericMotion, numeric_motion
 from gelenk.dh.lagrangian.solution import MotionSolution

@@ -9,14 +9,7 @@ import numpy as np
 
 from gelenk.contract.common import as_lists
 from gelenk.exercises.answer_field import AnswerField
-from gelenk.exercises.fields import (
-    BasisField,
-    ChoiceField,
-    MatrixField,
-    NumberField,
-    SetField,
-    VectorField,
-)
+from gelenk.exercises.fields import BasisField, ChoiceField, MatrixField, NumberField, SetField, VectorField
 from gelenk.exercises.table_field import COLUMNS, DhTableField
 
 

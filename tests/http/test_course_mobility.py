@@ -11,8 +11,7 @@ from starlette.testclient import TestClient
 from gelenk.contract.mobility import MobilityAnswer
 from gelenk.kinematics.judge.judge import pinocchio_jacobian
 from tests.course import linkages
-from tests.robots import robot as machine
-from tests.robots import samples
+from tests.robots import robot as machine, samples
 
 PATH = "/v1/course/mobility"
 RR: dict[str, Any] = {

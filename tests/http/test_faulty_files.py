@@ -7,8 +7,7 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from tests.corpus.urdf import ARM
-from tests.corpus.urdf import FORGIVEN as _FORGIVEN
+from tests.corpus.urdf import ARM, FORGIVEN as _FORGIVEN
 from tests.corpus.zips import zipped
 from tests.http.conftest import ready_client
 

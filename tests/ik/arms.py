@@ -12,8 +12,7 @@ import pinocchio as pin
 from scipy.spatial.transform import Rotation
 
 from gelenk.ik.search.problem import Options, TargetProblem
-from gelenk.ik.search.search import MAX_ITERATIONS, Found
-from gelenk.ik.search.search import search as search_problem
+from gelenk.ik.search.search import MAX_ITERATIONS, Found, search as search_problem
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import Direction
 from gelenk.ik.verdict.result import InverseKinematics

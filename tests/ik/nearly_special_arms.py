@@ -5,17 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from tests.ik import six_joint_arms
-from tests.ik.arm_classes import (
-    QUARTER,
-    Arm,
-    Row,
-    anthropomorphic,
-    general,
-    meeting,
-    offset_elbow,
-    parallel,
-    shoulder,
-)
+from tests.ik.arm_classes import QUARTER, Arm, Row, anthropomorphic, general, meeting, offset_elbow, parallel, shoulder
 from tests.ik.arms import UR5
 
 OFFSETS = (1e-2, 1e-3, 1e-5, 1e-7)

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.ik.solve import Options, inverse_kinematics

@@ -11,18 +11,7 @@ from gelenk.ik.search.task import Task
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
-from tests.ik.arms import (
-    POSITION,
-    TASKS,
-    UR5,
-    at,
-    catalogue_arm,
-    draw,
-    limited,
-    planar_arm,
-    poses,
-    table_arm,
-)
+from tests.ik.arms import POSITION, TASKS, UR5, at, catalogue_arm, draw, limited, planar_arm, poses, table_arm
 from tests.oracles import catalogue
 from tests.robots import robot, swept
 

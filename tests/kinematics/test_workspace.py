@@ -11,8 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from gelenk.dh.tables.convert import describe_dh
 from gelenk.errors import CertificationFailed, InvalidField, TooLarge
-from gelenk.kinematics.workspace import survey as survey_module
-from gelenk.kinematics.workspace import voxels as voxels_module
+from gelenk.kinematics.workspace import survey as survey_module, voxels as voxels_module
 from gelenk.kinematics.workspace.dexterity import (
     Over,
     Spread,

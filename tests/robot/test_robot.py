@@ -11,8 +11,7 @@ from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 from gelenk.robot.urdf import read_urdf
-from tests.corpus.urdf import AXIS, MOVING, arm_and, joint, link
-from tests.corpus.urdf import robot as urdf
+from tests.corpus.urdf import AXIS, MOVING, arm_and, joint, link, robot as urdf
 from tests.oracles import catalogue
 from tests.oracles.urdf_product import UrdfProduct
 from tests.robots import by_name, robot, samples, swept

@@ -9,8 +9,7 @@ from pathlib import Path
 from zipfile import ZipFile, ZipInfo
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 from gelenk.errors import InvalidArchive, KinematicsError, TooLarge
 from gelenk.store.archive import MAX_FOLDERS, unpacked

@@ -13,18 +13,7 @@ from gelenk.trajectory.joints.splines import JointSpline, promised
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import Boundary
 from gelenk.trajectory.problem.problem import Segment
-from tests.trajectory.arms import (
-    BOUNDARIES,
-    LAWS,
-    SLOW,
-    START,
-    end_state,
-    excess,
-    free,
-    limits,
-    spline_motion,
-    through,
-)
+from tests.trajectory.arms import BOUNDARIES, LAWS, SLOW, START, end_state, excess, free, limits, spline_motion, through
 
 
 def test_where_a_spline_swings_out() -> None:

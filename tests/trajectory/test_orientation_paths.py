@@ -7,11 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation, RotationSpline, Slerp
 
 from gelenk.robot.arrays import Array
-from gelenk.trajectory.paths.orientation_paths import (
-    OrientationPath,
-    axis_angle,
-    travelled,
-)
+from gelenk.trajectory.paths.orientation_paths import OrientationPath, axis_angle, travelled
 from gelenk.trajectory.paths.rotation_rates import angular_motion, rate_matrices
 from gelenk.trajectory.paths.rotation_splines import rotation_spline, vector_motion
 from gelenk.trajectory.paths.zyz_paths import zyz_turns

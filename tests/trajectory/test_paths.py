@@ -10,8 +10,7 @@ from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation, Slerp
 
-from gelenk.course.motion.fly_over import blended as flown_over
-from gelenk.course.motion.fly_over import corner_of
+from gelenk.course.motion.fly_over import blended as flown_over, corner_of
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses, transform

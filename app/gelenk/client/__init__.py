@@ -10,8 +10,7 @@
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gelenk.client.client import AsyncClient as AsyncClient
-    from gelenk.client.client import Client as Client
+    from gelenk.client.client import AsyncClient as AsyncClient, Client as Client
 
 
 def __getattr__(name: str) -> Any:

@@ -6,8 +6,7 @@ from typing import Annotated, Any, TypeAlias
 from pydantic import Discriminator, Field, Tag
 
 from gelenk.contract.common import Answer, OnTheWire
-from gelenk.robot.arrays import Array
-from gelenk.robot.arrays import Configuration as GivenConfiguration
+from gelenk.robot.arrays import Array, Configuration as GivenConfiguration
 
 
 def _kind(value: Any) -> str | None:

@@ -11,8 +11,7 @@ from gelenk.contract.kinematics import ByName, ByOrder, Configuration
 from gelenk.contract.options import Directions, WithSteps
 from gelenk.contract.pose import ORIENTATIONS, AnswerFormat, Pose, pose_fields
 from gelenk.contract.statics import CarriedLoad, Gravity
-from gelenk.robot.arrays import Array
-from gelenk.robot.arrays import Configuration as GivenConfiguration
+from gelenk.robot.arrays import Array, Configuration as GivenConfiguration
 from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw
 from gelenk.trajectory.motion.splines import Boundary
 

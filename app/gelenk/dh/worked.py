@@ -25,19 +25,13 @@ from gelenk.dh.derive.texts import FormulaCertificate, Formulas, NumericCertific
 from gelenk.dh.derive.transforms import MAX_ENTRY_TERMS
 from gelenk.dh.derive.typeset import Style
 from gelenk.dh.lagrangian.bodies import MassProperties
-from gelenk.dh.lagrangian.solution import (
-    MotionSolution,
-    checked_dynamics,
-    motion_question,
-    motion_solution,
-)
+from gelenk.dh.lagrangian.solution import MotionSolution, checked_dynamics, motion_question, motion_solution
 from gelenk.dh.lagrangian.symbolic import motion
 from gelenk.dh.lagrangian.texts import MotionTexts, NoMotion
 from gelenk.dh.tables.convert import BASE_FRAME, TOOL_FRAME, describe_dh
 from gelenk.errors import InvalidDhTable
 from gelenk.kinematics.judge.judge import certify_jacobians, certify_poses
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array, Configuration
 from gelenk.robot.configuration import configurations
 from gelenk.robot.dh import DhJoint, DhTable

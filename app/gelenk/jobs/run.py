@@ -3,8 +3,7 @@
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
-from concurrent.futures import Future
-from concurrent.futures import TimeoutError as NotYet
+from concurrent.futures import Future, TimeoutError as NotYet
 from dataclasses import dataclass
 from typing import IO, Any, Protocol, TypeAlias, TypeVar
 

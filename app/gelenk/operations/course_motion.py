@@ -17,8 +17,7 @@ from gelenk.course.cartesian.planar_line import PlanarLine, planar_line
 from gelenk.course.motion.check import MotionClaims, certified
 from gelenk.course.motion.formulas import SHOWN_JOINTS
 from gelenk.errors import InvalidField, counted
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.operations.outcome import Outcome, PictureFormat
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.time_scaling import QUANTITIES, ScalingLimits

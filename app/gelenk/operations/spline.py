@@ -8,8 +8,7 @@ from gelenk.contract.spline import SplineRequest
 from gelenk.course.motion.check import MotionClaims
 from gelenk.course.motion.spline_steps import spline_steps
 from gelenk.course.motion.time_law_steps import peak_step
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.operations.course_motion import (
     PlannedMotion,
     is_heavy_motion,

@@ -12,8 +12,7 @@ from gelenk.course.motion.time_law_steps import lift_steps, peak_step, two_point
 from gelenk.course.motion.trapezoid_steps import blend_steps, trapezoid_steps
 from gelenk.course.steps import Step
 from gelenk.errors import InvalidField, counted
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.operations.course_motion import (
     PlannedMotion,
     is_heavy_motion,

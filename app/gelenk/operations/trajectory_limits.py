@@ -14,8 +14,7 @@ import numpy as np
 from gelenk.contract.trajectory_answer import LimitSource
 from gelenk.contract.trajectory_request import JointValues, MotionOptions, TrajectoryLimits
 from gelenk.errors import UnknownJoint, WrongJointCount, quoted
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel

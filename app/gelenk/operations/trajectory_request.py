@@ -31,8 +31,7 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import check_limits, configurations, one_configuration
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.words import Law
-from gelenk.trajectory.problem.problem import BLENDABLE, OPEN, Following, TrajectoryProblem
-from gelenk.trajectory.problem.problem import Segment as Part
+from gelenk.trajectory.problem.problem import BLENDABLE, OPEN, Following, Segment as Part, TrajectoryProblem
 
 _FLY_OVER = ("blend_acceleration", "blend_time")
 _SHORTEST = 1e-6

@@ -18,16 +18,7 @@ from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.arm import arm_line
 from gelenk.plots.legend import LegendRow, configuration_lines, legend, legend_height, write_head, write_legend
-from gelenk.plots.shadows import (
-    DASHED,
-    SOLID,
-    Arrow,
-    Outline,
-    Quantity,
-    draw_arrow,
-    draw_outline,
-    draw_quantity,
-)
+from gelenk.plots.shadows import DASHED, SOLID, Arrow, Outline, Quantity, draw_arrow, draw_outline, draw_quantity
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain
 

@@ -13,8 +13,7 @@ from latex2mathml.converter import convert
 from gelenk.course.steps import Step
 from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.exercise import Variant
-from gelenk.language import current_language
-from gelenk.language import translated as _
+from gelenk.language import current_language, translated as _
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 _MOST_ROWS = 8

@@ -19,13 +19,7 @@ from gelenk.robot.compilation import compiled
 from gelenk.robot.configuration import check_limits
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
-from gelenk.trajectory.audit.motions import (
-    SIGMA_SAMPLES,
-    TIP_SAMPLES,
-    BatchLimits,
-    figures,
-    slowdown,
-)
+from gelenk.trajectory.audit.motions import SIGMA_SAMPLES, TIP_SAMPLES, BatchLimits, figures, slowdown
 from gelenk.trajectory.audit.pieces import Pieces
 from gelenk.trajectory.audit.result import Audit
 from gelenk.trajectory.audit.tip import RATES, least_singular_value, rate_peaks

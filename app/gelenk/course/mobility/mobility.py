@@ -19,8 +19,7 @@ from gelenk.course.mobility.mechanism import FLOATING, JointSplit, Mechanism, Pa
 from gelenk.course.mobility.pairs import FREEDOMS, KINDS, Order, Space
 from gelenk.course.mobility.screws import PostureMobility
 from gelenk.errors import CertificationFailed, InvalidField, counted, quoted
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.result import Result
 
 _SHOWN_NAMES = 12

@@ -8,8 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 
 Space: TypeAlias = Literal["planar", "spatial"]
 Order: TypeAlias = Literal["low", "high"]

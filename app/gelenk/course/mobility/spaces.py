@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from gelenk.course.steps import Step, step
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.result import Result
 
 TaskName: TypeAlias = Literal["xy", "xy_phi", "xyz", "pose"]

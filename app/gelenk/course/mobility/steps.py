@@ -6,8 +6,7 @@ from gelenk.course.mobility.pairs import FREEDOMS, KINDS
 from gelenk.course.mobility.screws import PostureMobility
 from gelenk.course.steps import Step, step
 from gelenk.errors import quoted
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 
 _VERDICTS = {
     "mechanism": marked("M = {mobility}: it moves: a mechanism."),

@@ -6,8 +6,7 @@ from gelenk.course.motion.blended_motion import BlendedMotion
 from gelenk.course.motion.fly_over import Blend, Given
 from gelenk.course.steps import Step, step, tex
 from gelenk.course.writing import vector
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 
 _TEXTS: dict[Given, str] = {

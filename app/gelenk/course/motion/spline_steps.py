@@ -5,8 +5,7 @@ import numpy as np
 from gelenk.course.motion.formulas import SHOWN_JOINTS, of_joint, tex_polynomial, tex_row
 from gelenk.course.steps import Step, step, tex
 from gelenk.course.writing import matrix
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.trajectory.motion.splines import Boundary, Spline
 
 _SHOWN_UNKNOWNS = 8

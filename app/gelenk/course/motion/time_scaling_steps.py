@@ -1,8 +1,7 @@
 """Worked solution of a uniform time scaling."""
 
 from gelenk.course.steps import Step, step, tex
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.trajectory.laws.time_scaling import Bound, Quantity, Scaling
 
 _SYMBOLS: dict[Quantity, tuple[str, str, str]] = {

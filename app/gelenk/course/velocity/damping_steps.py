@@ -5,8 +5,7 @@ import numpy as np
 from gelenk.course.steps import Step, step
 from gelenk.course.velocity.inverse_question import InverseQuestion
 from gelenk.course.velocity.writing import matrix, number, row
-from gelenk.language import localised
-from gelenk.language import translated as _
+from gelenk.language import localised, translated as _
 
 
 def damping_steps(question: InverseQuestion) -> list[Step]:

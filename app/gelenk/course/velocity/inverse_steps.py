@@ -6,8 +6,7 @@ from gelenk.course.velocity.inverse_question import InverseQuestion
 from gelenk.course.velocity.null_space_steps import wish_steps
 from gelenk.course.velocity.pseudo_inverse_steps import pseudo_inverse_steps
 from gelenk.course.velocity.writing import largest, matrix, row
-from gelenk.language import localised
-from gelenk.language import translated as _
+from gelenk.language import localised, translated as _
 
 _B = ("v", r"\ddot r - \dot J \dot q", r"r^{(3)} - 2 \dot J \ddot q - \ddot J \dot q")
 _V = ("v", r"\ddot r", "r^{(3)}")

@@ -6,8 +6,7 @@ import numpy as np
 
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import matrix, number, vector
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 
 _DIRECTIONS = {"x": "v_x", "y": "v_y", "z": "v_z", "rx": r"\omega_x", "ry": r"\omega_y", "rz": r"\omega_z"}

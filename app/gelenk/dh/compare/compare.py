@@ -15,22 +15,8 @@ import numpy as np
 from gelenk.dh.compare.alignment import Freedom
 from gelenk.dh.compare.mistakes import diagnoses, diagnoses_of_rows
 from gelenk.dh.compare.numbers import Difference, first_wrong_row
-from gelenk.dh.compare.placement import (
-    Placement,
-    Subject,
-    placed,
-    plain,
-    subject,
-    variable_columns,
-)
-from gelenk.dh.compare.screws import (
-    BASE_DIRECTIONS,
-    PARAMETERS,
-    Tables,
-    geometry,
-    jacobians,
-    parameters_of,
-)
+from gelenk.dh.compare.placement import Placement, Subject, placed, plain, subject, variable_columns
+from gelenk.dh.compare.screws import BASE_DIRECTIONS, PARAMETERS, Tables, geometry, jacobians, parameters_of
 from gelenk.dh.compare.trials import Diagnosis
 from gelenk.dh.compare.words import LOOKS, ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES, Unverified
 from gelenk.errors import InvalidField, counted, listed, quoted

@@ -26,8 +26,7 @@ from gelenk.dh.lagrangian.texts import (
     NoMotion,
 )
 from gelenk.dh.lagrangian.writing import BY_ENERGY, BY_HEIGHT, BY_MASS, BY_WAVE, BY_WEIGHT, Manner, written
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 
 MAX_JOINTS = 3
 """Maximum number of joints: with more, the equations are too long to write out."""

@@ -33,8 +33,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gelenk.errors import InvalidDhTable, InvalidField, listed, quoted
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain, crossed_joints
 from gelenk.robot.description import Description, Joint, Mimic, UrdfLimits

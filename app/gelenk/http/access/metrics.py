@@ -10,8 +10,7 @@ import contextlib
 import os
 import time
 from bisect import bisect_left
-from collections import Counter as Tally
-from collections import defaultdict
+from collections import Counter as Tally, defaultdict
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path

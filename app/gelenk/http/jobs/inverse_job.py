@@ -20,14 +20,7 @@ from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
-from gelenk.operations.ik_answer import (
-    PlainResults,
-    plain_results,
-    results_to_json,
-    table,
-    to_json,
-    unsolved_headers,
-)
+from gelenk.operations.ik_answer import PlainResults, plain_results, results_to_json, table, to_json, unsolved_headers
 from gelenk.operations.ik_request import NUMBERS_OF_STEPS, TargetLimits, has_table, is_stepwise, options_of, parse
 from gelenk.operations.outcome import Limits
 from gelenk.operations.pose_arrays import poses_from

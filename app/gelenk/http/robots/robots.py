@@ -23,8 +23,7 @@ from gelenk.http.robots.info import info
 from gelenk.http.robots.meshes import SANDBOXED, mesh_response
 from gelenk.http.workers.pool_client import PoolClient, owner_of
 from gelenk.http.workers.task import Context, TaskRequest, buffers
-from gelenk.language import Language
-from gelenk.language import language as speaking
+from gelenk.language import Language, language as speaking
 from gelenk.operations.dh_from_urdf import table_answer
 from gelenk.store.archive import unpacked
 from gelenk.store.folders import writing

@@ -11,8 +11,7 @@ from gelenk.course.steps import Step, step, tex
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import quantity, whole
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 
 
 class GearTask(NamedTuple):

@@ -7,8 +7,7 @@ from gelenk.course.actuators.pwm import Pulses, approximate_ripple, pwm_steps
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import quantity
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 
 
 class MotorTask(NamedTuple):

@@ -6,16 +6,14 @@ from typing import Annotated, NamedTuple
 import numpy as np
 
 from gelenk.course.steps import Step, step, tex
-from gelenk.course.writing import matrix as written
-from gelenk.course.writing import rounded
+from gelenk.course.writing import matrix as written, rounded
 from gelenk.exercises import sketches
 from gelenk.exercises.arms import misread
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Exercise
 from gelenk.exercises.fields import angle, matrix, quantity, vector
 from gelenk.exercises.table_field import table_of
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import Convention, DhJoint
 

@@ -14,8 +14,7 @@ from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import matrix, vector
 from gelenk.exercises.lectures.dh_tables.rows import typeset
 from gelenk.exercises.table_field import DhTableField, table_of
-from gelenk.language import localised, marked, number_list
-from gelenk.language import translated as _
+from gelenk.language import localised, marked, number_list, translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable
 

@@ -12,8 +12,7 @@ from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import quantity
 from gelenk.exercises.table_field import table_of
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 
 FALL = np.array([0.0, -STANDARD_GRAVITY, 0.0])
 """Free fall in the plane x-y, [m/s²]."""

@@ -13,8 +13,7 @@ from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import MatrixField, VectorField
 from gelenk.exercises.lectures.dynamics.pendulum import FALL
 from gelenk.exercises.table_field import table_of
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 
 

@@ -9,16 +9,10 @@ from gelenk.exercises import sketches
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import angles, quantity, solution_set
-from gelenk.exercises.lectures.inverse_kinematics.by_hand import (
-    POSITION,
-    revolute,
-    solutions,
-    steps_by_hand,
-)
+from gelenk.exercises.lectures.inverse_kinematics.by_hand import POSITION, revolute, solutions, steps_by_hand
 from gelenk.exercises.lectures.inverse_kinematics.planar import inner_elbows, level_pose, swapped_elbows
 from gelenk.exercises.table_field import table_of
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable
 from gelenk.robot.poses import transform

@@ -11,15 +11,8 @@ from gelenk.exercises.arms import angles_not_summed, at, jacobian, misread, plan
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import ChoiceField, angle, basis, matrix, quantity, solution_set
-from gelenk.exercises.lectures.manipulability.two_links import (
-    ratios,
-    ratios_by_shadow,
-    ratios_exchanged,
-    unit,
-    worked,
-)
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.exercises.lectures.manipulability.two_links import ratios, ratios_by_shadow, ratios_exchanged, unit, worked
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 
 

@@ -12,8 +12,7 @@ from gelenk.exercises.arms import angles_not_summed, jacobian, misread, planar_p
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import basis, quantity
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 
 NO_DIRECTION = np.zeros((0, 2))

@@ -10,8 +10,7 @@ from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import ChoiceField, whole
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 
 
 class Graph(NamedTuple):

@@ -12,8 +12,7 @@ from gelenk.course.steps import Step, step
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import VectorField, whole
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 
 
 def _constraints(kinds: tuple[str, ...], space: Space = "spatial") -> list[int]:

@@ -33,8 +33,7 @@ from gelenk.exercises.lectures.poses.triples import (
     zyz_solutions,
 )
 from gelenk.exercises.rational import RationalRotation, drawn_rotation
-from gelenk.language import marked, number_list
-from gelenk.language import translated as _
+from gelenk.language import marked, number_list, translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import inverse, transform
 

@@ -20,8 +20,7 @@ from gelenk.exercises.arms import misread
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import MatrixField, VectorField, matrix
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import inverse, transform
 

@@ -16,8 +16,7 @@ from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import ChoiceField, angle, angles, solution_set
 from gelenk.exercises.lectures.poses.frames import AXES, rotation_field
 from gelenk.exercises.rational import RationalRotation, drawn_rotation
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import transform
 

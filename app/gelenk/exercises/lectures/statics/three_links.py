@@ -12,8 +12,7 @@ from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import basis, matrix, quantity, vector, whole
 from gelenk.exercises.lectures.statics.two_links import PLANE
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 
 

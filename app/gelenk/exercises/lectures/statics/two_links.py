@@ -14,8 +14,7 @@ from gelenk.exercises.arms import angles_not_summed, at, jacobian, misread, own_
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import quantity, vector
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 
 _GRAVITY = 9.81

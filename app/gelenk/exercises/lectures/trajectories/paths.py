@@ -13,8 +13,7 @@ from gelenk.course.motion.fly_over_steps import fly_over_steps
 from gelenk.exercises.draw import Draw
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import quantity, vector
-from gelenk.language import marked, number_list
-from gelenk.language import translated as _
+from gelenk.language import marked, number_list, translated as _
 from gelenk.robot.arrays import Array
 
 _WAYS = ((1, 2, 2), (2, 3, 6), (1, 4, 8), (2, 6, 9), (4, 4, 7), (6, 6, 7))

@@ -9,13 +9,11 @@ from gelenk.course.cartesian.line import LineLaw, LineMotion, along_line
 from gelenk.course.cartesian.line_steps import line_steps
 from gelenk.course.cartesian.planar_line import PlanarLine
 from gelenk.course.steps import Step, step, tex
-from gelenk.course.writing import matrix
-from gelenk.course.writing import vector as written
+from gelenk.course.writing import matrix, vector as written
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import VectorField, quantity, vector
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 
 

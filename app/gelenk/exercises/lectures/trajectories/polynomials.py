@@ -11,8 +11,7 @@ from gelenk.course.steps import Step
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import angle, quantity, vector
-from gelenk.language import marked, number_list
-from gelenk.language import translated as _
+from gelenk.language import marked, number_list, translated as _
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.extremes import peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial

@@ -9,8 +9,7 @@ from gelenk.course.motion.trapezoid_steps import trapezoid_steps
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import quantity, vector
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.trajectory.laws.trapezoid import JointMove, PointToPoint, Profile, fastest, point_to_point
 
 

@@ -8,8 +8,7 @@ from gelenk.course.motion.time_scaling_steps import scaling_steps
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import quantity
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.time_scaling import Scaling, ScalingLimits, uniform_scaling
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial

@@ -17,8 +17,7 @@ from gelenk.exercises.arms import anthropomorphic, at, lever_from_base, misread,
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import angle, basis, matrix, quantity, solution_set, vector
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 
 _DIGITS = 12

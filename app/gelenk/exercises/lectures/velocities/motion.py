@@ -13,8 +13,7 @@ from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import matrix, quantity, vector
 from gelenk.exercises.lectures.velocities.planar import picked_steps
 from gelenk.kinematics.velocity.velocity import jacobian_derivatives
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 
 

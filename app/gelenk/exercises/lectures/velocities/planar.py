@@ -11,14 +11,12 @@ from gelenk.course.velocity.inverses import LectureInverse
 from gelenk.course.velocity.jacobian_steps import JacobianQuestion, jacobian_steps
 from gelenk.course.velocity.null_space_steps import NullSpaceWish, wish_steps
 from gelenk.course.velocity.tip_motion_steps import tip_motion_steps
-from gelenk.course.velocity.writing import matrix as written
-from gelenk.course.velocity.writing import number
+from gelenk.course.velocity.writing import matrix as written, number
 from gelenk.exercises.arms import angles_not_summed, jacobian, misread, own_links, planar_picture, posture
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import basis, matrix, quantity, vector
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 
 

@@ -11,8 +11,7 @@ from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import quantity, vector
 from gelenk.exercises.lectures.workspaces.rings import CLOSE, WristLinks, shape_field
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 
 
 class PointTask(NamedTuple):

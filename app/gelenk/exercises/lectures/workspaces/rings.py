@@ -10,8 +10,7 @@ from gelenk.course.steps import Step, step, tex
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import ChoiceField, quantity, vector
-from gelenk.language import marked
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 
 CLOSE = 0.002
 """Tolerance of radii, [m]."""
