@@ -9,6 +9,7 @@ from gelenk.collision.contact.judge import PairContacts, certify_clearances, cer
 from gelenk.collision.contact.kernels import first_contacts, nearest_pairs, pair_distances
 from gelenk.collision.contact.words import ContactCertificate
 from gelenk.collision.contact.world import World
+from gelenk.errors import quoted
 from gelenk.robot.arrays import Array, Flags, Indices
 
 
@@ -54,6 +55,13 @@ class Cell:
         """Return the names of the links or objects of a pair."""
         a, b = self.world.flat.pairs[pair].tolist()
         return self.world.names[a], self.world.names[b]
+
+    def contact(self, pair: int, distance: float) -> str:
+        """Return in words how near a pair is that counts as in contact."""
+        a, b = map(quoted, self.names(pair))
+        if distance <= 0.0:
+            return f"{a} and {b} overlap by {-distance:.3g} m"
+        return f"{a} and {b} are {distance:.3g} m apart, at most the {self.world.flat.margins[pair]:.3g} m demanded"
 
     def certified(self, qs: Array, touching: Flags) -> ContactCertificate:
         """Check verdicts by Coal: all of a few, a sample of many; raises CertificationFailed."""

@@ -7,16 +7,18 @@ from typing import cast
 
 import numpy as np
 
+from gelenk.collision.cell import Cell
 from gelenk.errors import InvalidField
 from gelenk.ik import analytic
+from gelenk.ik.clear import clear_answer
 from gelenk.ik.closed.closed_form import ClosedForm, closed_form, elimination, is_looked_at
 from gelenk.ik.count.continuation import Continuation, counted, system_of
 from gelenk.ik.count.families import families_of
 from gelenk.ik.search import kernels
 from gelenk.ik.search.bounds import target_rows
 from gelenk.ik.search.descent import descend
-from gelenk.ik.search.null_space import settle
-from gelenk.ik.search.problem import DescentRule, Objective, Options, TargetProblem
+from gelenk.ik.search.null_space import settled
+from gelenk.ik.search.problem import DescentRule, Options, TargetProblem
 from gelenk.ik.search.retrace import retrace
 from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS, Found, nothing_found, search, start_of
 from gelenk.ik.search.task import FULL_POSE
@@ -46,8 +48,6 @@ _FAR_ITERATIONS = 320
 """Budget for a target out of reach by distance, for which only the nearest configuration is needed."""
 _LOOSE, _SLACK = 1e-4, 0.9
 """Tolerance above which an unsolved target is tried again, and the share of the tolerances used then as slack."""
-_SETTLED_TOGETHER = 4096
-"""Solutions moved along their self-motion at once: each needs its own Hessian."""
 _INTERPRETED_TARGETS, _INTERPRETED_STARTS = 8, 30
 """Most targets of a call, and starts of each, solved by interpreted code while the kernels are being compiled."""
 
@@ -67,8 +67,11 @@ def inverse_kinematics(
     return solve(TargetProblem(robot, chain, targets, seeds, options))
 
 
-def solve(problem: TargetProblem) -> InverseKinematics:
-    """Solve a problem of the whole chain within the time limit of its options; raises as `inverse_kinematics` does."""
+def solve(problem: TargetProblem, cell: Cell | None = None) -> InverseKinematics:
+    """Solve a problem of the whole chain within the time limit of its options; raises as `inverse_kinematics` does.
+
+    In a cell a target is solved only by a configuration that touches nothing.
+    """
     options = problem.options
     chain, objective = held_chain(problem.chain, options.fixed_joints), options.objective
     if objective is not None and objective.posture is not None:
@@ -77,7 +80,13 @@ def solve(problem: TargetProblem) -> InverseKinematics:
     deadline = None if options.time_limit is None else clock() + options.time_limit
     seeds = narrowed(chain, problem.seeds)
     problem = replace(problem, chain=chain, seeds=seeds, options=options, deadline=deadline)
-    return widened_answer(chain, _with_families(problem, _answered(problem)))
+    if cell is None:
+        answer = _answered(problem)
+    else:
+        if is_awaited():
+            wait_for_others()
+        answer = clear_answer(problem, cell, _answered)
+    return widened_answer(chain, _with_families(problem, answer))
 
 
 def _answered(problem: TargetProblem) -> InverseKinematics:
@@ -171,7 +180,7 @@ def _one(problem: TargetProblem) -> InverseKinematics:
     options, count = problem.options, len(problem)
     found, too_far, outside = _searched(problem)
     if options.objective is not None and found.solved.any():
-        found = replace(found, qs=_settled(problem, options.objective, found))
+        found = replace(found, qs=settled(problem, found.qs, found.solved))
     is_unsettled = options.objective is not None and problem.is_over
     judgement = judged(problem, found.qs, found.solved)
     paths = [_retraced(problem, found, i) for i in range(count)] if options.trace else None
@@ -226,20 +235,6 @@ def _searched(problem: TargetProblem) -> tuple[Found, Flags, dict[int, tuple[Blo
             # Starts that ignore the limits have reached a solution within them.
             found.qs[i], found.solved[i], found.iterations[i] = q, True, 0
     return found, too_far, outside
-
-
-def _settled(problem: TargetProblem, objective: Objective, found: Found) -> Array:
-    """Move the solutions along their self-motion to reduce the objective; non-redundant ones stay; shape (N, n)."""
-    if objective.name == "posture" and objective.posture is None:
-        objective = replace(objective, posture=problem.seeds)
-    qs, posture = found.qs.copy(), objective.posture
-    for first in range(0, len(qs), _SETTLED_TOGETHER):
-        rows = first + np.flatnonzero(found.solved[first : first + _SETTLED_TOGETHER])
-        own = objective
-        if posture is not None and posture.ndim == 2 and len(posture) > 1:
-            own = replace(objective, posture=posture[rows])
-        qs[rows] = settle(problem.taken(rows), qs[rows], own)
-    return qs
 
 
 def _every(problem: TargetProblem) -> InverseKinematics:

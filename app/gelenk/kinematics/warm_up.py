@@ -9,7 +9,6 @@ from multiprocessing import get_context
 
 import numpy as np
 
-from gelenk.collision.contact.gradient import pair_gradients, soft_clearances
 from gelenk.collision.contact.kernels import (
     all_contacts,
     always_in_contact,
@@ -25,8 +24,9 @@ from gelenk.dh.tables.convert import describe_dh
 from gelenk.ik.closed.closed_form import closed_form
 from gelenk.ik.closed.nearest_branch import nearest_branch
 from gelenk.ik.count.continuation import continuation
-from gelenk.ik.search.bounds import mid_range
+from gelenk.ik.search.bounds import mid_range, target_rows
 from gelenk.ik.search.problem import TargetProblem
+from gelenk.ik.search.restarts import solutions_around
 from gelenk.ik.search.search import search, start_of
 from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.ik.verdict.branches import all_branches
@@ -105,6 +105,7 @@ def _searches() -> None:
         poses = jacobians(robot, chain, qs, representation=representation, derivatives=True).poses
     problem = TargetProblem(robot, chain, poses, qs, Options(most=1))
     search(problem, max_iterations=100)
+    solutions_around(chain.flat, problem.goal(2), target_rows(poses), qs, qs, 1)
     all_branches(problem, 0)
     start_of(problem, 0, 1)
     continuation(_six_joints()[1])
@@ -166,8 +167,6 @@ def _contacts() -> None:
     nearest_pairs(world, qs)
     pair_distances(world, qs, np.zeros(1, dtype=np.int64))
     all_contacts(world, qs[0])
-    pair_gradients(world, qs, np.zeros(1, dtype=np.int64))
-    soft_clearances(world, qs, 0.01)
     always_in_contact(world, qs, np.zeros(1, dtype=np.int64), 1)
 
 

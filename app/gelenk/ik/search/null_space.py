@@ -1,5 +1,8 @@
 """Use of the freedom that a task leaves: motion along the self-motion that minimises an objective."""
 
+from collections.abc import Callable
+from dataclasses import replace
+
 import numpy as np
 
 from gelenk.ik.search.bounds import mid_range
@@ -9,10 +12,12 @@ from gelenk.ik.search.problem import Objective, TargetProblem
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import DIRECTIONS
 from gelenk.kinematics.simd.kernels import chain_hessians
-from gelenk.robot.arrays import Array
+from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 
+_TOGETHER = 4096
+"""Solutions moved along their self-motion at once: each needs its own Hessian."""
 _ROUNDS = 80
 _LONGEST_STEP = 0.2
 """Largest joint step in a round, [rad or m]."""
@@ -22,12 +27,30 @@ _AT_LIMIT = 1e-6
 """Distance from a limit that counts as at it, [rad or m]."""
 
 
-def settle(problem: TargetProblem, qs: Array, objective: Objective) -> Array:
+def settled(problem: TargetProblem, qs: Array, rows: Flags, touching: Callable[[Array], Flags] | None = None) -> Array:
+    """Move the solutions of some targets by the objective of the problem, see `settle`; shape (N, n)."""
+    objective, settled = problem.options.objective, qs.copy()
+    if objective is None:
+        return settled
+    if objective.name == "posture" and objective.posture is None:
+        objective = replace(objective, posture=problem.seeds)
+    posture = objective.posture
+    for first in range(0, len(qs), _TOGETHER):
+        some, own = first + np.flatnonzero(rows[first : first + _TOGETHER]), objective
+        if posture is not None and posture.ndim == 2 and len(posture) > 1:
+            own = replace(objective, posture=posture[some])
+        settled[some] = settle(problem.taken(some), qs[some], own, touching)
+    return settled
+
+
+def settle(
+    problem: TargetProblem, qs: Array, objective: Objective, touching: Callable[[Array], Flags] | None = None
+) -> Array:
     """Move solutions, one per target, along their self-motion to a nearby minimum of an objective; shape (N, n).
 
     Each round steps down the gradient projected onto the kernel of J, and brings the error back to zero by damped
     steps, both without joints blocked at a limit. It is kept if the objective has fallen [Liegeois1977], so that no
-    solution becomes worse. A solution without freedom stays unchanged.
+    solution becomes worse, and only if nothing is `touching` there. A solution without freedom stays unchanged.
     """
     chain, targets, task = problem.chain, problem.targets, problem.task
     bounds = problem.limits
@@ -49,6 +72,8 @@ def settle(problem: TargetProblem, qs: Array, objective: Objective) -> Array:
         trial, errors = _corrected(chain, targets, _up_to_limits(best, steps, bounds), task, bounds)
         after = _value(chain, targets, trial, objective, task)
         better = moving & (after < values) & (errors < 1e-10)
+        if touching is not None:
+            better[better] = ~touching(trial[better])
         best[better], values[better] = trial[better], after[better]
         sizes = np.where(better, 1.5 * sizes, 0.3 * sizes)
     return best

@@ -5,7 +5,7 @@ from typing import Literal, TypeAlias, get_args
 
 from gelenk.robot.result import Result
 
-Status: TypeAlias = Literal["solved", "unreachable", "outside_limits", "singular", "not_converged"]
+Status: TypeAlias = Literal["solved", "unreachable", "outside_limits", "singular", "not_converged", "in_collision"]
 StopReason: TypeAlias = Literal[
     "converged", "stagnated", "near_singular", "at_limits", "diverged", "time_limit", "iterations"
 ]

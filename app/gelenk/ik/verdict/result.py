@@ -7,7 +7,7 @@ import numpy as np
 
 from gelenk.ik.closed.closed_form import ClosedForm
 from gelenk.ik.search.words import BlockingJoint, Family, IterationPath, Status
-from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.arrays import Array, Flags, Indices
 
 COUNTED = -2
 """Branch code of a solution that continuation found instead of a closed form."""
@@ -53,6 +53,8 @@ class InverseKinematics:
             families of infinitely many, if all were requested.
         paths: Path of each target, if a single method was run or a trace requested.
         is_counted: Whether continuation was used for six joints without a closed form.
+        touching: Whether each solution is in contact, of a problem in a cell; shape (M,). Other solutions of its target
+            are before it.
     """
 
     qs: Array
@@ -71,6 +73,7 @@ class InverseKinematics:
     form: ClosedForm | None = None
     is_counted: bool = False
     families: dict[int, tuple[Family, ...]] = field(default_factory=dict)
+    touching: Flags | None = None
 
     def __len__(self) -> int:
         return len(self.firsts) - 1
@@ -91,7 +94,10 @@ class InverseKinematics:
     @property
     def complete(self) -> list[bool] | None:
         """Whether each target's solutions are all there are; None if one was requested."""
-        return [i not in self.doubts and i not in self.failures for i in range(len(self))] if self.every else None
+        if not self.every:
+            return None
+        unsolved = {i for i, failure in self.failures.items() if failure.status != "in_collision"}
+        return [i not in self.doubts and i not in unsolved for i in range(len(self))]
 
     @property
     def closed_form(self) -> str | None:
