@@ -9,6 +9,7 @@ from multiprocessing import get_context
 
 import numpy as np
 
+from gelenk.collision.contact.gradient import pair_gradients, soft_clearances
 from gelenk.collision.contact.kernels import (
     all_contacts,
     always_in_contact,
@@ -167,6 +168,8 @@ def _contacts() -> None:
     nearest_pairs(world, qs)
     pair_distances(world, qs, np.zeros(1, dtype=np.int64))
     all_contacts(world, qs[0])
+    pair_gradients(world, qs, np.zeros(1, dtype=np.int64))
+    soft_clearances(world, qs, 0.01)
     always_in_contact(world, qs, np.zeros(1, dtype=np.int64), 1)
 
 

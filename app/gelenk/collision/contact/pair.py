@@ -8,11 +8,21 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.compilation import inlined, unmanaged
 
 
-@unmanaged
+@inlined
 def pair_distance(
     bodies: FlatBodies, a: int, b: int, poses: Array, far: float, T: Array, work: Array, room: Polytope, points: Array
 ) -> float:
-    """Return the signed distance of two pieces, [m]; where it is more than `far`, a lower bound that is more.
+    """Return the signed distance of two pieces, [m], as `separation` does."""
+    return separation(bodies, a, b, poses, far, T, work, room, points)[0]
+
+
+@unmanaged
+def separation(
+    bodies: FlatBodies, a: int, b: int, poses: Array, far: float, T: Array, work: Array, room: Polytope, points: Array
+) -> tuple[float, Vector]:
+    """Return the signed distance of two pieces, [m], and the unit vector in the root along which A moves away from B.
+
+    Where the distance is more than `far`, it is a lower bound that is more, and the vector is zero.
 
     Args:
         poses: Poses of all pieces in the root, shape (B, 12).
@@ -28,7 +38,7 @@ def pair_distance(
         limit = max(far + radii, 0.0)
         count, lower, upper = core_distance(bodies, a, b, T, -1.0, limit, work)
         if lower > limit:
-            return lower - float(radii)
+            return lower - float(radii), (0.0, 0.0, 0.0)
         if count == 4 or upper <= TINY:
             depth, normal, x = core_depth(bodies, a, b, T, count, work, room)
             normal, distance = scaled(-1.0, normal), -depth - radii
@@ -39,7 +49,7 @@ def pair_distance(
     surface = plus(x, -bodies.cores[a, 3], normal)
     _put_point(points, 0, poses[a], surface)
     _put_point(points, 3, poses[a], plus(surface, -distance, normal))
-    return distance
+    return distance, turned_by(poses[a], normal)
 
 
 @inlined

@@ -8,8 +8,8 @@ import numpy as np
 
 from gelenk.collision.bodies import Body
 from gelenk.collision.contact.flat import Placed, flat_bodies
-from gelenk.collision.contact.kernels import FlatWorld
 from gelenk.collision.contact.nodes import Nodes, without_free_joints
+from gelenk.collision.contact.room import FlatWorld
 from gelenk.collision.robot_bodies import RobotBodies
 from gelenk.collision.scene import Obstacle, check_scene
 from gelenk.errors import TooLarge
