@@ -51,10 +51,13 @@ from gelenk.robot.notations import (
 )
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.audit.contact.search import least_slack
 from gelenk.trajectory.audit.deviations import deviations
+from gelenk.trajectory.audit.pieces import pieces_of
 from gelenk.trajectory.batch import plan_batch
 from gelenk.trajectory.follow.ladder import Metric, Rungs, way_up
 from gelenk.trajectory.follow.nearest import beside, nearest, rates_at, walked
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.paths.corners import blended_lines
 from gelenk.trajectory.paths.rotation_splines import rotation_spline
 from gelenk.trajectory.plan import plan
@@ -171,6 +174,7 @@ def _contacts() -> None:
     pair_gradients(world, qs, np.zeros(1, dtype=np.int64))
     soft_clearances(world, qs, 0.01)
     always_in_contact(world, qs, np.zeros(1, dtype=np.int64), 1)
+    least_slack(world, pieces_of(PiecewisePolynomial(np.arange(2.0), qs[None])), 1.0)
 
 
 def _answers() -> None:
