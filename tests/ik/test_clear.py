@@ -169,3 +169,21 @@ def test_an_objective_moves_no_solution_into_contact() -> None:
         np.linalg.norm(here.qs - problem.seeds, axis=1).mean()
         < 1.5 * np.linalg.norm(plain.qs - problem.seeds, axis=1).mean()
     )
+
+
+def test_the_objective_clearance_moves_away_from_contact() -> None:
+    arm = table_arm(SEVEN, "RRRRRRR")
+    cell, problem = cell_of(arm), asked(arm, 12)
+    plain = solve(problem, cell)
+    here = solve(replace(problem, options=Options(objective=Objective("clearance"))), cell)
+    before, after = cell.nearest(plain.qs).clearances, cell.nearest(here.qs).clearances
+    assert (after >= before - 1e-3).all()
+    assert (after - before).max() > 0.01
+    assert max(here.position_errors.max(), here.orientation_errors.max()) <= 1e-6
+    # No small step along the self-motion does better.
+    q, target = here.qs, problem.taken(here.owners)
+    for size in (0.01, -0.01):
+        _, Js = zip(*(target.linearised(i, q[i : i + 1]) for i in range(len(q))), strict=True)
+        spare = np.array([np.linalg.svd(J[0])[2][-1] for J in Js])
+        inside = (np.abs(q + size * spare) < np.pi).all(axis=1)
+        assert (cell.nearest(q + size * spare).clearances <= after + 1e-3)[inside].mean() >= 0.8

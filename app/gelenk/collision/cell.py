@@ -1,7 +1,8 @@
 """A robot in its surroundings, and how near it may come to them and to itself."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -55,6 +56,13 @@ class Cell:
         """Return the names of the links or objects of a pair."""
         a, b = self.world.flat.pairs[pair].tolist()
         return self.world.names[a], self.world.names[b]
+
+    def pair(self, pair: int, distance: float, points: Sequence[float]) -> dict[str, Any] | None:
+        """Return a pair as it is sent, by its number, distance and points in lists; None for -1."""
+        if pair < 0:
+            return None
+        a, b = self.names(pair)
+        return {"a": a, "b": b, "distance": distance, "point_a": points[:3], "point_b": points[3:]}
 
     def contact(self, pair: int, distance: float) -> str:
         """Return in words how near a pair is that counts as in contact."""

@@ -5,13 +5,25 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from gelenk.collision.contact.words import ContactCertificate
+from gelenk.contract.collisions import ContactPair
 from gelenk.contract.common import Answer, ChainOptions, OnTheWire, optional
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import Configuration, Configurations
 from gelenk.contract.options import Directions, WithSteps
 from gelenk.contract.pose import AnswerFormat, Pose, pose_fields
+from gelenk.contract.scene import InCell
 from gelenk.course.steps import Step
-from gelenk.ik.search.words import BlockingJoint, Direction, Family, Iterate, Method, ObjectiveName, Status, StopReason
+from gelenk.ik.search.words import (
+    BlockingJoint,
+    Direction,
+    Family,
+    Iterate,
+    Method,
+    SelfMotionObjective,
+    Status,
+    StopReason,
+)
 from gelenk.robot.arrays import Array
 
 MAX_TARGETS = 1_000_000
@@ -35,7 +47,7 @@ Targets = Annotated[
 ]
 
 
-class InverseOptions(ChainOptions, WithSteps):
+class InverseOptions(ChainOptions, InCell, WithSteps):
     """Options of inverse kinematics."""
 
     method: Method = Field(
@@ -89,10 +101,11 @@ class InverseOptions(ChainOptions, WithSteps):
         default=False,
         description="With `all`: whether solutions that differ by full turns count, where limits allow them.",
     )
-    objective: ObjectiveName | None = optional(
+    objective: SelfMotionObjective | None = optional(
         "How to use a redundant arm's freedom: to stay near `posture` (the seed if left out) or the middle of the "
-        "ranges, to keep away from the limits, or to be manipulable (√det JJᵀ). The nearest minimum along the "
-        "self-motion from the solution that was found; without freedom it stays as it is."
+        "ranges, to keep away from the limits, to be manipulable (√det JJᵀ), or to have a large `clearance` in a cell. "
+        "The nearest minimum along the self-motion from the solution that was found, in a cell without contact on the "
+        "way; without freedom it stays as it is."
     )
     step_size: float | None = optional("α of the gradient; if left out, a line search finds it.", gt=0, le=1e6)
     damping: float | None = optional(
@@ -133,6 +146,13 @@ class InverseRequest(InverseOptions):
     posture: Configuration | None = optional("For the objective `posture`, [rad or m].")
 
 
+_CLEARANCE = optional(
+    "In a cell: smallest distance of all pairs, less what an object of the scene demands, [m]. Null if nothing can "
+    "touch anything."
+)
+_PAIR = optional("In a cell: the pair that has it; in contact the deepest, else the nearest one.")
+
+
 class SolutionInfo(Answer):
     """A configuration that brings the tip to the target."""
 
@@ -157,19 +177,25 @@ class SolutionInfo(Answer):
     elbow_angle: float | None = optional(
         "Of an arm with a spherical shoulder and wrist: see the field of the request, [rad]."
     )
+    in_collision: bool | None = optional("In a cell: whether a pair is in contact; only with `all` it may be.")
+    clearance: float | None = _CLEARANCE
+    pair: ContactPair | None = _PAIR
 
 
 class NearestInfo(Answer):
     """The configuration found nearest to a target that is not reached.
 
     It has the least distance² + angle² found, a metre counting as much as a radian. `auto` goes downhill from
-    the best of its starts, which lie apart; a nearer one may exist.
+    the best of its starts, which lie apart; a nearer one may exist. With `in_collision` it is a solution: of those
+    looked at the one with the largest clearance.
     """
 
     joint_positions: list[float] = Field(description="In the order of `joint_names`, [rad or m].")
     pose: Pose = Field(description="T_base_tip there.")
     position_error: float = Field(description="Distance to the target in the directions that count, [m].")
     orientation_error: float = Field(description="Angle to the target likewise, [rad].")
+    clearance: float | None = _CLEARANCE
+    pair: ContactPair | None = _PAIR
 
 
 class InverseResult(Answer):
@@ -178,9 +204,13 @@ class InverseResult(Answer):
     status: Status = Field(
         description="`unreachable`: by distance alone, or no start came nearer than `nearest` and nothing leads on "
         "from there. `outside_limits`: it would be solved without limits. `singular`: the method stopped where the "
-        "Jacobian loses rank. `not_converged`: the budget ran out, or a `time_limit`."
+        "Jacobian loses rank. `not_converged`: the budget ran out, or a `time_limit`. `in_collision`: each solution "
+        "found is in contact, or nearer to it than `min_clearance`; `reason` says how many, and whether these are all."
     )
-    solutions: list[SolutionInfo] = Field(description="Nearest to the seed first; empty unless solved.")
+    solutions: list[SolutionInfo] = Field(
+        description="Nearest to the seed first; empty unless solved. With `all` in a cell every solution, those in "
+        "contact behind the others, also with `in_collision`."
+    )
     reason: str | None = Field(description="Why it is not solved; or, with `all`, why there may be other solutions.")
     nearest: NearestInfo | None = optional("Of an unsolved target.")
     blocking_joints: list[BlockingJoint] | None = optional("With `outside_limits`.")
@@ -222,6 +252,11 @@ class InverseAnswer(Answer):
         description="The geometry behind the closed form used, or the other method that solved six joints; null after "
         "a search."
     )
+    warnings: list[str] | None = optional(
+        "In a cell: what of the robot has no body, or not one meant for this; which objects count as larger than they "
+        "are, and by how much."
+    )
+    certificate: ContactCertificate | None = optional("In a cell: how contacts and clearances were checked.")
     results: list[InverseResult]
 
 
@@ -240,6 +275,11 @@ ENDPOINT = RobotEndpoint(
     the target it stays on the seed's branch. Every solution is recomputed through Pinocchio before it is sent, and
     its errors are those of that computation. An unsolved target comes with the reason and the nearest configuration
     found. The same call gives the same answer, unless it has a `time_limit`.
+
+    With `scene` or `min_clearance` only configurations without contact are solutions: of all branches the nearest
+    to the seed, or of a redundant arm the nearest that the first successful round of starts finds, first around the
+    solution in contact, then everywhere, until the budget is used up. The robot must not touch itself either. A seed
+    may be in contact. Joints off the chain stand at 0.
 
     Closed forms: arms whose last three axes meet in a point, or whose first three do (decoupling: the position of the
     wrist first, then the orientation by the spherical wrist; any three joints besides, turning or sliding); six

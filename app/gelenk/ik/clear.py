@@ -7,13 +7,14 @@ from typing import TypeAlias
 import numpy as np
 
 from gelenk.collision.cell import Cell
+from gelenk.collision.contact.gradient import soft_clearances
 from gelenk.ik.analytic import joined
 from gelenk.ik.search.bounds import target_rows
 from gelenk.ik.search.null_space import settled
 from gelenk.ik.search.problem import TargetProblem
 from gelenk.ik.search.restarts import NEAR, solutions_around
 from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS, chunk_of, in_pieces
-from gelenk.ik.verdict.fixed import widened
+from gelenk.ik.verdict.fixed import narrowed, widened
 from gelenk.ik.verdict.judge import assembled, judged
 from gelenk.ik.verdict.result import InverseKinematics, UnsolvedTarget, firsts_of
 from gelenk.robot.arrays import Array, Flags, Indices
@@ -24,6 +25,9 @@ _PIECE = 1024
 """Configurations that one thread judges at a time, in some milliseconds."""
 _LOOKED_AT = 32
 """Solutions in contact, of a target that has no others, among which the best is looked for."""
+
+_WIDTH = 1e-3
+"""Pairs about as far apart as this all count in the objective `clearance`, [m]: it changes smoothly between them."""
 
 Answered: TypeAlias = Callable[[TargetProblem], InverseKinematics]
 """Solves a problem without a look at contacts."""
@@ -154,7 +158,10 @@ def _merged(found: InverseKinematics, left: Indices, rest: InverseKinematics) ->
 
 def _settled(problem: TargetProblem, cell: Cell, found: InverseKinematics) -> InverseKinematics:
     """Move the solutions along their self-motion to a nearby minimum of the objective, past no contact."""
-    own = problem.taken(found.owners)
+    own, objective = problem.taken(found.owners), problem.options.objective
+    if objective is not None and objective.name == "clearance":
+        objective = replace(objective, clearance=lambda qs: _soft_clearances(own, cell, qs))
+        own.options = replace(own.options, objective=objective)
     qs = settled(own, found.qs, np.ones(len(found.qs), dtype=bool), lambda qs: _touching(own, cell, qs))
     solved, *errors = judged(own, qs)
     before = found.qs, found.position_errors, found.orientation_errors
@@ -172,6 +179,11 @@ def _settled(problem: TargetProblem, cell: Cell, found: InverseKinematics) -> In
         free=none,
         form=None,
     )
+
+
+def _soft_clearances(problem: TargetProblem, cell: Cell, qs: Array) -> tuple[Array, Array]:
+    clearances, gradients = soft_clearances(cell.world.flat, widened(problem.chain, qs)[1], _WIDTH)
+    return clearances, narrowed(problem.chain, gradients)
 
 
 def _explained(

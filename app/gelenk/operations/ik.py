@@ -3,6 +3,7 @@
 from collections import Counter
 from typing import Any
 
+from gelenk.collision.cell import Cell
 from gelenk.contract.ik import MAX_STEPWISE, MAX_TARGETS, InverseRequest
 from gelenk.ik.closed.closed_form import closed_form, is_looked_at, look_at
 from gelenk.ik.search.problem import TargetProblem
@@ -10,7 +11,9 @@ from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS
 from gelenk.ik.search.task import Task
 from gelenk.ik.solve import solve, solve_quickly
 from gelenk.ik.verdict.result import InverseKinematics
+from gelenk.operations.cells import cell_of
 from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolved_headers
+from gelenk.operations.ik_contacts import certify_table, contacts_of
 from gelenk.operations.ik_request import TargetLimits, has_table, parse, task_of
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.request_counts import RequestCounts
@@ -31,7 +34,11 @@ def run(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome:
     """Compute configurations that bring the tip to each target."""
     seconds = None if call.time_limit is None else min(call.time_limit, _SHARE_OF_TIME * limits.seconds)
     problem = parse(loaded.robot, call, _bounds(limits), seconds)
-    return _outcome(problem, call, solve(problem))
+    found = cell_of(loaded, problem.chain, call)
+    if found is None:
+        return _outcome(problem, call, solve(problem))
+    cell, warnings = found
+    return _outcome(problem, call, solve(problem, cell), cell, warnings)
 
 
 def attempt(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome | None:
@@ -50,7 +57,9 @@ def _bounds(limits: Limits) -> TargetLimits:
 def is_heavy(call: InverseRequest) -> bool:
     """Check whether a request takes the event loop more than about a millisecond."""
     one_by_search = (
-        call.method in {"auto", "analytic"}
+        call.scene is None
+        and call.min_clearance is None
+        and call.method in {"auto", "analytic"}
         and call.elbow_angle is None
         and call.fixed_joints is None
         and call.solutions == "one"
@@ -73,14 +82,24 @@ WARM_UP: WarmUp[InverseRequest] = WarmUp(
 """The closed form of a chain, which takes some milliseconds to recognise."""
 
 
-def _outcome(problem: TargetProblem, call: InverseRequest, result: InverseKinematics) -> Outcome:
+def _outcome(
+    problem: TargetProblem,
+    call: InverseRequest,
+    result: InverseKinematics,
+    cell: Cell | None = None,
+    warnings: list[str] | None = None,
+) -> Outcome:
     chain = problem.chain
 
     def content() -> dict[str, Any]:
-        return to_json(chain, call, result.closed_form, results_to_json(problem, call, result))
+        contacts = contacts_of(cell, result)
+        about = contacts and (warnings, contacts.certificate)
+        return to_json(chain, call, result.closed_form, results_to_json(problem, call, result, contacts), about)
 
     def array() -> tuple[Array, dict[str, str]]:
-        return table(chain, result), unsolved_headers(list(result.failures))
+        rows = table(chain, result)
+        certify_table(cell, result, rows)
+        return rows, unsolved_headers(list(result.failures))
 
     return Outcome(
         content,

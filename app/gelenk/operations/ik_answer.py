@@ -8,6 +8,7 @@ import numpy as np
 import orjson
 from numpy.typing import NDArray
 
+from gelenk.collision.contact.words import ContactCertificate
 from gelenk.contract.ik import MAX_TRACE, InverseRequest
 from gelenk.contract.pose import PoseFormat
 from gelenk.ik.search.problem import TargetProblem
@@ -16,6 +17,7 @@ from gelenk.ik.verdict.fixed import narrowed
 from gelenk.ik.verdict.result import COLUMNS, COUNTED, InverseKinematics, UnsolvedTarget
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.operations.chains import head
+from gelenk.operations.ik_contacts import FoundContacts
 from gelenk.operations.ik_request import task_of
 from gelenk.operations.ik_steps import worked
 from gelenk.operations.pose_arrays import pose_list
@@ -49,24 +51,37 @@ def unsolved_headers(unsolved: Sequence[int]) -> dict[str, str]:
     return {"Gelenk-Unsolved": str(len(unsolved)), "Gelenk-Unsolved-Rows": rows}
 
 
-def to_json(chain: Chain, call: InverseRequest, closed_form: str | None, results: object) -> dict[str, Any]:
-    """Return the whole answer; the results come last, so that they can be written part by part."""
+def to_json(
+    chain: Chain,
+    call: InverseRequest,
+    closed_form: str | None,
+    results: object,
+    about: tuple[Sequence[str] | None, ContactCertificate] | None = None,
+) -> dict[str, Any]:
+    """Return the whole answer; the results come last, so that they can be written part by part.
+
+    Of a cell `about` has the warnings, and the certificate.
+    """
     return {
         **head(chain),
         "task": task_of(call).directions,
         "closed_form": closed_form,
+        **({} if about is None else dict(zip(("warnings", "certificate"), about, strict=True))),
         "results": results,
     }
 
 
 def results_to_json(
-    problem: TargetProblem, call: InverseRequest, result: InverseKinematics
+    problem: TargetProblem, call: InverseRequest, result: InverseKinematics, contacts: FoundContacts | None = None
 ) -> list[dict[str, Any]] | orjson.Fragment:
     """Return the result of each target."""
-    is_worth_it = len(result) >= _MANY and len(result.failures) * _FEW <= len(result)
+    is_worth_it = contacts is None and len(result) >= _MANY and len(result.failures) * _FEW <= len(result)
     if is_worth_it and (plain := plain_results(problem, call, result)) is not None:
         return plain.to_json()
     solutions, firsts = _solutions(result), result.firsts.tolist()
+    if contacts is not None:
+        for solution, contact in zip(solutions, contacts.of_solutions, strict=True):
+            solution.update(contact)
     entries: list[dict[str, Any]] = [
         {"status": status, "solutions": solutions[firsts[i] : firsts[i + 1]], "reason": result.doubts.get(i)}
         for i, status in enumerate(result.statuses)
@@ -79,6 +94,9 @@ def results_to_json(
             entries[i].update(_path(path))
     for i, failure in result.failures.items():
         entries[i].update(_failure(problem.chain, call.pose_format, failure))
+    if contacts is not None:
+        for i, contact in contacts.of_nearest.items():
+            entries[i]["nearest"].update(contact)
     if call.steps:
         for entry, steps in zip(entries, worked(problem, call, result), strict=True):
             entry["steps"] = steps

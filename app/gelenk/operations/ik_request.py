@@ -161,5 +161,7 @@ def _check_options(call: InverseRequest) -> None:
         raise InvalidField("step_size", "only for the methods `gradient` and `gradient_then_newton`")
     if call.damping is not None and call.method != "damped_least_squares":
         raise InvalidField("damping", "only for the method `damped_least_squares`")
+    if call.objective == "clearance" and call.scene is None and call.min_clearance is None:
+        raise InvalidField("objective", "`clearance` needs a `scene`, or a `min_clearance` from the robot itself")
     if call.objective is not None and call.method != "auto":
         raise InvalidField("objective", "only for the method `auto`")

@@ -158,6 +158,8 @@ def _value(chain: Chain, targets: Poses, qs: Array, objective: Objective, task: 
         case "manipulability":
             Js = linearise(chain, targets, qs, task)[1]
             value = -0.5 * np.linalg.slogdet(Js @ Js.transpose(0, 2, 1) + 1e-300 * np.eye(len(task)))[1]
+        case "clearance":
+            value = -_clearances(objective, qs)[0]
     return value
 
 
@@ -183,6 +185,8 @@ def objective_gradients(chain: Chain, targets: Poses, qs: Array, objective: Obje
                 Hs = Hs[:, np.flatnonzero(task.weights)]
             inverses = np.linalg.pinv(Js @ Js.transpose(0, 2, 1))
             gradient = -np.einsum("bkl,blji,bkj->bi", inverses, Hs, Js)
+        case "clearance":
+            gradient = -_clearances(objective, qs)[1]
     return gradient
 
 
@@ -190,3 +194,9 @@ def _posture(objective: Objective) -> Array:
     if objective.posture is None:
         raise ValueError("the objective `posture` needs a posture")
     return objective.posture
+
+
+def _clearances(objective: Objective, qs: Array) -> tuple[Array, Array]:
+    if objective.clearance is None:
+        raise ValueError("the objective `clearance` needs a cell")
+    return objective.clearance(qs)

@@ -1,6 +1,6 @@
 """A problem of inverse kinematics: targets for a chain, and how they are to be solved."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -11,7 +11,7 @@ from gelenk.ik.search.iteration import Goal
 from gelenk.ik.search.linearise import linearise
 from gelenk.ik.search.reach import Reach, reach_of
 from gelenk.ik.search.task import FULL_POSE, Task
-from gelenk.ik.search.words import Method, ObjectiveName, StepMethod
+from gelenk.ik.search.words import Method, SelfMotionObjective, StepMethod
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.compilation import clock
@@ -28,12 +28,15 @@ class Objective:
     Attributes:
         name: `posture`: ½‖q - posture‖². `mid_range`: ½ Σ ((q - middle) / range)² of the joints with limits. `limits`:
             Σ range² / (4 (upper - q)(q - lower)), which grows without bound at the limits. `manipulability`: -log of
-            Yoshikawa's measure √det JJᵀ of the directions that count, metres and radians mixed.
+            Yoshikawa's measure √det JJᵀ of the directions that count, metres and radians mixed. `clearance`: minus the
+            clearance.
         posture: Target of `posture`; shape (n,), or (N, n) for one per solution, [rad or m].
+        clearance: Returns clearances (N,), [m], and their gradients (N, n) at configurations of the chain.
     """
 
-    name: ObjectiveName
+    name: SelfMotionObjective
     posture: Array | None = None
+    clearance: Callable[[Array], tuple[Array, Array]] | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,7 @@ StopReason: TypeAlias = Literal[
 Direction: TypeAlias = Literal["x", "y", "z", "rx", "ry", "rz"]
 DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
 ObjectiveName: TypeAlias = Literal["posture", "mid_range", "limits", "manipulability"]
+SelfMotionObjective: TypeAlias = Literal[ObjectiveName, "clearance"]
 StepMethod: TypeAlias = Literal["newton", "gradient", "gradient_then_newton", "damped_least_squares"]
 Method: TypeAlias = Literal["auto", "analytic", StepMethod]
 
