@@ -1,11 +1,14 @@
 """Gradients of distances, against differences of Coal's at Pinocchio's poses, and the soft minimum against scipy's."""
 
 import numpy as np
+import pytest
 from scipy.special import logsumexp
 
+from gelenk.collision.cell import cell_in
 from gelenk.collision.contact.gradient import pair_gradients, soft_clearances
-from gelenk.collision.contact.judge import ContactJudge
+from gelenk.collision.contact.judge import ContactJudge, certify_gradients
 from gelenk.collision.contact.kernels import nearest_pairs, pair_distances
+from gelenk.errors import CertificationFailed
 from tests.collision.arms import world
 
 WORLD = world()
@@ -20,6 +23,20 @@ def test_gradients_are_differences_of_coals_distances() -> None:
             [judge.distance(judge.poses(q + s * d), int(k), is_signed=True) for s in (step, -step)] for d in np.eye(4)
         ]
         np.testing.assert_allclose(gradient, np.array(ends) @ [0.5, -0.5] / step, atol=2e-4)
+
+
+def test_a_wrong_gradient_is_withheld() -> None:
+    cell, qs = cell_in(WORLD), QS[:8]
+    nearest = cell.nearest(qs)
+    gradients = cell.gradients(qs, nearest)
+    assert 0 < (nearest.distances < 0.0).sum() < 8
+    assert cell.certified_gradients(qs, nearest, gradients).max_gradient_error < 1e-4
+    for row in range(8):
+        wrong = gradients[row].copy()
+        wrong[np.abs(wrong).argmax()] *= -1.0
+        one = cell.nearest(qs[row : row + 1])
+        with pytest.raises(CertificationFailed, match="the gradient"):
+            certify_gradients(WORLD, qs[row : row + 1], one.contact, wrong[None])
 
 
 def test_the_soft_minimum_is_that_of_all_pairs_and_has_its_gradient() -> None:

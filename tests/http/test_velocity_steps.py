@@ -46,6 +46,7 @@ CALLS: list[tuple[str, str, dict[str, Any]]] = [
             {"inverse": "damped", "damping": "adaptive", "null_space": {"objective": "limits"}},
             {"inverse": "damped", "damping": 0.01, "weights": [1, 2, 3, 4, 5, 6, 7], "characteristic_length": 0.3},
             {"null_space": {"objective": "posture", "posture": [0.0] * 7}, "reference": "local"},
+            {"null_space": {"objective": "clearance"}, "min_clearance": 0.0},
             {"null_space": {"joint_velocities": [[0.1] * 7]}, "task": ["x", "y", "rz"], "singularity_reports": True},
         )
     ),

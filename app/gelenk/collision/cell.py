@@ -1,14 +1,15 @@
 """A robot in its surroundings, and how near it may come to them and to itself."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from gelenk.collision.contact.judge import PairContacts, certify_clearances, certify_contacts
+from gelenk.collision.contact.gradient import pair_gradients
+from gelenk.collision.contact.judge import PairContacts, certify_clearances, certify_contacts, certify_gradients
 from gelenk.collision.contact.kernels import first_contacts, nearest_pairs, pair_distances
-from gelenk.collision.contact.words import ContactCertificate
+from gelenk.collision.contact.words import ContactCertificate, GradientCertificate
 from gelenk.collision.contact.world import World
 from gelenk.errors import quoted
 from gelenk.robot.arrays import Array, Flags, Indices
@@ -28,6 +29,11 @@ class Nearest(NamedTuple):
     pairs: Indices
     distances: Array
     points: Array
+
+    def contact(self, row: int) -> PairContacts:
+        """Return the pair of a row as the judge takes it."""
+        rows = slice(row, row + int(self.pairs[row] >= 0))
+        return self.pairs[rows], self.distances[rows], self.points[rows]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,13 +89,17 @@ class Cell:
 
     def certified_nearest(self, qs: Array, nearest: Nearest) -> ContactCertificate:
         """Check nearest pairs by Coal: all of a few, a sample of many; raises CertificationFailed."""
-        _, pairs, distances, points = nearest
+        return certify_clearances(self.world, qs, nearest.clearances - self.min_clearance, nearest.contact)
 
-        def contact(row: int) -> PairContacts:
-            rows = slice(row, row + int(pairs[row] >= 0))
-            return pairs[rows], distances[rows], points[rows]
+    def gradients(self, qs: Array, nearest: Nearest) -> Array:
+        """Return the gradients of the nearest pairs' distances; shape (N, n), [m/rad or 1], 0 without pairs."""
+        return pair_gradients(self.world.flat, qs, nearest.pairs)
 
-        return certify_clearances(self.world, qs, nearest.clearances - self.min_clearance, contact)
+    def certified_gradients(self, qs: Array, nearest: Nearest, gradients: Array) -> GradientCertificate:
+        """Check nearest pairs and their gradients by Coal, likewise."""
+        certificate = self.certified_nearest(qs, nearest)
+        error = certify_gradients(self.world, qs, nearest.contact, gradients)
+        return GradientCertificate(**asdict(certificate), max_gradient_error=error)
 
 
 def cell_in(world: World, min_clearance: float = 0.0) -> Cell:

@@ -4,6 +4,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
+from gelenk.collision.contact.words import GradientCertificate
+from gelenk.contract.collisions import ContactPair
 from gelenk.contract.common import Answer, ChainOptions, OnTheWire, Payload, Vectors, optional
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS, AboutChain, Configuration, Configurations, Matrix
@@ -16,9 +18,10 @@ from gelenk.contract.options import (
     WithSteps,
     WorkedSolutions,
 )
+from gelenk.contract.scene import InCell
 from gelenk.contract.singularities import SingularityInfo
 from gelenk.course.velocity.inverses import Derivation
-from gelenk.ik.search.words import Direction, ObjectiveName
+from gelenk.ik.search.words import Direction, SelfMotionObjective
 from gelenk.kinematics.judge.words import Reference, TipMotionCertificate
 from gelenk.kinematics.velocity.words import ExceededLimit, InverseName, InverseStatus
 
@@ -58,11 +61,12 @@ class NullSpace(Payload):
         "ξ, with `twists`: a list of one configuration for all entries, or of one each; [rad/s or m/s]."
     )
     joint_accelerations: Configurations | None = optional("ξ, with `tip_accelerations`, likewise; [rad/s² or m/s²].")
-    objective: ObjectiveName | None = optional(
+    objective: SelfMotionObjective | None = optional(
         "With `twists`: ξ is `gain` times the direction in which an objective improves fastest: to come nearer to "
         "`posture` (the objective is ½‖q - posture‖²) or mid-range (½Σ((q - mid)/range)²), to keep away from limits "
-        "(¼Σ range²/((upper - q)(q - lower)), pushing no harder in the last twentieth of a range), or to be more "
-        "manipulable (the logarithm of √det JJᵀ of the directions that count)."
+        "(¼Σ range²/((upper - q)(q - lower)), pushing no harder in the last twentieth of a range), to be more "
+        "manipulable (the logarithm of √det JJᵀ of the directions that count), or to get away from what is nearest "
+        "(`clearance`, with a `scene` or `min_clearance`: the distance of the nearest pair)."
     )
     gain: float = Field(default=1.0, gt=0, le=1000, description="Of the objective's gradient, [1/s].")
     posture: Configuration | None = optional("For the objective `posture`, [rad or m].")
@@ -127,7 +131,7 @@ class VelocityOptions(ChainOptions, WithSteps):
     respect_limits: RespectLimits = False
 
 
-class VelocityRequest(BatchRequest, VelocityOptions):
+class VelocityRequest(BatchRequest, VelocityOptions, InCell):
     """Motion of the tip (`joint_velocities` given), or of the joints (`twists`, `tip_accelerations`, `tip_jerks`)."""
 
     joint_velocities: Configurations | None = optional("q̇, one entry per configuration, [rad/s or m/s].")
@@ -177,6 +181,23 @@ class VelocitySingularity(Answer):
     )
 
 
+class ClearanceRate(Answer):
+    """How near the robot is to itself and its surroundings, and how its joints change that."""
+
+    value: float | None = Field(
+        description="Smallest distance of all pairs, less the clearance that an object demands, [m]; in contact "
+        "negative. Null if nothing can touch anything."
+    )
+    in_collision: bool = Field(description="Whether it is at most `min_clearance`.")
+    pair: ContactPair | None = Field(description="The nearest pair, in contact the deepest; null if there is none.")
+    gradient: list[float] = Field(
+        description="Of the clearance by each joint, nᵀ(J_a - J_b), [m/rad] or no unit: n is the unit vector from b "
+        "to a, J_a and J_b are the Jacobians of the nearest points. One of several where several pairs of points are "
+        "equally near."
+    )
+    rate: float = Field(description="Of the clearance at these joint velocities, [m/s]: negative if it falls.")
+
+
 class VelocityResult(Answer):
     """The result at one configuration."""
 
@@ -199,6 +220,7 @@ class VelocityResult(Answer):
     velocity_limits_exceeded: list[ExceededLimit] = Field(
         description="Joints whose velocity, given or found, exceeds the limit of the description."
     )
+    clearance: ClearanceRate | None = optional("With `scene` or `min_clearance`.")
     singularity: VelocitySingularity
     singularity_report: SingularityInfo | None = optional("If requested.")
     derivation: Derivation | None = optional("With `steps`, of an inversion: the matrices that the steps arrive at.")
@@ -235,6 +257,11 @@ class VelocityAnswer(AboutChain):
     )
     results: list[VelocityResult]
     steps: WorkedSolutions = None
+    root_frame: str | None = optional("With `scene` or `min_clearance`: frame of the scene and of points of pairs.")
+    warnings: list[str] | None = optional(
+        "Likewise: what has no body, or one not meant for this, and what counts as larger than it is, by how much."
+    )
+    clearance_certificate: GradientCertificate | None = optional("Likewise, of the clearances.")
     certificate: TipMotionCertificate
 
 
@@ -257,7 +284,8 @@ ENDPOINT = RobotEndpoint(
     squares min λ‖q̇‖² + ‖Jq̇ - v‖² with fixed λ (the course's λ, elsewhere written λ²) or one that follows the
     smallest singular value and the velocity limits; joints weighted on request, and a motion (I - J#J) ξ in the null
     space added. `tip_accelerations` and `tip_jerks` are inverted likewise, less what the given rates already make.
-    Each entry has its residual, the joints that are too fast, and how near the configuration is to a singularity.
+    Each entry has its residual, the joints that are too fast, and how near the configuration is to a singularity;
+    with a `scene` or `min_clearance` also the clearance, its gradient, and how fast it changes.
     Where metres and radians are mixed, J#, damping and condition number depend on the unit of length: choose a `task`
     of one kind, or give a `characteristic_length`.
 

@@ -26,6 +26,7 @@ from gelenk.operations.velocity_call import (
     rule_of_call,
     targets_of_call,
 )
+from gelenk.operations.velocity_clearance import Clearances, clearances_of
 from gelenk.operations.velocity_steps import worked_inversions, worked_motions
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -43,7 +44,7 @@ _DERIVATIVES = ("twists", "accelerations", "jerks", "snaps")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Question:
-    """A checked request: configurations, known rates and the directions that count."""
+    """A checked request: configurations, known rates, the directions that count, and the clearance if it counts."""
 
     robot: RobotModel
     chain: Chain
@@ -51,6 +52,12 @@ class _Question:
     qs: Array
     rates: Array
     space: TaskSpace
+    clearances: Clearances | None
+
+    @property
+    def climb(self) -> Array | None:
+        """Gradients of the clearance; shape (N, n)."""
+        return None if self.clearances is None else self.clearances.gradients
 
 
 def run(loaded: LoadedRobot, call: VelocityRequest, limits: Limits) -> Outcome:
@@ -64,19 +71,19 @@ def run(loaded: LoadedRobot, call: VelocityRequest, limits: Limits) -> Outcome:
     space = TaskSpace(task_of(call.task), call.characteristic_length, call.reference)
     _check_size(call, len(qs), len(chain), limits)
     check_worked(call, len(qs))
-    question = _Question(robot, chain, call, qs, rates, space)
+    question = _Question(robot, chain, call, qs, rates, space, clearances_of(loaded, chain, call, qs))
     if field is None:
         return _forward_outcome(question, tip_motion(robot, chain, qs, rates, call.reference))
     rule = rule_of_call(chain, call, field, len(space))
     targets = targets_of_call(call, field, space, len(qs))
-    null_motion = null_motion_of_call(chain, call, qs, field, space)
+    null_motion = null_motion_of_call(chain, call, qs, field, space, question.climb)
     found = inverse_motion(robot, chain, qs, rates, targets, rule, space=space, null_motion=null_motion)
     return _inverse_outcome(question, field, found)
 
 
 def is_heavy(call: VelocityRequest) -> bool:
     """Check whether a request takes the event loop more than about a millisecond."""
-    slow = (call.joint_snaps, call.tip_accelerations, call.tip_jerks, call.null_space)
+    slow = (call.joint_snaps, call.tip_accelerations, call.tip_jerks, call.null_space, call.scene, call.min_clearance)
     detailed = call.steps or call.singularity_reports
     return detailed or any(part is not None for part in slow) or len(call.joint_positions) > _QUICK
 
@@ -133,8 +140,9 @@ def _worked(question: _Question, field: str, found: InverseMotion, results: list
     """Add the matrices of each inversion to its result, and return the steps."""
     call, space, qs = question.call, question.space, question.qs
     wanted = targets_of_call(call, field, space, len(qs))
-    null_motion = null_motion_of_call(question.chain, call, qs, field, space)
-    solved = worked_inversions(question.chain, call, space, qs, question.rates, wanted, null_motion, found)
+    null_motion = null_motion_of_call(question.chain, call, qs, field, space, question.climb)
+    nearest = None if question.clearances is None else question.clearances.worked
+    solved = worked_inversions(question.chain, call, space, qs, question.rates, wanted, null_motion, found, nearest)
     for result, (matrices, _) in zip(results, solved, strict=True):
         result["derivation"] = matrices
     return {"steps": [steps for _, steps in solved]}
@@ -153,7 +161,8 @@ def _answer(
     }
     if question.call.jacobian_derivatives:
         answer["jacobian_derivatives"] = np.ascontiguousarray(motion.jacobians.swapaxes(0, 1))
-    return answer | {"certificate": motion.certificate}
+    about = {} if question.clearances is None else question.clearances.about
+    return answer | about | {"certificate": motion.certificate}
 
 
 def _results(question: _Question, speeds: Array, parts: Decomposition) -> list[dict[str, Any]]:
@@ -173,6 +182,8 @@ def _results(question: _Question, speeds: Array, parts: Decomposition) -> list[d
             "lost_directions": parts.lost_directions(row).tolist(),
         }
         results.append({"velocity_limits_exceeded": exceeded(chain, speeds[row], limits), "singularity": singularity})
+        if question.clearances is not None:
+            results[row]["clearance"] = question.clearances.result(row, speeds[row])
         if call.singularity_reports:
             report = singularity_report(chain, question.qs[row], tolerance=call.rank_tolerance, space=space)
             results[row]["singularity_report"] = singularity_info(chain, report)

@@ -140,12 +140,17 @@ def targets_of_call(call: VelocityRequest, quantity: str, space: TaskSpace, coun
 
 
 def null_motion_of_call(
-    chain: Chain, call: VelocityRequest, qs: Array, quantity: str, space: TaskSpace
+    chain: Chain, call: VelocityRequest, qs: Array, quantity: str, space: TaskSpace, climb: Array | None
 ) -> Array | None:
-    """Return the null-space motion ξ, shape (N, n), None if not requested; raises InvalidField if it does not fit."""
+    """Return the null-space motion ξ, shape (N, n), None if not requested; raises InvalidField if it does not fit.
+
+    `climb` has the gradients of the clearance, shape (N, n), if it is known.
+    """
     wanted = call.null_space
     if wanted is None:
         return None
+    if wanted.objective == "clearance":
+        return None if climb is None else wanted.gain * climb
     if wanted.objective is not None:
         given = wanted.posture
         posture = None if given is None else one_configuration(chain, given, "null_space/posture")

@@ -1,5 +1,8 @@
 """Worked solutions of answers about the Jacobian: the core's numbers as questions to `gelenk.course.velocity`."""
 
+from collections.abc import Callable
+from dataclasses import replace
+
 import numpy as np
 
 from gelenk.contract.jacobian import JacobianRequest
@@ -11,7 +14,7 @@ from gelenk.course.velocity.inverse_question import InverseQuestion, derivation
 from gelenk.course.velocity.inverse_steps import inverse_steps
 from gelenk.course.velocity.inverses import Derivation, LectureInverse
 from gelenk.course.velocity.jacobian_steps import JacobianQuestion, jacobian_steps
-from gelenk.course.velocity.null_space_steps import NullSpaceWish
+from gelenk.course.velocity.null_space_steps import NearestPair, NullSpaceWish
 from gelenk.course.velocity.statics_steps import StaticsQuestion, statics_steps
 from gelenk.course.velocity.tip_motion_steps import known_part, tip_motion_steps
 from gelenk.course.velocity.writing import row
@@ -70,8 +73,12 @@ def worked_inversions(
     targets: Array,
     null_motion: Array | None,
     found: InverseMotion,
+    nearest: Callable[[int], NearestPair | None] | None,
 ) -> list[tuple[Derivation, list[Step]]]:
-    """Return the matrices and the steps of each inversion; the arguments are those of `inverse_motion`."""
+    """Return the matrices and the steps of each inversion.
+
+    The arguments are those of `inverse_motion`, and what gives the nearest pair of each row, if that is known.
+    """
     inversion, Js = found.inversion, space.jacobians(chain, qs)
     weights = np.ones(len(chain))
     if call.weights is not None:
@@ -90,7 +97,11 @@ def worked_inversions(
             call.characteristic_length if space.turns else None,
             (call.damping_threshold or DAMPING_THRESHOLD) if adaptive else None,
             units_are_mixed(chain, space),
-            None if null_motion is None else _wish(chain, call, qs[i], null_motion[i], float(inversion.shares[i])),
+            None
+            if null_motion is None
+            else replace(
+                _wish(chain, call, qs[i], null_motion[i], float(inversion.shares[i])), nearest=nearest and nearest(i)
+            ),
         )
         results.append((derivation(question), inverse_steps(question)))
     return results

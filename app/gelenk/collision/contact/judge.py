@@ -4,7 +4,7 @@ Nothing here is shared with the kernels but the pieces themselves. A verdict tha
 explains is never sent.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import TypeAlias
 
@@ -26,6 +26,14 @@ PairContacts: TypeAlias = tuple[Indices, Array, Array]
 
 TOLERANCE = 1e-6
 """Allowed difference of a distance, [m]."""
+GRADIENT_TOLERANCE = 1e-3
+"""Allowed difference of an entry of a gradient, [m/rad or 1], relative where that is above 1."""
+_STEP = 1e-4
+"""Of differences, [rad or m]."""
+_GAP = 1e-3
+"""Distance to which pieces in contact are moved apart for differences, [m]: Coal is exact there."""
+_ROUNDING = 1e-9
+"""Depth up to which nearest points are too near to each other to show a direction, [m]."""
 _GJK_TOLERANCE = 1e-9
 _MOST_STEPS = 500
 _FAR = 1e9
@@ -43,14 +51,17 @@ class ContactJudge:
 
     def poses(self, q: Array) -> list[pin.SE3]:
         """Return the poses of all pieces in the root at a configuration of the chain."""
+        return self._placed(q, self._world.bodies)
+
+    def _placed(self, q: Array, bodies: Sequence[Body]) -> list[pin.SE3]:
         robot = self._world.robot
         with robot.lock:
             pin.forwardKinematics(robot.model, robot.data, self.whole(q))
             links = {
                 link: pin.updateFramePlacement(robot.model, robot.data, robot.frame_id(link)).copy()
-                for link in {body.link for body in self._world.bodies}
+                for link in {body.link for body in bodies}
             }
-        return [links[body.link] * pin.SE3(body.T_link_body) for body in self._world.bodies]
+        return [links[body.link] * pin.SE3(body.T_link_body) for body in bodies]
 
     def whole(self, q: Array) -> Array:
         """Return Pinocchio's configuration: the chain's joints, and all others where the world has them."""
@@ -69,11 +80,19 @@ class ContactJudge:
 
         In contact it is at most 0, the depth only if it is signed: Coal then needs twenty times as long.
         """
-        a, b = self._first[k], self._second[k]
-        place = coal.Transform3s(poses[b].rotation, poses[b].translation + (0.0 if shift is None else shift))
+        return self._apart(k, poses[self._first[k]], poses[self._second[k]], is_signed, shift)
+
+    def distance_at(self, q: Array, k: int, shift: Array) -> float:
+        """Return the same, at most 0 in contact, at a configuration of the chain."""
+        one, other = self._placed(q, [self._world.bodies[i] for i in (self._first[k], self._second[k])])
+        return self._apart(k, one, other, False, shift)
+
+    def _apart(self, k: int, one: pin.SE3, other: pin.SE3, is_signed: bool, shift: Array | None) -> float:
+        place = coal.Transform3s(other.rotation, other.translation + (0.0 if shift is None else shift))
         request, result = self._signed if is_signed else self._unsigned, coal.DistanceResult()
-        own = coal.Transform3s(poses[a].rotation, poses[a].translation)
-        return float(coal.distance(self.shapes[a], own, self.shapes[b], place, request, result))
+        own = coal.Transform3s(one.rotation, one.translation)
+        shapes = self.shapes[self._first[k]], self.shapes[self._second[k]]
+        return float(coal.distance(shapes[0], own, shapes[1], place, request, result))
 
     def least_slack(self, poses: list[pin.SE3], most: float, is_signed: bool = False) -> tuple[float, int]:
         """Return the smallest distance less its margin, of those up to `most`, and the number of pairs compared."""
@@ -131,6 +150,36 @@ def certify_clearances(
             comparison.add(least - slack if np.isfinite(slack) or np.isfinite(least) else 0.0)
         comparison.displace(poses, contacts(row))
     return comparison.certificate(len(rows), seed)
+
+
+def certify_gradients(
+    world: World, qs: Array, contacts: Callable[[int], PairContacts], gradients: Array, seed: int = 0
+) -> float:
+    """Return the largest difference of gradients, (N, n), from differences of Coal's distances, as `certify_contacts`.
+
+    Where nearest points jump, or distances curve, the slopes to both sides differ, and a gradient is between them.
+    """
+    judge, worst = _judge(world), 0.0
+    for row in sampled_rows(len(qs), seed):
+        for k, distance, points in zip(*contacts(row), strict=True):
+            shift = np.zeros(3)
+            if distance < -_ROUNDING:
+                shift = (points[:3] - points[3:]) * (1.0 - _GAP / distance)
+            low, high = _slopes(judge, qs[row], int(k), shift)
+            outside = np.maximum(low - gradients[row], gradients[row] - high)
+            error = float((outside / np.maximum(1.0, np.abs(gradients[row]))).max(initial=0.0))
+            worst = max(worst, error)
+            if not error <= GRADIENT_TOLERANCE:
+                raise CertificationFailed("the gradient of a distance", error, GRADIENT_TOLERANCE)
+    return worst
+
+
+def _slopes(judge: ContactJudge, q: Array, k: int, shift: Array) -> tuple[Array, Array]:
+    """Return the smaller and the larger of the slopes to both sides of each joint; shape (n,) each."""
+    here, steps = judge.distance_at(q, k, shift), _STEP * np.eye(len(q))
+    ahead = np.array([judge.distance_at(q + step, k, shift) - here for step in steps]) / _STEP
+    behind = np.array([here - judge.distance_at(q - step, k, shift) for step in steps]) / _STEP
+    return np.minimum(ahead, behind), np.maximum(ahead, behind)
 
 
 class _Comparison:

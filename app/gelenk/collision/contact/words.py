@@ -25,3 +25,15 @@ class ContactCertificate(Result):
     touching: int
     tolerance: float
     seed: int
+
+
+@dataclass(frozen=True, slots=True)
+class GradientCertificate(ContactCertificate):
+    """The same of clearances and their gradients.
+
+    Attributes:
+        max_gradient_error: Largest difference of an entry from the slopes of Coal's distances to both sides, between
+            which it is, [m/rad, or no unit], relative where it is above 1; 1e-3 is allowed.
+    """
+
+    max_gradient_error: float
