@@ -13,7 +13,7 @@ import numpy as np
 import pinocchio as pin
 
 from gelenk.collision.contact.judge import ContactJudge
-from gelenk.collision.contact.kernels import first_contacts, nearest_pairs
+from gelenk.collision.contact.kernels import first_contacts, first_spheres, nearest_pairs
 from gelenk.collision.contact.world import World, build_world
 from gelenk.collision.scene import Obstacle
 from gelenk.collision.shapes.covers import covered_body
@@ -35,16 +35,17 @@ def measure() -> list[Row]:
     qs = np.random.default_rng(1).uniform(world.chain.lower, world.chain.upper, (COUNT, len(world.chain)))
     some, judge = qs[:PEERS], ContactJudge(world)
     peer, whole = Peer(world, judge), [judge.whole(q) for q in some]
-    share = float((first_contacts(world.flat, qs) >= 0).mean())
+    share, near = (float((verdict(world.flat, qs) >= 0).mean()) for verdict in (first_contacts, first_spheres))
     runs: dict[str, Callable[[], object]] = {
         "one": lambda: [first_contacts(world.flat, q[None]) for q in some],
         "batch": lambda: first_contacts(world.flat, qs),
+        "spheres": lambda: first_spheres(world.flat, qs),
         "peer": lambda: [peer.touches(q) for q in whole],
         "distance": lambda: [nearest_pairs(world.flat, q[None]) for q in some],
         "distances": lambda: nearest_pairs(world.flat, qs),
         "peer distance": lambda: [peer.distance(q) for q in whole],
     }
-    each = {name: COUNT if name in {"batch", "distances"} else PEERS for name in runs}
+    each = {name: COUNT if name in {"batch", "spheres", "distances"} else PEERS for name in runs}
     times: dict[str, list[float]] = {name: [] for name in runs}
     for _ in range(ROUNDS):
         for name, run in runs.items():
@@ -63,6 +64,7 @@ def measure() -> list[Row]:
         for name, other, what, wanted in (
             ("one", "peer", f"exact verdict, one call each ({share:.0%} in contact)", "≤ 15 µs"),
             ("batch", "peer", f"exact verdict, {COUNT} at once", "≤ 10 µs"),
+            ("spheres", "peer", f"verdict by spheres, {COUNT} at once ({near:.0%} near)", "≤ 1 µs"),
             ("distance", "peer distance", "clearance and nearest points, one call each", "≤ 100 µs"),
             ("distances", "peer distance", f"clearance and nearest points, {COUNT} at once", ""),
         )

@@ -14,6 +14,7 @@ from gelenk.collision.contact.kernels import (
     all_contacts,
     always_in_contact,
     first_contacts,
+    first_spheres,
     nearest_pairs,
     pair_distances,
 )
@@ -168,6 +169,7 @@ def _contacts() -> None:
     scene = Obstacle("held", held, chain.tip_frame), Obstacle("near", near)
     world = build_world(robot, chain, RobotBodies((), (), ()), scene).flat
     first_contacts(world, qs)
+    first_spheres(world, qs)
     nearest_pairs(world, qs)
     pair_distances(world, qs, np.zeros(1, dtype=np.int64))
     all_contacts(world, qs[0])

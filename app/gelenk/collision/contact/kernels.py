@@ -2,21 +2,68 @@
 
 import numpy as np
 
-from gelenk.collision.contact.room import FlatWorld, distance_of, first_contact, nearest, place, room_of, touches
+from gelenk.collision.contact.pair import is_near
+from gelenk.collision.contact.room import (
+    ContactRoom,
+    FlatWorld,
+    distance_of,
+    nearest,
+    place,
+    place_body,
+    room_of,
+    touches,
+)
+from gelenk.collision.contact.spheres import Rake, balls_meet, place_eight, rake_of, spheres_meet
+from gelenk.kinematics.simd.lanes import LANES
 from gelenk.robot.arrays import Array, Flags, Indices
-from gelenk.robot.compilation import compiled
+from gelenk.robot.compilation import compiled, unmanaged
 
 
 @compiled
 def first_contacts(world: FlatWorld, qs: Array) -> Indices:
     """Return the number of a pair in contact at each configuration, -1 where there is none; (N, n) → (N,)."""
-    room, found, last = room_of(world), np.empty(len(qs), dtype=np.int64), 0
-    for i in range(len(qs)):
-        place(world, qs[i], room)
-        # Neighbouring configurations often touch with the same pair.
-        found[i] = last if len(world.pairs) and touches(world, last, room) else first_contact(world, room)
-        last = max(found[i], 0)
+    room, rake, found = room_of(world), rake_of(world, qs.shape[1]), np.full(len(qs), -1)
+    for first in range(0, len(qs), LANES):
+        place_eight(world, qs, first, rake)
+        _find_contacts(world, True, rake, room, found[first : first + LANES])
     return found
+
+
+@compiled
+def first_spheres(world: FlatWorld, qs: Array) -> Indices:
+    """Return the number of a pair whose spheres touch at each configuration, -1 where none do: there is no contact."""
+    room, rake, found = room_of(world), rake_of(world, qs.shape[1]), np.full(len(qs), -1)
+    for first in range(0, len(qs), LANES):
+        place_eight(world, qs, first, rake)
+        _find_contacts(world, False, rake, room, found[first : first + LANES])
+    return found
+
+
+@unmanaged
+def _find_contacts(world: FlatWorld, is_exact: bool, rake: Rake, room: ContactRoom, found: Indices) -> None:
+    """Set a pair in contact at each of up to eight configurations, as `first_contacts` or `first_spheres` do."""
+    free = (1 << len(found)) - 1
+    for g in range(len(world.groups)):
+        k, end = world.groups[g, 2], world.groups[g, 3]
+        near = free & balls_meet(world, world.groups[g, 0], world.groups[g, 1], world.margins[k], rake)
+        while near and k < end:
+            met = spheres_meet(world, k, near, rake)
+            for lane in range(len(found) if met else 0):
+                if met >> lane & 1 and (not is_exact or _touches(world, k, lane, rake, room)):
+                    found[lane], near, free = k, near ^ 1 << lane, free ^ 1 << lane
+            k += 1
+
+
+@unmanaged
+def _touches(world: FlatWorld, k: int, lane: int, rake: Rake, room: ContactRoom) -> bool:
+    """Whether the k-th pair is in contact at one of eight configurations."""
+    a, b, bodies = world.pairs[k, 0], world.pairs[k, 1], world.bodies
+    for i in (a, b):
+        if bodies.nodes[i] > 0:
+            for j in range(12):
+                room.nodes[bodies.nodes[i], j] = rake.nodes[(12 * bodies.nodes[i] + j) * LANES + lane]
+            place_body(bodies, i, room)
+    return is_near(bodies, a, b, room.poses, world.margins[k], room.T, room.work)
 
 
 @compiled

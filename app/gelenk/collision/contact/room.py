@@ -29,6 +29,8 @@ class FlatWorld(NamedTuple):
         bodies: All pieces.
         pairs: Pieces that may not touch, a half-space always the second; shape (M, 2).
         margins: Distance up to which each pair counts as in contact; shape (M,), [m].
+        groups: For the pairs of two links or objects, which follow each other: the balls around these, the first pair
+            and that after the last; shape (G, 4).
     """
 
     parents: Indices
@@ -38,6 +40,7 @@ class FlatWorld(NamedTuple):
     bodies: FlatBodies
     pairs: Indices
     margins: Array
+    groups: Indices
 
 
 class ContactRoom(NamedTuple):
@@ -66,7 +69,7 @@ def room_of(world: FlatWorld) -> ContactRoom:
     room.nodes[0, 0] = room.nodes[0, 4] = room.nodes[0, 8] = 1.0
     for i in range(len(bodies.kinds)):
         if bodies.nodes[i] == 0:
-            _place_body(bodies, i, room)
+            place_body(bodies, i, room)
     return room
 
 
@@ -87,11 +90,12 @@ def place(world: FlatWorld, q: Array, room: ContactRoom) -> None:
                 pose[3 * i], pose[3 * i + 1] = c * x + s * y, c * y - s * x
     for i in range(len(world.bodies.kinds)):
         if world.bodies.nodes[i] > 0:
-            _place_body(world.bodies, i, room)
+            place_body(world.bodies, i, room)
 
 
 @inlined
-def _place_body(bodies: FlatBodies, i: int, room: ContactRoom) -> None:
+def place_body(bodies: FlatBodies, i: int, room: ContactRoom) -> None:
+    """Compute the pose of a piece, and the centre of its ball, where its node is."""
     node = room.nodes[bodies.nodes[i]]
     _product(node, bodies.poses[i], room.poses[i])
     centre = turned_by(node, row(bodies.balls, i))
@@ -106,15 +110,6 @@ def _product(A: Array, B: Array, C: Array) -> None:
         for j in range(3):
             C[3 * i + j] = A[3 * i] * B[j] + A[3 * i + 1] * B[3 + j] + A[3 * i + 2] * B[6 + j]
         C[9 + i] = A[9 + i] + A[3 * i] * B[9] + A[3 * i + 1] * B[10] + A[3 * i + 2] * B[11]
-
-
-@unmanaged
-def first_contact(world: FlatWorld, room: ContactRoom) -> int:
-    """Return the number of a pair in contact, -1 if there is none."""
-    for k in range(len(world.pairs)):
-        if touches(world, k, room):
-            return k
-    return -1
 
 
 @inlined
@@ -146,8 +141,6 @@ def box_bound(bodies: FlatBodies, a: int, b: int, room: ContactRoom) -> float:
 
     It says nothing of pieces that may overlap.
     """
-    if bodies.kinds[b] == HALF_SPACE:
-        return -math.inf
     if bodies.balls[a, 3] > bodies.balls[b, 3]:
         a, b = b, a
     centre = row(room.centres, a)
@@ -166,9 +159,9 @@ def box_bound(bodies: FlatBodies, a: int, b: int, room: ContactRoom) -> float:
 def _outside_box(box: Array, pose: Array, point: Vector) -> float:
     """Return the distance of a point in the root from the box around a piece; 0 inside."""
     local = turned_back_by(pose, minus(point, (pose[9], pose[10], pose[11])))
-    x = max(abs(local[0] - box[0]) - box[3], 0.0)
-    y = max(abs(local[1] - box[1]) - box[4], 0.0)
-    z = max(abs(local[2] - box[2]) - box[5], 0.0)
+    x = max(local[0] - box[3], box[0] - local[0], 0.0)
+    y = max(local[1] - box[4], box[1] - local[1], 0.0)
+    z = max(local[2] - box[5], box[2] - local[2], 0.0)
     return math.sqrt(x * x + y * y + z * z)
 
 

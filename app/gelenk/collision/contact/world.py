@@ -13,6 +13,7 @@ from gelenk.collision.contact.room import FlatWorld
 from gelenk.collision.robot_bodies import RobotBodies
 from gelenk.collision.scene import Obstacle, check_scene
 from gelenk.errors import TooLarge
+from gelenk.robot.arrays import Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 
@@ -68,12 +69,23 @@ def flat_world(
     found = list(islice(_piece_pairs(placed, names, pairs), MAX_PAIRS + 1))
     if len(found) > MAX_PAIRS:
         raise TooLarge("pairs of pieces of links and objects", len(found), MAX_PAIRS)
+    numbers = {name: i for i, name in enumerate(dict.fromkeys(names))}
+    owners = np.array([numbers[name] for name in names], dtype=np.int64)
+    together = np.array([pair[:2] for pair in found], dtype=np.int64).reshape(-1, 2)
     return FlatWorld(
         *nodes.flat(),
-        flat_bodies(placed),
-        np.array([pair[:2] for pair in found], dtype=np.int64).reshape(-1, 2),
+        flat_bodies(placed, [np.flatnonzero(owners == i).tolist() for i in numbers.values()]),
+        together,
         np.array([margin for _, _, margin in found], dtype=float),
+        _groups(len(bodies) + owners[together]),
     )
+
+
+def _groups(owners: Indices) -> Indices:
+    """Return `FlatWorld.groups` of the links or objects of each pair, shape (M, 2)."""
+    changes = np.any(owners[1:] != owners[:-1], axis=1)
+    starts = np.flatnonzero(np.append(True, changes)[: len(owners)])
+    return np.column_stack((owners[starts], starts, np.append(starts[1:], len(owners))[: len(starts)]))
 
 
 def _pairs(own: RobotBodies, obstacles: tuple[Obstacle, ...]) -> Iterator[tuple[str, str, float]]:
