@@ -9,6 +9,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from gelenk.contract.ik import InverseAnswer
+from tests.http.test_jobs import ended
 
 ABOVE = {"position": [0.5, 0.0, 0.45], "rpy": [3.141592653589793, 0.0, 0.0]}
 INSIDE = {"position": [0.5, 0.0, 0.15], "rpy": [3.141592653589793, 0.0, 0.0]}
@@ -91,6 +92,18 @@ def test_npy_has_the_same_configurations(client: TestClient) -> None:
     best = [(one["solutions"] or [one["nearest"]])[0]["joint_positions"] for one in rows]
     np.testing.assert_array_equal(np.load(BytesIO(content.content)), best)
     assert (content.headers["gelenk-unsolved"], content.headers["gelenk-unsolved-rows"]) == ("2", "1,2")
+
+
+def test_a_job_gives_the_same_answer(client: TestClient) -> None:
+    call: dict[str, Any] = {"targets": [INSIDE, FAR] + [ABOVE] * 140, "scene": SCENE}
+    answer = client.post("/v1/robots/panda/ik", json=call, headers={"Prefer": "respond-async"})
+    assert answer.status_code == 202, answer.text
+    assert ended(lambda: client.get(answer.headers["location"]).json())["state"] == "succeeded"
+    later = client.get(f"{answer.headers['location']}/result")
+    InverseAnswer.model_validate_json(later.content)
+    now = ask(client, **call)
+    assert [later.json()[name] for name in ("results", "warnings")] == [now[name] for name in ("results", "warnings")]
+    assert later.json()["certificate"]["samples"] > now["certificate"]["samples"] == 16
 
 
 def test_without_scene_and_clearance_nothing_is_different(client: TestClient) -> None:

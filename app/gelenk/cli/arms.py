@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gelenk.cli.batches import in_calls
-from gelenk.cli.completion import METHODS, REFERENCES, REPRESENTATIONS, one_of
+from gelenk.cli.completion import METHODS, REFERENCES, REPRESENTATIONS, one_of, scenes_beginning_with
 from gelenk.cli.files.inputs import fields_of
 from gelenk.cli.files.outputs import AnswerRows, largest
 from gelenk.cli.files.rows import AXES, ORIENTATIONS, InputRows, numbers_of, rows_of
@@ -137,6 +137,12 @@ def ik(
     seed: Annotated[str | None, typer.Option(help="Configuration to start at.")] = None,
     task: Annotated[str | None, typer.Option(help="Directions that count, such as x,y,z,rx,ry.")] = None,
     free: Annotated[bool, typer.Option("--ignore-limits", help="Allow solutions beyond the joint limits.")] = False,
+    scene: Annotated[
+        str | None, typer.Option(help="Scene that solutions do not touch.", autocompletion=scenes_beginning_with)
+    ] = None,
+    clearance: Annotated[
+        float | None, typer.Option("--min-clearance", help="Least distance from contact, also of the arm itself, [m].")
+    ] = None,
     fields: FieldsOption = None,
     later: LaterOption = False,
 ) -> None:
@@ -149,6 +155,7 @@ def ik(
         body["task"] = task.replace(",", " ").split()
     if seed is not None:
         body["seeds"] = [numbers_of(seed, "seeds")]
+    body |= {name: value for name, value in (("scene", scene), ("min_clearance", clearance)) if value is not None}
     body |= fields_of(fields)
     with shared.robot(robot) as (client, name):
         if later:
@@ -157,18 +164,21 @@ def ik(
         with shared.bar("ik") as progress:
             answer = in_calls(partial(client.ik, name), body, "targets", progress, first=_TARGETS_FIRST)
     shared.write(answer, _solutions(answer))
-    if any(not result.solutions for result in answer.results):
+    if any(result.status != "solved" for result in answer.results):
         raise typer.Exit(UNREACHED)
 
 
 def _solutions(answer: "InverseAnswer") -> AnswerRows:
+    is_in_cell = answer.certificate is not None
     columns = ("target", "status", *answer.joint_names, "position error", "orientation error")
     rows: list[tuple[Any, ...]] = []
     for index, result in enumerate(answer.results):
-        found: list[Any] = [*result.solutions] if result.nearest is None else [result.nearest]
-        rows += [
-            (index, result.status, *one.joint_positions, one.position_error, one.orientation_error) for one in found
-        ]
+        found: list[Any] = [*result.solutions] or [result.nearest]
+        for one in found:
+            status = "in_collision" if getattr(one, "in_collision", False) else result.status
+            about = one.position_error, one.orientation_error, *([one.clearance] if is_in_cell else [])
+            rows.append((index, status, *one.joint_positions, *about))
+    columns += ("clearance",) if is_in_cell else ()
     reasons = [f"{index}: {result.reason}" for index, result in enumerate(answer.results) if result.reason]
     # As in the API's npy: for each target a solution, or the nearest configuration.
     first = [result.solutions[0] if result.solutions else result.nearest for result in answer.results]

@@ -14,7 +14,7 @@ from gelenk.ik.verdict.result import InverseKinematics
 from gelenk.operations.cells import cell_of
 from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolved_headers
 from gelenk.operations.ik_contacts import certify_table, contacts_of
-from gelenk.operations.ik_request import TargetLimits, has_table, parse, task_of
+from gelenk.operations.ik_request import TargetLimits, has_table, is_in_cell, parse, task_of
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.request_counts import RequestCounts
 from gelenk.operations.warm_up import WarmUp
@@ -57,8 +57,7 @@ def _bounds(limits: Limits) -> TargetLimits:
 def is_heavy(call: InverseRequest) -> bool:
     """Check whether a request takes the event loop more than about a millisecond."""
     one_by_search = (
-        call.scene is None
-        and call.min_clearance is None
+        not is_in_cell(call)
         and call.method in {"auto", "analytic"}
         and call.elbow_angle is None
         and call.fixed_joints is None

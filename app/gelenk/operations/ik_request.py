@@ -18,6 +18,8 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import MAX_MAGNITUDE, configurations, one_configuration
 from gelenk.robot.robot import RobotModel
 
+NUMBERS_OF_CONTACT = 9
+"""Numbers about the contacts of a solution."""
 NUMBERS_OF_STEPS = 1000
 """What the worked solution of a target counts for in the size of an answer."""
 
@@ -125,9 +127,16 @@ def _check_size(call: InverseRequest, targets: int, joints: int, bounds: TargetL
         raise TooLarge("targets that are followed or worked out step by step", targets, bounds.stepwise)
     rows = call.max_solutions if call.solutions == "all" else MAX_TRACE if call.trace else 1
     # The sweeps of families together have at most as many configurations as there may be solutions.
-    numbers = targets * ((joints + 4 + joints * (call.solutions == "all")) * rows + NUMBERS_OF_STEPS * call.steps)
+    contact = NUMBERS_OF_CONTACT * is_in_cell(call)
+    each = joints + 4 + contact + joints * (call.solutions == "all")
+    numbers = targets * (each * rows + NUMBERS_OF_STEPS * call.steps)
     if bounds.numbers is not None and numbers > bounds.numbers:
         raise TooLarge("numbers in the answer", numbers, bounds.numbers)
+
+
+def is_in_cell(call: InverseRequest) -> bool:
+    """Check whether contacts are looked at."""
+    return call.scene is not None or call.min_clearance is not None
 
 
 def is_stepwise(call: InverseRequest) -> bool:
@@ -161,7 +170,7 @@ def _check_options(call: InverseRequest) -> None:
         raise InvalidField("step_size", "only for the methods `gradient` and `gradient_then_newton`")
     if call.damping is not None and call.method != "damped_least_squares":
         raise InvalidField("damping", "only for the method `damped_least_squares`")
-    if call.objective == "clearance" and call.scene is None and call.min_clearance is None:
+    if call.objective == "clearance" and not is_in_cell(call):
         raise InvalidField("objective", "`clearance` needs a `scene`, or a `min_clearance` from the robot itself")
     if call.objective is not None and call.method != "auto":
         raise InvalidField("objective", "only for the method `auto`")

@@ -10,6 +10,8 @@ import numpy as np
 import orjson
 from numpy.typing import NDArray
 
+from gelenk.collision.cell import Cell
+from gelenk.collision.contact.words import ContactCertificate, together
 from gelenk.contract.ik import MAX_JOB_STEPWISE, MAX_JOB_TARGETS, MAX_TRACE, InverseRequest
 from gelenk.errors import InvalidField
 from gelenk.http.jobs.long_work import AS_SENT, HEADERS, LongWork, as_bytes, headers_file, npy_file
@@ -20,8 +22,18 @@ from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
+from gelenk.operations.cells import cell_bodies, read_cell_bodies
 from gelenk.operations.ik_answer import PlainResults, plain_results, results_to_json, table, to_json, unsolved_headers
-from gelenk.operations.ik_request import NUMBERS_OF_STEPS, TargetLimits, has_table, is_stepwise, options_of, parse
+from gelenk.operations.ik_contacts import contacts_of
+from gelenk.operations.ik_request import (
+    NUMBERS_OF_CONTACT,
+    NUMBERS_OF_STEPS,
+    TargetLimits,
+    has_table,
+    is_stepwise,
+    options_of,
+    parse,
+)
 from gelenk.operations.outcome import Limits
 from gelenk.operations.pose_arrays import poses_from
 from gelenk.robot.arrays import Array
@@ -30,7 +42,7 @@ from gelenk.robot.poses import Poses
 from gelenk.store.folders import open_plain, read_plain
 from gelenk.store.records import LoadedRobot
 
-_CALL, _TARGETS, _SEEDS = "call.json", "targets.npy", "seeds.npy"
+_CALL, _TARGETS, _SEEDS, _CELL = "call.json", "targets.npy", "seeds.npy", "cell.json"
 _PARTS, _ABOUT = "result.parts", "result.about"
 """Files of a result: the parts one after another; and all else that the answer consists of, with their sizes."""
 _BOUNDS = TargetLimits(MAX_JOB_TARGETS, MAX_JOB_STEPWISE, None)
@@ -43,8 +55,8 @@ _STAGE = "targets"
 _SOLVED = 0.95
 """Progress when only the files are left to write."""
 
-_Part: TypeAlias = tuple[RobotText, bytes, Array, Array]
-"""The robot, the call, the targets (as sent, or rows of 12: position, rotation matrix), the seeds."""
+_Part: TypeAlias = tuple[RobotText, bytes, bytes | None, Array, Array]
+"""The robot, the call, its cell, the targets (as sent, or rows of 12: position, rotation matrix), the seeds."""
 
 
 def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[str, bytes | None]:
@@ -54,29 +66,33 @@ def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[
             "time_limit", "a job looks for each target to the end: leave it out, or ask for the answer now"
         )
     problem = parse(loaded.robot, call, _BOUNDS)
-    _check_room(limits.job_bytes, problem, call)
-    ends = {"base_frame": problem.chain.base_frame, "tip_frame": problem.chain.tip_frame}
-    rest = call.model_copy(update={"targets": [], "seeds": None, **ends})
+    bodies = cell_bodies(loaded, call)
+    cell = None if bodies is None else bodies.cell(loaded.robot, problem.chain, call.min_clearance)
+    _check_room(limits.job_bytes, problem, call, cell)
+    fixed = {"base_frame": problem.chain.base_frame, "tip_frame": problem.chain.tip_frame}
+    rest = call.model_copy(update={"targets": [], "seeds": None, "scene": None, **fixed})
     files = {_CALL: rest.model_dump_json().encode(), _SEEDS: npy_file(problem.seeds)}
+    if bodies:
+        files[_CELL] = bodies.to_bytes()
     if isinstance(call.targets, np.ndarray):
         return {**files, _TARGETS: AS_SENT}
     rows = np.column_stack((problem.targets.positions, problem.targets.rotations.reshape(-1, 9)))
     return {**files, _TARGETS: npy_file(rows)}
 
 
-def _check_room(most_bytes: int, problem: TargetProblem, call: InverseRequest) -> None:
+def _check_room(most_bytes: int, problem: TargetProblem, call: InverseRequest, cell: Cell | None) -> None:
     """Refuse a call whose results would exceed `most_bytes`, as some targets show; say how many there is room for."""
     count = len(problem)
     rows = call.max_solutions if call.solutions == "all" else MAX_TRACE if call.trace else 1
-    numbers = rows * (len(problem.chain) + 4) + NUMBERS_OF_STEPS * call.steps
+    numbers = rows * (len(problem.chain) + 4 + NUMBERS_OF_CONTACT * bool(cell)) + NUMBERS_OF_STEPS * call.steps
     if count * numbers * _BYTES_A_NUMBER <= most_bytes:
         return
-    whole = _bytes_each(problem, call, count) * count
+    whole = _bytes_each(problem, call, cell, count) * count
     if whole <= most_bytes:
         return
     room = int(0.9 * count * most_bytes / whole)
     # Check each smaller number too: the first targets may have more solutions than the others.
-    while room > 1 and _bytes_each(problem, call, room) * room > most_bytes:
+    while room > 1 and _bytes_each(problem, call, cell, room) * room > most_bytes:
         room = int(0.9 * room)
     raise InvalidField(
         "targets",
@@ -85,18 +101,19 @@ def _check_room(most_bytes: int, problem: TargetProblem, call: InverseRequest) -
     )
 
 
-def _bytes_each(problem: TargetProblem, call: InverseRequest, count: int) -> float:
+def _bytes_each(problem: TargetProblem, call: InverseRequest, cell: Cell | None, count: int) -> float:
     """Return the mean size, in bytes, of the result of one of the first `count` targets, from some of them."""
     some = np.unique(np.linspace(0, count - 1, _TRIED).astype(np.int64))
-    return len(_solved(problem.taken(some), call)) / len(some)
+    return len(_solved(problem.taken(some), call, cell)) / len(some)
 
 
 def _work(_: Limits, folder: Path) -> Work:
     text, content = robot_text(folder), read_plain(folder / _CALL)
     call = read_json(InverseRequest, content)
+    cell = read_plain(folder / _CELL) if (folder / _CELL).exists() else None
     # Read from disk as they are needed: a million targets are a hundred megabytes.
     targets, seeds = (np.load(folder / name, mmap_mode="r") for name in (_TARGETS, _SEEDS))
-    quick = call.solutions == "one" and call.objective is None and not is_stepwise(call)
+    quick = call.solutions == "one" and call.objective is None and not is_stepwise(call) and cell is None
     size = _PART if quick else _PART_OF_MANY
     count = max(1, -(-len(targets) // size))
 
@@ -105,6 +122,7 @@ def _work(_: Limits, folder: Path) -> Work:
         return (
             text,
             content,
+            cell,
             np.array(targets[rows], dtype=np.float64, order="C"),
             np.array(seeds if len(seeds) == 1 else seeds[rows]),
         )
@@ -112,7 +130,8 @@ def _work(_: Limits, folder: Path) -> Work:
     def work(run: Run) -> Files:
         run.map(_STAGE, solved_part, part, count, (0.0, _SOLVED), size)
         chain = robot_of(text).chain(call.base_frame, call.tip_frame)
-        found = _Found(call, chain, lambda: run.parts.of(_STAGE, count))
+        warnings = None if cell is None else read_cell_bodies(cell).warnings
+        found = _Found(call, chain, warnings, lambda: run.parts.of(_STAGE, count))
         return {_PARTS: found.write_parts, _ABOUT: found.write_about, HEADERS: found.write_headers}
 
     return work
@@ -120,21 +139,24 @@ def _work(_: Limits, folder: Path) -> Work:
 
 def solved_part(job: _Part) -> bytes:
     """Solve some targets, in a separate process: results as arrays or as JSON, and indices of unsolved targets."""
-    text, content, rows, seeds = job
+    text, content, bodies, rows, seeds = job
     robot, call = robot_of(text), _call(content)
     chain = robot.chain(call.base_frame, call.tip_frame)
+    cell = None if bodies is None else read_cell_bodies(bodies).cell(robot, chain, call.min_clearance)
     targets = Poses(rows[:, :3].copy(), rows[:, 3:].reshape(-1, 3, 3)) if rows.shape[1] == 12 else poses_from(rows, "")
-    return _solved(TargetProblem(robot, chain, targets, seeds, options_of(chain, call, None)), call)
+    return _solved(TargetProblem(robot, chain, targets, seeds, options_of(chain, call, None)), call, cell)
 
 
-def _solved(problem: TargetProblem, call: InverseRequest) -> bytes:
-    result = solve(problem)
+def _solved(problem: TargetProblem, call: InverseRequest, cell: Cell | None) -> bytes:
+    result = solve(problem, cell)
     head = {"count": len(problem), "form": as_bytes(orjson.dumps(result.closed_form))}
-    if (plain := plain_results(problem, call, result)) is not None:
+    contacts = contacts_of(cell, result)
+    if contacts is None and (plain := plain_results(problem, call, result)) is not None:
         return packed(**head, **plain._asdict())
-    results = orjson.dumps(results_to_json(problem, call, result), option=orjson.OPT_SERIALIZE_NUMPY)
+    results = orjson.dumps(results_to_json(problem, call, result, contacts), option=orjson.OPT_SERIALIZE_NUMPY)
     return packed(
         **head,
+        certificate=contacts and as_bytes(orjson.dumps(contacts.certificate)),
         rows=table(problem.chain, result) if has_table(call) else None,
         unsolved=np.array(list(result.failures), dtype=np.int64),
         results=as_bytes(results),
@@ -149,8 +171,11 @@ def _call(content: bytes) -> InverseRequest:
 class _Found:
     """The results of all parts: reading the parts takes longer than all else, so the first file gathers the others."""
 
-    def __init__(self, call: InverseRequest, chain: Chain, parts: Callable[[], Iterator[bytes]]) -> None:
-        self._call, self._chain, self._parts = call, chain, parts
+    def __init__(
+        self, call: InverseRequest, chain: Chain, warnings: list[str] | None, parts: Callable[[], Iterator[bytes]]
+    ) -> None:
+        self._call, self._chain, self._warnings, self._parts = call, chain, warnings, parts
+        self._certificates: list[ContactCertificate] = []
         self._form, self._sizes, self._count = b"", list[int](), 0
         self._unsolved: list[int] = []
 
@@ -161,10 +186,13 @@ class _Found:
             self._unsolved += (self._count + values["unsolved"]).tolist()
             self._count += int(values["count"])
             self._sizes.append(len(part))
+            if "certificate" in values:
+                self._certificates.append(ContactCertificate(**orjson.loads(values["certificate"].tobytes())))
             target.write(part)
 
     def write_about(self, target: IO[bytes]) -> None:
-        answer = to_json(self._chain, self._call, orjson.loads(self._form), [])
+        about = (self._warnings, together(self._certificates)) if self._certificates else None
+        answer = to_json(self._chain, self._call, orjson.loads(self._form), [], about)
         frame = orjson.dumps(answer, option=orjson.OPT_SERIALIZE_NUMPY)
         shape = (self._count, len(self._chain)) if has_table(self._call) else None
         target.write(orjson.dumps({"frame": frame.decode(), "sizes": self._sizes, "shape": shape}))
