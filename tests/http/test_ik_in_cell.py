@@ -180,3 +180,13 @@ def test_the_objective_clearance_keeps_away(client: TestClient) -> None:
         for more in ({}, {"objective": "clearance"})
     )
     assert away["clearance"] > plain["clearance"] - 1e-3
+
+
+@pytest.mark.parametrize(("code", "words"), [("en", "is free of contact: they are no"), ("de", "ist kollisionsfrei")])
+def test_steps_tell_contacts_in_both_languages(client: TestClient, code: str, words: str) -> None:
+    free, hit, far = ask(client, scene=SCENE, steps=True, language=code, min_clearance=0.01)["results"]
+    texts = ["".join(step["text"] for step in result["steps"]) for result in (free, hit, far)]
+    assert [words in text for text in texts] == [False, True, False]
+    assert "0.01 m" in texts[0]
+    line = free["steps"][-1]["plain"][0]
+    assert float(line.split()[2]) == pytest.approx(free["solutions"][0]["clearance"], abs=1e-4)

@@ -98,7 +98,7 @@ def results_to_json(
         for i, contact in contacts.of_nearest.items():
             entries[i]["nearest"].update(contact)
     if call.steps:
-        for entry, steps in zip(entries, worked(problem, call, result), strict=True):
+        for entry, steps in zip(entries, worked(problem, call, result, contacts), strict=True):
             entry["steps"] = steps
     return entries
 

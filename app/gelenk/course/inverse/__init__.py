@@ -4,5 +4,5 @@
 - `planar`: arms in a plane, SCARA. `shoulder`: the first axis, and an elbow or a slide behind it.
 - `wrist`: the last three axes in a point, by ZYZ. `parallel`: three parallel axes. `by_hand`: chooses among them.
 - `solution`: what these return. `agreement`: compares it with the solutions that are sent.
-- `solver`: how the numbers of other arms were found.
+- `solver`: how the numbers of other arms were found. `contact`: which solutions touch something.
 """
