@@ -21,7 +21,7 @@ def contact_step(clearances: Sequence[float], nearest: tuple[str, str], demanded
     text = _("The clearance d of a solution is that of its two nearest bodies; where it is negative, they overlap.")
     text += " " + _("At the first these are {a} and {b}.").format(a=nearest[0], b=nearest[1])
     if demanded > 0.0:
-        text += " " + _("A solution must have more than the {d} m that are demanded.").format(d=f"{demanded:g}")
+        text += " " + _("A solution must have more than the {d:g} m that are demanded.").format(d=demanded)
     if not free:
         text += " " + _("None of the solutions found is free of contact: they are no answer.")
     elif free < len(clearances):
