@@ -172,7 +172,7 @@ def test_a_stored_mesh_is_what_it_looks_like_until_it_is_replaced(own: TestClien
 def test_a_mesh_that_is_not_convex_says_how_much_larger_it_counts(own: TestClient) -> None:
     store(own, {"type": "mesh", "file": "ring.stl"}, stl(trimesh.creation.annulus(0.1, 0.2, 0.1)))
     (warning,) = ask(own, {"scene": "cell"})["warnings"]
-    assert "'table' counts as 1 convex hull around what it is made of; the loosest has 3" in warning
+    assert "'table' counts as 1 convex hull around what it is made of, with at most 3" in warning
     sheet = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     store(own, {"type": "mesh", "file": "sheet.stl"}, stl(sheet), "PUT")
     assert "not closed" in ask(own, {"scene": "cell"})["warnings"][0]

@@ -11,8 +11,8 @@ from gelenk.collision.bodies import Body, PieceKind
 from gelenk.collision.link_pairs import find_pairs
 from gelenk.collision.pairs import LinkPair
 from gelenk.collision.shapes.covers import NO_POINTS, covered_body
-from gelenk.collision.shapes.hulls import hulls_of
 from gelenk.collision.shapes.meshes import read_triangles
+from gelenk.collision.shapes.pieces import pieces_of
 from gelenk.errors import listed, meshes_are
 from gelenk.robot.arrays import Array
 from gelenk.robot.description import Description, Link, Shape
@@ -75,7 +75,7 @@ def _shapes(link: Link) -> list[Shape]:
 
 
 def _mesh_pieces(mesh: str, content: bytes | None) -> list[tuple[Array, float]] | None:
-    return None if content is None else hulls_of(read_triangles(mesh, content))
+    return None if content is None else pieces_of(read_triangles(mesh, content))
 
 
 def _bodies(link: str, shapes: Sequence[Shape], pieces_of: _Pieces) -> Iterator[Body]:

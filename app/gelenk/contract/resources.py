@@ -130,7 +130,7 @@ RESOURCES = (
         Lists the pairs of links that have bodies, whether contacts between them are looked for, and if not, why.
 
         The bodies are the collision shapes; of a link without them the visual ones, and of meshes the convex hulls of
-        their parts. The first call on a robot may take seconds.
+        the parts that they are cut into. The first call on a robot may take seconds.
 
         Pairs that never touch stay active: that would be a claim from samples, and they cost next to nothing.
         """,

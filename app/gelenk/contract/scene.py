@@ -61,7 +61,7 @@ class SceneHalfSpace(Payload):
 
 
 class SceneMesh(Payload):
-    """A mesh, as the convex hulls of its parts."""
+    """A mesh, as convex hulls of the at most 16 parts that it is cut into."""
 
     type: Literal["mesh"] = Field(description="Which shape it is.")
     file: MeshName = Field(description="Name of the STL, OBJ or DAE file that is stored with the scene.")

@@ -162,10 +162,10 @@ def _motions() -> None:
 
 
 def _contacts() -> None:
-    """Find the contacts of an arm with a ball on its tip."""
+    """Find the contacts of an arm with a ball on its tip and a box at its base."""
     robot, chain, qs = _small_arm()
     held = (covered_body("held", chain.tip_frame, "sphere", (0.1,), np.eye(4)),)
-    near = (covered_body("near", chain.base_frame, "sphere", (0.1,), np.eye(4)),)
+    near = (covered_body("near", chain.base_frame, "box", (0.1, 0.1, 0.1), np.eye(4)),)
     scene = Obstacle("held", held, chain.tip_frame), Obstacle("near", near)
     world = build_world(robot, chain, RobotBodies((), (), ()), scene).flat
     first_contacts(world, qs)

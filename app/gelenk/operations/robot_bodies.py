@@ -38,13 +38,14 @@ def bodies_of(loaded: LoadedRobot) -> RobotBodies:
     """
     known = _known.get(loaded.robot)
     if known is None:
-        found = _stored_or_found(loaded)
+        found = stored_or_found(loaded)
         choices = ((pair.a, pair.b, pair.active) for pair in loaded.record.file.collision_pairs)
         known = _known[loaded.robot] = replace(found, pairs=edited(found.pairs, choices))
     return known
 
 
-def _stored_or_found(loaded: LoadedRobot) -> RobotBodies:
+def stored_or_found(loaded: LoadedRobot) -> RobotBodies:
+    """Return the bodies of a robot and its pairs as found: from disk, or put there for the next time."""
     file = None if loaded.derived is None else loaded.derived / f"{_digest(loaded)}.json"
     if file is not None:
         with suppress(OSError, ValueError, TypeError, KeyError):

@@ -12,8 +12,8 @@ from gelenk.collision.bodies import Body
 from gelenk.collision.scene import Obstacle, half_space
 from gelenk.collision.shapes.clouds import cloud_bodies
 from gelenk.collision.shapes.covers import covered_body
-from gelenk.collision.shapes.hulls import hulls_of
 from gelenk.collision.shapes.meshes import read_triangles
+from gelenk.collision.shapes.pieces import pieces_of
 from gelenk.contract.scene import (
     Scene,
     SceneBox,
@@ -82,7 +82,7 @@ def _bodies(one: SceneObject, place: str, link: str, scene: Scene) -> tuple[tupl
         case SceneHalfSpace(normal=normal, offset=offset):
             return (half_space(name, link, unit_axis(normal, f"{place}/shape/normal"), offset, T),), None
         case SceneMesh(file=file):
-            hulls = hulls_of(read_triangles(file, scene.read(file)))
+            hulls = pieces_of(read_triangles(file, scene.read(file)))
             names = [f"{name} {i + 1}" for i in range(len(hulls))] if len(hulls) > 1 else [name]
             bodies = (covered_body(own, link, "convex", (), T, *hull) for own, hull in zip(names, hulls, strict=True))
             return tuple(bodies), _about_hulls(name, [excess for _, excess in hulls])
@@ -105,7 +105,7 @@ def _about_hulls(name: str, excesses: Sequence[float]) -> str | None:
     counts = f"{quoted(name)} counts as {counted(len(excesses), 'convex hull')} around what it is made of"
     if any(map(math.isnan, excesses)):
         return f"{counts}; its surface is not closed, so nothing is known of their excess"
-    return f"{counts}; the loosest has {max(excesses):.0%} more volume than its part"
+    return f"{counts}, with at most {max(excesses):.0%} more volume than a connected part has"
 
 
 def _about_boxes(name: str, points: int, excess: float) -> str | None:

@@ -1,6 +1,7 @@
 """Convex pieces of shapes.
 
 - `meshes` reads files of triangles, Collada's by `collada`.
-- `hulls` makes convex pieces of them.
-- `covers` puts spheres around any piece.
+- `pieces` cuts their `surfaces` into nearly convex parts, and takes the `hulls` of these.
+- `covers` puts spheres around any piece, `balls` a single one.
+- `clouds` makes pieces of points.
 """

@@ -5,7 +5,9 @@ import math
 import numpy as np
 
 from gelenk.collision.bodies import Body, PieceKind
+from gelenk.collision.shapes.balls import ball_around
 from gelenk.collision.shapes.hulls import convex_hull
+from gelenk.collision.shapes.surfaces import Surface, cut
 from gelenk.robot.arrays import Array
 
 MAX_SPHERES = 16
@@ -75,41 +77,24 @@ def _prism_of(polygon: Array, length: float) -> Array:
 
 def _of_polytope(corners: Array) -> Array:
     """Halve the part with the largest sphere until there are enough, or all are about as wide as the piece is thick."""
-    axes = np.linalg.eigh(np.cov(corners.T))[1]
-    enough = _ROUND * float(np.ptp(corners @ axes, axis=0).min()) / 2
-    parts = [(_sphere(corners), corners)]
+    hull = convex_hull(corners)
+    axes = np.linalg.eigh(np.cov(hull.vertices.T))[1]
+    enough = _ROUND * float(np.ptp(hull.vertices @ axes, axis=0).min()) / 2
+    parts = [(ball_around(hull.vertices), Surface(hull.vertices, hull.faces))]
     while len(parts) < MAX_SPHERES:
         largest = max(range(len(parts)), key=lambda i: parts[i][0][3])
         if parts[largest][0][3] <= enough:
             break
-        parts += [(_sphere(half), half) for half in _halves(parts.pop(largest)[1])]
+        parts += [(ball_around(half.points), half) for half in _halves(parts.pop(largest)[1])]
     return np.array([sphere for sphere, _ in parts])
 
 
-def _halves(corners: Array) -> tuple[Array, Array]:
-    """Cut the hull of corners across its longest side, in the middle; both parts again as corners.
+def _halves(surface: Surface) -> tuple[Surface, Surface]:
+    """Cut what is left of a polytope's surface across its longest side, in the middle.
 
-    Every segment between corners of the two sides is cut, which gives all corners of the cut, and points inside it.
+    The faces of the cuts need not be closed: all their corners are on the surface.
     """
-    mean = corners.mean(axis=0)
-    axis = np.linalg.eigh((corners - mean).T @ (corners - mean))[1][:, 2]
-    heights = corners @ axis
-    heights = heights - (heights.min() + heights.max()) / 2
-    below, above = np.flatnonzero(heights < 0.0), np.flatnonzero(heights >= 0.0)
-    share = (heights[above] / (heights[above] - heights[below, None]))[:, :, None]
-    cut = (share * corners[below, None] + (1.0 - share) * corners[above]).reshape(-1, 3)
-    lower, upper = (convex_hull(np.concatenate((corners[side], cut))).vertices for side in (below, above))
-    return lower, upper
-
-
-def _sphere(corners: Array) -> Array:
-    """Return a sphere around corners, little larger than the smallest: its centre steps to the farthest of them.
-
-    Bădoiu and Clarkson, "Smaller core-sets for balls", 2003.
-    """
-    centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
-    for step in range(2, 40):
-        far = corners[np.argmax(((corners - centre) ** 2).sum(axis=1))]
-        centre = centre + (far - centre) / step
-    radius = math.sqrt(((corners - centre) ** 2).sum(axis=1).max())
-    return np.array([*centre, radius * (1.0 + 1e-9)])
+    points = surface.points - surface.points.mean(axis=0)
+    axis = np.linalg.eigh(points.T @ points)[1][:, 2]
+    heights = surface.points @ axis
+    return cut(surface, axis, float(heights.min() + heights.max()) / 2)

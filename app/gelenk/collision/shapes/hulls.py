@@ -1,20 +1,20 @@
-"""Convex pieces of a mesh: the hull of each connected part, with few vertices, and always around all of the part."""
+"""Convex hulls of points; with few vertices, and then around the hull."""
 
-import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from gelenk.robot.arrays import Array, Indices
 
-MAX_PIECES = 16
-"""A mesh of more parts than this becomes a single piece."""
 MAX_VERTICES = 128
 _THINNEST = 1e-6
 """Least thickness of a hull, relative to its size: flatter ones are thickened, because no hull of them is found."""
+_OPTIONS = "Qt E1e-12"
+"""Of Quickhull: triangles, and what distances count as rounding, of 1. Without that it crashes on some cut edges."""
 _FACES = MAX_VERTICES // 2 + 2
 """Of a simplified hull: F faces meet in at most 2 F - 4 vertices."""
-_FACES_A_ROUND = 6
+_FACES_A_ROUND = 16
 _PLANES_AT_ONCE = 16
 """Compared with all vertices: all at once would take gigabytes of a finely drawn hull."""
 _CELLS = 128
@@ -30,43 +30,6 @@ class Hull:
     volume: float
 
 
-def parts_of(triangles: Array) -> list[Array]:
-    """Split triangles, shape (F, 3, 3), into parts that share no corner; beyond `MAX_PIECES` into one."""
-    _, corners = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
-    faces = corners.reshape(-1, 3)
-    part = _components(faces)[faces[:, 0]]
-    found = np.unique(part)
-    return [triangles] if len(found) > MAX_PIECES else [triangles[part == number] for number in found]
-
-
-def _components(faces: Indices) -> Indices:
-    """Label each corner by the smallest one that it is connected with; shape (V,)."""
-    labels = np.arange(faces.max() + 1)
-    while True:
-        before = labels.copy()
-        np.minimum.at(labels, faces, labels[faces].min(axis=1, keepdims=True))
-        labels = labels[labels]
-        if np.array_equal(labels, before):
-            return labels
-
-
-def hulls_of(triangles: Array) -> list[tuple[Array, float]]:
-    """Return the pieces around a mesh's triangles, shape (F, 3, 3), as `hull_of` returns each."""
-    return [hull_of(part) for part in parts_of(triangles)]
-
-
-def hull_of(triangles: Array) -> tuple[Array, float]:
-    """Return the vertices of a convex piece around triangles, shape (V, 3), V ≤ `MAX_VERTICES`, and its excess.
-
-    The excess is its volume over that of the triangles, less one; NaN where they do not enclose one.
-    """
-    hull = convex_hull(triangles.reshape(-1, 3))
-    if len(hull.vertices) > MAX_VERTICES:
-        hull = convex_hull(_around(hull))
-    enclosed = enclosed_volume(triangles)
-    return hull.vertices, hull.volume / enclosed - 1.0 if enclosed > 0.0 else math.nan
-
-
 def convex_hull(points: Array) -> Hull:
     """Return the hull of points, shape (N, 3); a flat one is thickened.
 
@@ -80,10 +43,16 @@ def convex_hull(points: Array) -> Hull:
         step = np.eye(3)[axis] / 2
         scaled = np.concatenate((scaled - step, scaled + step))
     try:
-        hull = _quickhull(np.unique(scaled, axis=0))
+        hull = quickhull(scaled)
     except RuntimeError:
-        hull = _quickhull(_cell_corners(scaled))
-    return Hull(hull.vertices * sizes @ axes.T + centre, hull.faces, hull.volume * float(np.prod(sizes)))
+        hull = quickhull(_cell_corners(scaled))
+    volume = float(hull.computeVolume() * np.prod(sizes))
+    return Hull(np.array(hull.points()) * sizes @ axes.T + centre, _faces(hull), volume)
+
+
+def few_vertices(hull: Hull) -> Hull:
+    """Return a hull around another, of at most `MAX_VERTICES`."""
+    return hull if len(hull.vertices) <= MAX_VERTICES else convex_hull(_around(hull))
 
 
 def _cell_corners(points: Array) -> Array:
@@ -93,15 +62,18 @@ def _cell_corners(points: Array) -> Array:
     return np.unique((cells + corners).reshape(-1, 3), axis=0) / _CELLS
 
 
-def _quickhull(points: Array) -> Hull:
+def quickhull(points: Array) -> Any:
+    """Return Coal's hull of points of a size of about one, not flat; raises RuntimeError for too many edges of one."""
     import coal  # noqa: PLC0415 - only robots with meshes need it
 
     listed = coal.StdVec_Vec3s()
     listed.extend(list(points))
-    hull = coal.Convex.convexHull(listed, True, "Qt")
+    return coal.Convex.convexHull(listed, True, _OPTIONS)
+
+
+def _faces(hull: Any) -> Indices:
     triangles = map(hull.polygons, range(hull.num_polygons))
-    faces = np.array([(triangle[0], triangle[1], triangle[2]) for triangle in triangles])
-    return Hull(np.array(hull.points()), faces, float(hull.computeVolume()))
+    return np.array([(triangle[0], triangle[1], triangle[2]) for triangle in triangles])
 
 
 def _box(points: Array) -> tuple[Array, Array, Array]:
@@ -140,18 +112,6 @@ def _around(hull: Hull) -> Array:
 
 
 def _dual_vertices(planes: Array) -> Array:
-    dual = _quickhull(planes)
-    return np.asarray(np.linalg.solve(dual.vertices[dual.faces], np.ones((len(dual.faces), 3, 1)))[:, :, 0])
-
-
-def enclosed_volume(triangles: Array) -> float:
-    """Return the volume within triangles, [m³]; NaN unless they close: each edge is passed once in either direction."""
-    _, corners = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
-    faces = corners.reshape(-1, 3)
-    starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
-    count = len(faces) * 3
-    there, back = np.sort(starts * count + ends), np.sort(ends * count + starts)
-    if not np.array_equal(there, back):
-        return np.nan
-    local = triangles - triangles.reshape(-1, 3).mean(axis=0)
-    return abs(float(np.einsum("ij,ij->", local[:, 0], np.cross(local[:, 1], local[:, 2])))) / 6.0
+    dual = quickhull(planes)
+    corners = np.array(dual.points())[_faces(dual)]
+    return np.asarray(np.linalg.solve(corners, np.ones((len(corners), 3, 1)))[:, :, 0])
