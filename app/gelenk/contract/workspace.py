@@ -4,11 +4,13 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from gelenk.collision.contact.words import ContactCertificate
 from gelenk.contract.common import Answer, ChainOptions, Payload, optional
 from gelenk.contract.endpoint import RobotEndpoint, Scope
 from gelenk.contract.jobs import JobInfo, JobName
 from gelenk.contract.options import Directions
 from gelenk.contract.pose import Vector3
+from gelenk.contract.scene import InCell
 from gelenk.kinematics.judge.words import WorkspaceCertificate
 
 _Bound = Annotated[float, Field(ge=-1e6, le=1e6)]
@@ -25,7 +27,7 @@ class SlicePlane(Payload):
     )
 
 
-class WorkspaceRequest(ChainOptions):
+class WorkspaceRequest(ChainOptions, InCell):
     """A workspace by samples of the joint space."""
 
     kind: Literal["cloud", "grid", "dexterity"] = Field(
@@ -201,7 +203,13 @@ class WorkspaceAnswer(Answer):
     tip_frame: str = Field(description="Frame whose positions they are.")
     kind: Literal["cloud", "grid", "dexterity"] = Field(description="As requested.")
     samples: int = Field(description="Configurations that were computed; no unit.")
-    samples_counted: int = Field(description="Those of them whose position counts: all without a plane; no unit.")
+    samples_free: int | None = optional(
+        "With `scene` or `min_clearance`: those of them that are not in contact; no unit."
+    )
+    samples_counted: int = Field(
+        description="Those of them whose position counts: all that are not in contact, of these with a plane those in "
+        "the slice; no unit."
+    )
     plane: PlaneInfo | None = Field(description="The slice that positions are restricted to; null without one.")
     sequence: Literal["random", "low_discrepancy"] = Field(description="How configurations were drawn.")
     random_seed: int = Field(description="Random seed of the samples; no unit.")
@@ -214,6 +222,7 @@ class WorkspaceAnswer(Answer):
     array: ArrayInfo
     notes: list[str] = Field(description="Assumptions, and what is special about the chain.")
     certificate: WorkspaceCertificate
+    contact_certificate: ContactCertificate | None = optional("Of contacts at the same samples, if they matter.")
 
 
 ENDPOINT = RobotEndpoint(
@@ -230,6 +239,9 @@ ENDPOINT = RobotEndpoint(
     The reply is immediate, with the job's address in `Location`; `GET` that, or its `/events`, until `state` is
     `succeeded`, then get `/result`: as JSON a summary (extent, reach, volume, the largest manipulability, how well
     a sample of it agrees with Pinocchio), as npy the positions or voxels, as SVG or PNG a picture.
+
+    With `scene` or `min_clearance` only configurations count at which the robot touches neither itself nor what is
+    around it; joints off the chain stand at 0.
 
     The same request gives the same result, whatever the number of processes. Samples are uniform in joint space:
     regions that few configurations lead to need more of them, and `late_share` shows whether there were enough. For

@@ -8,6 +8,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import orjson
 
+from gelenk.collision.cell import Cell
 from gelenk.jobs.parts import Parts, packed, unpacked
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
@@ -53,9 +54,9 @@ def _put_together(job: tuple[WorkspaceWork, Parts, str | None]) -> Workspace | N
     survey = Survey(request.plan)
     for part in parts.of(_SAMPLES, request.plan.parts):
         survey.add(_part(part))
-    found = survey.result(
-        RobotModel(request.description, (request.chain.base_frame, request.chain.tip_frame)), request.chain
-    )
+    robot = RobotModel(request.description, (request.chain.base_frame, request.chain.tip_frame))
+    cell = None if request.cell_of is None else request.cell_of(robot, request.chain)
+    found = survey.result(robot, request.chain, cell)
     if request.orientations is not None:
         return found
     for name, content in _files(request, found, None, digest).items():
@@ -94,7 +95,7 @@ def _sampled(job: tuple[SamplingPlan, int]) -> bytes:
     """Compute a part of the samples and pack it, in a process of its own; see `sampled`."""
     part = sampled(job)
     return packed(
-        numbers=(part.first, part.count, part.best),
+        numbers=(part.first, part.free, part.count, part.best),
         points=part.points,
         **asdict(part.voxels),
         box=(part.lower, part.upper),
@@ -105,25 +106,25 @@ def _sampled(job: tuple[SamplingPlan, int]) -> bytes:
 
 def _part(content: bytes) -> SampledPart:
     values = unpacked(content)
-    first, count, best = values["numbers"].tolist()
+    first, free, count, best = values["numbers"].tolist()
     near, far = values["distances"].tolist()
     least, most, total = values["measures"].tolist()
     voxels = VoxelTable(*(values[entry.name] for entry in fields(VoxelTable)))
     lower, upper = values["box"]
     return SampledPart(
-        first, values.get("points"), voxels, count, lower, upper, (near, far), (least, most, total), best
+        first, values.get("points"), voxels, free, count, lower, upper, (near, far), (least, most, total), best
     )
 
 
 def _shares(job: tuple[bytes, Array, Indices]) -> bytes:
     """Compute the dexterity at some voxels and pack it, in a process of its own; see `shares`."""
     pickled, centres, numbers = job
-    robot, chain, sampling, spread = _unpacked(pickled)
-    return packed(shares=shares(robot, chain, centres, sampling.chosen(numbers), spread))
+    robot, chain, sampling, spread, cell = _unpacked(pickled)
+    return packed(shares=shares(robot, chain, centres, sampling.chosen(numbers), spread, cell))
 
 
 @lru_cache(maxsize=2)
-def _unpacked(pickled: bytes) -> tuple[RobotModel, Chain, Sampling, Orientations]:
+def _unpacked(pickled: bytes) -> tuple[RobotModel, Chain, Sampling, Orientations, Cell | None]:
     """Return the input of inverse kinematics; revolute joints without limits or a requested range stay unbounded."""
     request: WorkspaceWork = pickle.loads(pickled)  # noqa: S301 - written by this service
     assert request.orientations is not None  # noqa: S101 - as in `_dexterity`
@@ -136,7 +137,9 @@ def _unpacked(pickled: bytes) -> tuple[RobotModel, Chain, Sampling, Orientations
     )
     lower = np.where(bound, sampling.ranges.lower, chain.lower)
     upper = np.where(bound, sampling.ranges.upper, chain.upper)
-    return robot, replace(chain, lower=lower, upper=upper), sampling, request.orientations
+    chain = replace(chain, lower=lower, upper=upper)
+    cell = None if request.cell_of is None else request.cell_of(robot, chain)
+    return robot, chain, sampling, request.orientations, cell
 
 
 def _summary(request: WorkspaceWork, found: Workspace, dexterity: Array | None) -> dict[str, Any]:
@@ -148,6 +151,7 @@ def _summary(request: WorkspaceWork, found: Workspace, dexterity: Array | None) 
         "tip_frame": chain.tip_frame,
         "kind": wish.kind,
         "samples": wish.samples,
+        **({} if found.contacts is None else {"samples_free": found.free, "contact_certificate": found.contacts}),
         "samples_counted": found.count,
         "plane": None if wish.plane is None else asdict(wish.plane),
         "sequence": wish.sequence,

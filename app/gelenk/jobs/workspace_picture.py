@@ -36,6 +36,8 @@ def captions(content: dict[str, Any]) -> Iterator[str]:
     if plane is not None:
         origin, normal = (", ".join(f"{value:.4g}" for value in plane[name]) for name in ("origin", "normal"))
         yield f"Slice {plane['thickness']:.4g} m thick, normal ({normal}), through ({origin}) m"
+    if (free := content.get("samples_free")) is not None:
+        yield f"{free:,} of {_number(content['samples'], 'sample')} without contact"
     yield _counted(content["samples_counted"], content["samples"], plane is not None)
     if content["reach"] is not None:
         yield f"Reach from the base {content['reach']['min']:.4g} m to {content['reach']['max']:.4g} m"

@@ -1,10 +1,13 @@
 """A request for a workspace, checked and planned, so that errors are reported before a job is created."""
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 
+from gelenk.collision.cell import Cell
 from gelenk.contract.workspace import SlicePlane, WorkspaceRequest
 from gelenk.errors import InvalidField
 from gelenk.kinematics.workspace.dexterity import Orientations, excluded, orientations
@@ -15,6 +18,8 @@ from gelenk.kinematics.workspace.workspace import PART, Plane, SamplingPlan, Wis
 from gelenk.robot.chain import Chain
 from gelenk.robot.description import Description
 from gelenk.robot.robot import RobotModel
+
+CellOf: TypeAlias = Callable[[RobotModel, Chain], Cell]
 
 MAX_POSES = 1_000_000
 """Largest number of poses that a job may pass to inverse kinematics: orientations times voxels."""
@@ -29,7 +34,7 @@ class WorkspaceWork:
     """A checked request for a workspace, and the plan for computing it.
 
     `orientations` are those of a dexterity map, else None. If the chain cannot reach all of these in any region,
-    `excluded` says why; see `dexterity.excluded`.
+    `excluded` says why; see `dexterity.excluded`. `cell_of` returns the cell of the robot if contacts matter.
     """
 
     name: str
@@ -39,6 +44,7 @@ class WorkspaceWork:
     plan: SamplingPlan
     orientations: Orientations | None
     excluded: str | None
+    cell_of: CellOf | None
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -48,8 +54,13 @@ class WorkspaceWork:
         return VOXEL_COLUMNS if self.orientations is None else (*VOXEL_COLUMNS, "dexterity")
 
 
-def workspace_work(name: str, robot: RobotModel, call: WorkspaceRequest) -> WorkspaceWork:
-    """Check a request as far as that depends on the robot, and plan its computation; raises InvalidField."""
+def workspace_work(
+    name: str, robot: RobotModel, call: WorkspaceRequest, cell_of: CellOf | None = None, warnings: Sequence[str] = ()
+) -> WorkspaceWork:
+    """Check a request as far as that depends on the robot, and plan its computation; raises InvalidField.
+
+    `cell_of` returns the cell in which contacts matter, and `warnings` say what to know of it.
+    """
     chain = robot.chain(call.base_frame, call.tip_frame)
     wish = Wish(
         call.kind,
@@ -68,7 +79,9 @@ def workspace_work(name: str, robot: RobotModel, call: WorkspaceRequest) -> Work
         reason = excluded(motion, work.grid.dimensions, wanted.spread)
         notes = (*work.notes, *_spread_notes(motion, wish.plane, wanted), *([reason] if reason else []))
         work = replace(work, notes=notes)
-    return WorkspaceWork(name, replace(robot.description, warnings=()), chain, wish, work, wanted, reason)
+    if cell_of is not None:
+        work = replace(work, world=cell_of(robot, chain).world.flat, notes=(*work.notes, *warnings))
+    return WorkspaceWork(name, replace(robot.description, warnings=()), chain, wish, work, wanted, reason, cell_of)
 
 
 def _plane(plane: SlicePlane) -> Plane:
@@ -99,8 +112,11 @@ def _spread_notes(motion: TipReach, plane: Plane | None, wanted: Orientations) -
 
 
 def check_size(job: WorkspaceWork) -> None:
-    """Raise InvalidField if the samples fall into too many voxels; it names what is allowed instead."""
-    plan, rotations = job.plan, 1 if job.orientations is None else len(job.orientations.rotations)
+    """Raise InvalidField if the samples fall into too many voxels; it names what is allowed instead.
+
+    Samples in contact count too: to find them takes long.
+    """
+    plan, rotations = replace(job.plan, world=None), 1 if job.orientations is None else len(job.orientations.rotations)
     most = MAX_VOXELS if job.orientations is None else min(MAX_VOXELS, MAX_POSES // rotations)
     if min(plan.sampling.count, plan.grid.most_cells(plan.extent)) <= most:
         return

@@ -10,9 +10,11 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from gelenk.collision.cell import Cell
 from gelenk.ik.search.bounds import mid_range
+from gelenk.ik.search.problem import Options, TargetProblem
 from gelenk.ik.search.task import FULL_POSE, Task
-from gelenk.ik.solve import Options, inverse_kinematics
+from gelenk.ik.solve import solve
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.kinematics.workspace.tip_motion import TipReach
 from gelenk.robot.arrays import Array
@@ -99,7 +101,9 @@ def rotation_spiral(count: int) -> Array:
     )
 
 
-def shares(robot: RobotModel, chain: Chain, positions: Array, seeds: Array, asked: Orientations) -> Array:
+def shares(
+    robot: RobotModel, chain: Chain, positions: Array, seeds: Array, asked: Orientations, cell: Cell | None = None
+) -> Array:
     """Compute the share, 0 to 1, of orientations that a chain reaches at each position within its limits; (M,).
 
     Every configuration that counts is recomputed through Pinocchio. A search may miss a solution: for a chain without
@@ -107,9 +111,10 @@ def shares(robot: RobotModel, chain: Chain, positions: Array, seeds: Array, aske
 
     Args:
         positions, seeds: Of the tip in the base frame, shape (M, 3), [m], and start configurations, shape (M, n).
+        cell: In which configurations in contact do not count.
     """
     count = len(asked.rotations)
     targets = Poses(np.repeat(positions, count, axis=0), np.tile(asked.rotations, (len(positions), 1, 1)))
     options = Options(task=asked.task, max_iterations=_ITERATIONS)
-    found = inverse_kinematics(robot, chain, targets, np.repeat(seeds, count, axis=0), options)
+    found = solve(TargetProblem(robot, chain, targets, np.repeat(seeds, count, axis=0), options), cell)
     return np.asarray((np.diff(found.firsts) > 0).reshape(len(positions), count).mean(axis=1))

@@ -5,13 +5,15 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
+from gelenk.collision.cell import Cell
+from gelenk.collision.contact.words import ContactCertificate
 from gelenk.kinematics.judge.judge import agreed, certify_jacobians, certify_poses
 from gelenk.kinematics.judge.words import WorkspaceCertificate
 from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
 from gelenk.kinematics.workspace.tip_motion import in_axes
 from gelenk.kinematics.workspace.voxels import NO_VOXELS, Grid, VoxelTable, coarser, merged
 from gelenk.kinematics.workspace.workspace import SampledPart, SamplingPlan
-from gelenk.robot.arrays import Array
+from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
@@ -47,6 +49,7 @@ class Workspace:
     """The workspace of a chain as found by samples; bounds, reach, measures and late are None if no sample counts.
 
     Attributes:
+        free: Number of samples that are not in contact; all where contacts do not matter.
         count: Number of samples that count.
         bounds: Smallest and largest coordinates; shape (2, 3), [m].
         reach: Smallest and largest distance of the tip from the base's origin, [m].
@@ -54,8 +57,10 @@ class Workspace:
         volume: Lower and upper bound of the volume of the reachable region, [m³, m² or m].
         late: Share of the cells that only the last tenth of the samples found.
         points: Position and measure of each sample; shape (count, 4). None if not requested.
+        contacts: How some verdicts about contacts were checked; None where these do not matter.
     """
 
+    free: int
     count: int
     bounds: Array | None
     reach: tuple[float, float] | None
@@ -66,6 +71,7 @@ class Workspace:
     late: float | None
     points: Array | None
     certificate: WorkspaceCertificate
+    contacts: ContactCertificate | None
 
     def voxel_rows(self, plan: SamplingPlan) -> Array:
         """Return one row per cell with the columns `VOXEL_COLUMNS`; shape (M, 5)."""
@@ -79,7 +85,7 @@ class Survey:
     def __init__(self, plan: SamplingPlan) -> None:
         self._plan = plan
         self._points = np.empty((plan.sampling.count, 4)) if plan.keeps_points else None
-        self._count = 0
+        self._free = self._count = 0
         self._parts: list[SampledPart] = []
         self._voxels = NO_VOXELS
         self._waiting: list[VoxelTable] = []
@@ -88,6 +94,7 @@ class Survey:
         """Add the next part; raises TooLarge if the samples fall into too many cells."""
         if self._points is not None and part.points is not None:
             self._points[self._count : self._count + part.count] = part.points
+        self._free += part.free
         self._count += part.count
         self._parts.append(replace(part, points=None, voxels=NO_VOXELS))
         self._waiting.append(part.voxels)
@@ -99,13 +106,15 @@ class Survey:
         self._voxels, self._waiting = merged([self._voxels, *self._waiting]), []
         return self._voxels
 
-    def result(self, robot: RobotModel, chain: Chain) -> Workspace:
-        """Return the workspace from all parts, certified."""
+    def result(self, robot: RobotModel, chain: Chain, cell: Cell | None = None) -> Workspace:
+        """Return the workspace from all parts, certified; `cell` is that whose contacts matter."""
         voxels, count, plan = self.merge(), self._count, self._plan
         late = voxels.first >= round((1.0 - _LATE) * plan.sampling.count)
         bounds = np.array([(part.lower, part.upper) for part in self._parts])
         distances = np.array([part.distances for part in self._parts])
+        qs = plan.sampling.chosen(self._checked())
         return Workspace(
+            self._free,
             count,
             np.stack((bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0))) if count else None,
             (float(distances[:, 0].min()), float(distances[:, 1].max())) if count else None,
@@ -115,8 +124,14 @@ class Survey:
             volume_bounds(plan.grid, voxels, plan.extent),
             float(late.mean()) if count else None,
             None if self._points is None else self._points[:count],
-            self._certificate(robot, chain),
+            self._certificate(robot, chain, qs),
+            None if cell is None else cell.certified(qs, cell.touching(qs)),
         )
+
+    def _checked(self) -> Indices:
+        """Return the numbers of some evenly spaced samples."""
+        total = self._plan.sampling.count
+        return np.unique(np.linspace(0, total - 1, min(total, 16)).astype(np.int64))
 
     def _statistics(self) -> Measures:
         best = max(self._parts, key=lambda part: part.measures[1])
@@ -131,18 +146,16 @@ class Survey:
             q[0],
         )
 
-    def _certificate(self, robot: RobotModel, chain: Chain) -> WorkspaceCertificate:
-        """Recompute some evenly spaced samples, and compare them with the stored ones and with Pinocchio's."""
-        plan, total = self._plan, self._plan.sampling.count
-        numbers = np.unique(np.linspace(0, total - 1, min(total, 16)).astype(np.int64))
-        qs = plan.sampling.chosen(numbers)
+    def _certificate(self, robot: RobotModel, chain: Chain, qs: Array) -> WorkspaceCertificate:
+        """Recompute samples, and compare them with the stored ones and with Pinocchio's."""
+        plan, numbers = self._plan, self._checked()
         positions, measures = plan.measured(qs)
         poses = Poses(*chain_poses(chain.flat, qs))
         agreed("a position", poses.positions - positions, plan.extent)
         Js = chain_jacobians(chain.flat, qs)[2]
         products, scale = _products(plan, Js)
         error = agreed("the manipulability measure", measures - products, scale)
-        if self._points is not None and self._count == total:
+        if self._points is not None and self._count == plan.sampling.count:
             agreed("a sample's position", self._points[numbers, :3] - positions, plan.extent)
             agreed("a sample's measure", self._points[numbers, 3] - measures, scale)
         return WorkspaceCertificate(

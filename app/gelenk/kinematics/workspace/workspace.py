@@ -10,6 +10,8 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from gelenk.collision.contact.kernels import first_contacts
+from gelenk.collision.contact.room import FlatWorld
 from gelenk.errors import InvalidField
 from gelenk.ik.search.words import DIRECTIONS, Direction
 from gelenk.kinematics.simd.kernels import chain_measures
@@ -80,6 +82,7 @@ class SamplingPlan:
         keeps_points: Whether to keep the positions themselves.
         extent: Upper bound of the tip's distance from the base's origin, [m].
         notes: Assumptions, and special properties of the chain, one sentence each.
+        world: What may not touch; samples in contact do not count. None where contacts do not matter.
     """
 
     flat: FlatChain
@@ -92,6 +95,7 @@ class SamplingPlan:
     keeps_points: bool
     extent: float
     notes: tuple[str, ...]
+    world: FlatWorld | None = None
 
     @property
     def parts(self) -> int:
@@ -163,6 +167,7 @@ class SampledPart:
 
     Attributes:
         points: Position [m] and measure of each sample that counts; shape (k, 4). None if not requested.
+        free: Number of samples that are not in contact; all where contacts do not matter.
         count: Number of samples that count.
         lower, upper: Smallest and largest coordinates; shape (3,), [m]. inf and -inf if no sample counts.
         distances: Smallest and largest distance from the base's origin, [m].
@@ -173,6 +178,7 @@ class SampledPart:
     first: int
     points: Array | None
     voxels: VoxelTable
+    free: int
     count: int
     lower: Array
     upper: Array
@@ -186,8 +192,11 @@ def sampled(job: tuple[SamplingPlan, int]) -> SampledPart:
     work, k = job
     first = k * PART
     qs = work.sampling.configurations(first, min(PART, work.sampling.count - first))
-    positions, measures = work.measured(qs)
     numbers = np.arange(first, first + len(qs))
+    if work.world is not None:
+        is_free = first_contacts(work.world, qs) < 0
+        qs, numbers = qs[is_free], numbers[is_free]
+    positions, measures = work.measured(qs)
     if work.plane is not None:
         inside = work.plane.holds(positions)
         positions, measures, numbers = positions[inside], measures[inside], numbers[inside]
@@ -197,6 +206,7 @@ def sampled(job: tuple[SamplingPlan, int]) -> SampledPart:
         first,
         np.column_stack((positions, measures)) if work.keeps_points else None,
         voxel_table(work.grid.keys(positions), measures, numbers),
+        len(qs),
         len(positions),
         positions.min(axis=0, initial=np.inf),
         positions.max(axis=0, initial=-np.inf),
