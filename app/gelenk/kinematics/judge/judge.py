@@ -140,13 +140,17 @@ def pinocchio_poses(robot: RobotModel, chain: Chain, frame: str, qs: Array, rows
     base = None if chain.base_frame == robot.description.root else robot.frame_id(chain.base_frame)
     full_qs = _expanded(robot, chain, qs if len(rows) == len(qs) else qs[rows])
     positions, rotations = np.empty((len(rows), 3)), np.empty((len(rows), 3, 3))
-    for k in range(len(rows)):
-        with robot.lock:
+    with robot.lock:
+        # The arrays of a frame's placement are views of the workspace, and change with it.
+        placement = data.oMf[tip]
+        position, rotation = placement.translation, placement.rotation
+        for k in range(len(rows)):
             pin.forwardKinematics(model, data, full_qs[k])
-            T_base_frame = pin.updateFramePlacement(model, data, tip)
+            pin.updateFramePlacement(model, data, tip)
             if base is not None:
-                T_base_frame = pin.updateFramePlacement(model, data, base).actInv(T_base_frame)
-            positions[k], rotations[k] = T_base_frame.translation, T_base_frame.rotation
+                T_base_frame = pin.updateFramePlacement(model, data, base).actInv(placement)
+                position, rotation = T_base_frame.translation, T_base_frame.rotation
+            positions[k], rotations[k] = position, rotation
     return Poses(positions, rotations)
 
 
