@@ -20,6 +20,7 @@ from gelenk.trajectory.paths.orientation_paths import AxisAnglePath
 from gelenk.trajectory.paths.paths import POINT, CurvePath, Path, PathSamples, PathSequence, Unit, line, refuse_reversal
 from gelenk.trajectory.paths.rotation_splines import RotationVectorPath, vector_motion
 from gelenk.trajectory.paths.spline_paths import PolynomialPath
+from gelenk.trajectory.paths.tracks import Straight
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +44,10 @@ class Stretch:
     def at(self, s: Array) -> PathSamples:
         """See `Path`."""
         return self.path.at(s + self.begin)
+
+    def flat(self) -> Straight | None:
+        """See `CurvePath`."""
+        return self.path.flat(self.begin)
 
 
 def blended_lines(poses: Poses, radii: Sequence[float], *, smooth: bool = False) -> PathSequence:

@@ -24,6 +24,7 @@ from gelenk.trajectory.paths.curves import Curve, Line, arc_through
 from gelenk.trajectory.paths.orientation_paths import AxisAnglePath, OrientationPath, axis_angle
 from gelenk.trajectory.paths.rotation_splines import rotation_spline
 from gelenk.trajectory.paths.sampling import in_proportion, turning_line
+from gelenk.trajectory.paths.tracks import Samples, Straight, Track, along, track_of
 from gelenk.trajectory.paths.zyz_paths import zyz_spline
 
 Unit: TypeAlias = Literal["m", "rad"]
@@ -44,6 +45,11 @@ class PathSamples:
     poses: Poses
     first: Array
     second: Array
+
+    @classmethod
+    def of(cls, samples: Samples) -> "PathSamples":
+        """Return the samples of a kernel."""
+        return cls(Poses(samples[0], samples[1]), samples[2], samples[3])
 
 
 class Path(Protocol):
@@ -90,10 +96,9 @@ class CurvePath:
     def at(self, s: Array) -> PathSamples:
         """See `Path`."""
         curve, turn, length = self.curve, self.orientation, self.curve.length
+        if (straight := self.flat()) is not None:
+            return PathSamples.of(turning_line(*straight[:5], s))
         is_turn = length <= POINT
-        if isinstance(curve, Line) and isinstance(turn, AxisAnglePath) and not is_turn:
-            at = turning_line(curve.start, curve.end, *turn.as_vector, length, s)
-            return PathSamples(Poses(*at[:2]), *at[2:])
         extent = turn.angle if is_turn else length
         per_s = 1.0 / extent if extent > 0.0 else 0.0
         x = s * per_s
@@ -101,6 +106,13 @@ class CurvePath:
         rotations, rates, changes = turn.at(x)
         first, second = in_proportion(tangents, bends, rates, changes, length * per_s, per_s)
         return PathSamples(Poses(positions, rotations), first, second)
+
+    def flat(self, begin: float = 0.0) -> Straight | None:
+        """Return a line that turns about one axis, from a place on, as kernels take it; None for other paths."""
+        curve, turn = self.curve, self.orientation
+        if not isinstance(curve, Line) or not isinstance(turn, AxisAnglePath) or curve.length <= POINT:
+            return None
+        return Straight(curve.start, curve.end, *turn.as_vector, curve.length, begin)
 
 
 def line(start: Array, end: Array, orientation: OrientationPath | None = None) -> CurvePath:
@@ -162,6 +174,8 @@ class PathSequence:
 
     def at(self, s: Array) -> PathSamples:
         """See `Path`; at a junction, the later part counts."""
+        if self._track is not None:
+            return PathSamples.of(along(self._track, np.ascontiguousarray(s)))
         ends = self.ends
         order = np.argsort(s, kind="stable")
         cuts = [0, *np.searchsorted(s[order], ends[1:-1]).tolist(), len(s)]
@@ -170,6 +184,12 @@ class PathSequence:
             i = spans[0][0] if spans else 0
             return self.parts[i].at(s - ends[i])
         return _in_order([self.parts[i].at(s[order[begin:end]] - ends[i]) for i, begin, end in spans], order)
+
+    @cached_property
+    def _track(self) -> Track | None:
+        """The sequence as kernels take it, if it is made of lines and curves; they say so by a method `flat`."""
+        flat = [part.flat() if hasattr(part, "flat") else None for part in self.parts]
+        return track_of(flat, self.ends)
 
     @cached_property
     def ends(self) -> Array:

@@ -20,8 +20,9 @@ from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.paths.arc_length import arc_lengths, parameters
 from gelenk.trajectory.paths.orientation_paths import OrientationPath
 from gelenk.trajectory.paths.paths import POINT, PathSamples, Unit, through_orientations
-from gelenk.trajectory.paths.rotation_splines import sizes
+from gelenk.trajectory.paths.rotation_splines import RotationVectorPath, sizes
 from gelenk.trajectory.paths.sampling import by_arc_length
+from gelenk.trajectory.paths.tracks import Curve, on_curve
 
 SplineBoundary: TypeAlias = Literal["natural", "not_a_knot", "periodic"]
 
@@ -62,6 +63,8 @@ class PolynomialPath:
 
     def at(self, s: Array) -> PathSamples:
         """See `Path`."""
+        if (curve := self.flat()) is not None:
+            return PathSamples.of(on_curve(curve, np.ascontiguousarray(s)))
         u = self._parameters(s)
         width = self.position.duration
         x = np.minimum(np.maximum((u - self.position.breaks[0]) / width, 0.0), 1.0)
@@ -69,6 +72,20 @@ class PolynomialPath:
         rotations, turns, changes = self.orientation.at(x)
         first, second = by_arc_length(velocities, bends, turns, changes, width)
         return PathSamples(Poses(positions, rotations), first, second)
+
+    def flat(self) -> Curve | None:
+        """Return the path as kernels take it; None with an orientation that is not given by rotation vectors."""
+        return self._curve
+
+    @cached_property
+    def _curve(self) -> Curve | None:
+        position, turn = self.position, self.orientation
+        if not isinstance(turn, RotationVectorPath):
+            return None
+        vectors, starts = turn.vectors, np.ascontiguousarray(turn.starts)
+        curve = np.ascontiguousarray(position.breaks), np.ascontiguousarray(position.coefficients)
+        turns = np.ascontiguousarray(vectors.breaks), np.ascontiguousarray(vectors.coefficients)
+        return Curve(*curve, *self._table, self._inverse.coefficients, starts, *turns)
 
     @cached_property
     def _table(self) -> tuple[Array, Array]:
