@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 from gelenk.ik.search.task import FULL_POSE
+from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array
+from gelenk.trajectory.follow.elimination import beside, rates_at
 from gelenk.trajectory.follow.exact import refined
 from gelenk.trajectory.follow.follow import _joint_path
 from gelenk.trajectory.follow.integrate import traced
-from gelenk.trajectory.follow.nearest import beside, factored, rates_at, weights
 from gelenk.trajectory.follow.rate_field import RateField
 from gelenk.trajectory.follow.swept import swept
 from gelenk.trajectory.problem.problem import Following
@@ -96,10 +97,11 @@ def test_rates_by_elimination_are_the_shortest_and_sigma_is_bounded_from_below(n
         assert bound <= least <= np.sqrt(6.0) * bound
 
 
-def test_elimination_solves_and_notices_a_lost_rank() -> None:
-    rng = np.random.default_rng(1)
-    J, L, b = rng.normal(size=(6, 7)), np.zeros((6, 6)), rng.normal(size=6)
-    assert factored(J, L)
-    assert weights(L, b) == pytest.approx(np.linalg.solve(J @ J.T, b), rel=1e-10)
-    J[5] = J[0] + 1e-7 * J[5]
-    assert not factored(J, L)
+def test_elimination_notices_a_lost_rank() -> None:
+    chain = robot("ur5").chain(None, None)
+    qs = np.array(starts(chain, FULL_POSE, 9))
+    qs[4, 4] = 0.0
+    given, poses = np.stack((qs, qs, qs)), chain_poses(chain.flat, qs)
+    lasts = beside(chain.flat, *poses, np.zeros((9, 6)), np.zeros((9, 6)), given, 1)[1]
+    _, sigmas = rates_at(chain.flat, np.tile(TWIST, (9, 1)), qs)
+    assert np.flatnonzero(np.isnan(lasts)).tolist() == np.flatnonzero(sigmas == 0.0).tolist() == [4]

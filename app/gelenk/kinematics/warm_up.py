@@ -57,7 +57,7 @@ from gelenk.trajectory.audit.deviations import deviations
 from gelenk.trajectory.audit.pieces import pieces_of
 from gelenk.trajectory.batch import plan_batch
 from gelenk.trajectory.follow.ladder import Metric, Rungs, way_up
-from gelenk.trajectory.follow.nearest import beside, nearest, rates_at, walked
+from gelenk.trajectory.follow.nearest import nearest
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.paths.corners import blended_lines
 from gelenk.trajectory.paths.rotation_splines import rotation_spline
@@ -146,16 +146,19 @@ def _motions() -> None:
     way = Segment("spline", "time_optimal", limits, configurations=points, stated_jerk=limits.jerk)
     plan(robot, chain, TrajectoryProblem(start, (move, way))).motion.rates_at(np.zeros(1))
     plan_batch(robot, chain, qs, qs + 0.5, move)
-    flat, rates = _six_joints()[1].flat, np.zeros((3, 1, 6))
-    nearest(flat, np.zeros(3), np.eye(3), *np.zeros((3, 6)))
-    samples = np.zeros((1, 3)), np.eye(3)[None], np.zeros((1, 6)), np.zeros((1, 6))
-    walked(flat, np.zeros(1), *samples, np.zeros(6))
-    beside(flat, *samples, rates, 1)
-    rates_at(flat, samples[2], rates[0])
-    deviations(*samples[:2], *samples[:2])
+    robot_6, six = _six_joints()
+    poses, along = forward_kinematics(robot_6, six, np.full((1, 6), 0.4)).poses, SegmentLimits(*np.ones((3, 6)))
+    goal = poses.matrices()[0]
+    goal[:3, 3] += 0.05
+    line = Segment("line", "time_optimal", along, pose=goal)
+    plan(robot_6, six, TrajectoryProblem(np.full(6, 0.4), (line,)))
+    nearest(six.flat, np.zeros(3), np.eye(3), *np.zeros((3, 6)))
+    samples = np.zeros((1, 3)), np.eye(3)[None]
+    deviations(*samples, *samples)
     rotation_spline(rotations_from_vectors(0.1 * np.arange(12.0).reshape(4, 3)), np.arange(4.0)).at(np.zeros(1))
     corner = Poses(np.eye(3), np.array([np.eye(3)] * 3))
-    blended_lines(corner, [0.1]).at(np.linspace(0.0, 2.0, 3))
+    for path in (sequence := blended_lines(corner, [0.1]), *sequence.parts):
+        path.at(np.zeros(1))
     metric = Metric(np.ones(3), np.ones(3), np.zeros(3, dtype=bool))
     way_up(Rungs(np.zeros((2, 3)), np.arange(3)), metric, np.zeros(1))
     regular(chain.flat, qs, 0.0)

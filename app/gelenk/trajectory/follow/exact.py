@@ -12,14 +12,17 @@ import numpy as np
 
 from gelenk.ik.search.task import FULL_POSE
 from gelenk.robot.arrays import Array, Flags, Indices
+from gelenk.robot.compilation import compiled, inlined
 from gelenk.trajectory.audit.result import PathError
 from gelenk.trajectory.follow.bounds import SLACK
-from gelenk.trajectory.follow.nearest import beside
+from gelenk.trajectory.follow.elimination import beside
 from gelenk.trajectory.follow.rate_field import RateField, sampled
 from gelenk.trajectory.follow.rows import row_derivatives, task_rows
+from gelenk.trajectory.follow.step import BERNSTEIN
 from gelenk.trajectory.motion.composition import RATES_KNOWN
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, bernstein, cut, derivatives, divided
-from gelenk.trajectory.motion.time_laws import hermite_pieces
+from gelenk.trajectory.motion.evaluation import hermite
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut, divided
+from gelenk.trajectory.motion.time_laws import END_CONDITIONS
 from gelenk.trajectory.paths.path_geometry import LimitedPath
 from gelenk.trajectory.paths.paths import PathSamples
 from gelenk.trajectory.timing.timing import Timed
@@ -37,7 +40,8 @@ _FIRST, _THIRD = 0.144, 16.0
 """Largest errors of q' and q''': these factors times that of q'', times or over the length of the piece."""
 _UNSEEN = 1.5
 """Safety factor for errors larger than at the probes."""
-_STEPS, _SETTLED, _RANK = 4, 1e-11, 1e-13
+_STEPS, _SETTLED, _RANK, _TINY = 4, 1e-11, 1e-13, 1e-300
+_CONDITIONS = END_CONDITIONS[3]
 
 
 def refined(field: RateField, positions: PiecewisePolynomial) -> tuple[PiecewisePolynomial, Array]:
@@ -61,23 +65,47 @@ def path_error(joints: PiecewisePolynomial, off: Array | None, timing: Timed, ge
     """
     if off is None:
         return PathError(None, None, None)
-    breaks, law = timing.motion.breaks, timing.law
-    times = (breaks[:-1] + np.array([[1e-6], [0.5], [1.0 - 1e-6]]) * np.diff(breaks)).ravel()
-    phase = np.searchsorted(law.breaks[1:-1], times, side="right")
-    s, v, a, j = np.abs(derivatives(law.coefficients[phase], (times - law.breaks[phase])[:, None]))[:, :, 0]
-    every = np.arange(len(geometry.joints.breaks) - 1)
-    own = np.searchsorted(joints.breaks, 0.5 * (geometry.joints.breaks[:-1] + geometry.joints.breaks[1:])) - 1
-    shares = (_UNSEEN * off[own, None] / geometry.joint_bounds(every)).max(axis=2, initial=0.0)
-    piece = geometry.piece_of(s)
-    widths = np.diff(joints.breaks)[own][piece]
-    first, third = _FIRST * widths, _THIRD / widths
-    demands = (first * v, first * a + v**2, first * j + 3.0 * v * a + third * v**3)
-    with np.errstate(invalid="ignore"):  # An unknown error times a rate of zero is NaN.
-        found = [
-            float(np.fmax.reduce(share[piece] * demand, initial=0.0)) + known
-            for share, demand, known in zip(shares.T, demands, RATES_KNOWN, strict=True)
-        ]
+    inner, law = geometry.joints.breaks, timing.law
+    own = np.searchsorted(joints.breaks, 0.5 * (inner[:-1] + inner[1:])) - 1
+    shares = (_UNSEEN * off[own, None] / geometry.joint_bounds(np.arange(len(own)))).max(axis=2, initial=0.0)
+    widths, rates = np.diff(joints.breaks)[own], np.ascontiguousarray(law.coefficients)
+    most = _excesses(timing.motion.breaks, law.breaks, rates[:, :, 0], inner, widths, shares)
+    found = [value + known for value, known in zip(most.tolist(), RATES_KNOWN, strict=True)]
     return PathError(*(value if math.isfinite(value) else None for value in found))
+
+
+@compiled
+def _excesses(times: Array, breaks: Array, law: Array, places: Array, widths: Array, shares: Array) -> Array:
+    """Return the largest error of velocity, acceleration and jerk, in fractions of the limits; shape (3,).
+
+    Args:
+        times: Breaks of the motion, at both sides and in the middle of which it is examined.
+        breaks, law: Of s(t); shape (K + 1,), (K, d + 1).
+        places: Of the joints' path; shape (M + 1,).
+        widths, shares: Of the pieces before knots were added, and the errors of q'' there; shape (M,), (M, 3).
+    """
+    most = np.zeros(3)
+    for i in range(len(times) - 1):
+        for place in (1e-6, 0.5, 1.0 - 1e-6):
+            time = times[i] + place * (times[i + 1] - times[i])
+            phase = np.searchsorted(breaks[1:-1], time, side="right")
+            s, v, a, j = _law_at(law[phase], time - breaks[phase])
+            piece = np.searchsorted(places[1:-1], s, side="right")
+            first, third = _FIRST * widths[piece], _THIRD / widths[piece]
+            demands = (first * v, first * a + v**2, first * j + 3.0 * v * a + third * v**3)
+            for order in range(3):
+                # An unknown error times a rate of zero is NaN, and does not count.
+                most[order] = max(most[order], shares[piece, order] * demands[order])
+    return most
+
+
+@inlined
+def _law_at(c: Array, t: float) -> tuple[float, float, float, float]:
+    """Return the magnitudes of a polynomial and of three derivatives."""
+    s, v, a, j = 0.0, 0.0, 0.0, 0.0
+    for k in range(len(c) - 1, -1, -1):
+        s, v, a, j = s * t + c[k], v * t + s, a * t + 2.0 * v, j * t + 3.0 * a
+    return abs(s), abs(v), abs(a), abs(j)
 
 
 def _errors(field: RateField, positions: PiecewisePolynomial) -> tuple[Array, Indices]:
@@ -86,38 +114,91 @@ def _errors(field: RateField, positions: PiecewisePolynomial) -> tuple[Array, In
     places = (positions.breaks[:-1, None] + _PROBES * widths[:, None]).ravel()
     rates = positions.rates_at(places)
     exact, near = exact_next_to(field, field.path.at(places), *rates)
-    errors = np.where(near[:, None], np.abs(exact[2] - rates[2]), np.inf)
-    q, first, second, off = (
-        np.abs(values).reshape(len(widths), len(_PROBES), -1).max(axis=1) for values in (*rates, errors)
-    )
-    bend = np.maximum(second.max(axis=1), first.max(axis=1) / extent)
-    allowed = TOLERANCE * bend + _ROUNDING * (1.0 + q.max(axis=1)) / widths**2
-    ratios = off.max(axis=1) / np.maximum(allowed, np.finfo(float).tiny)
-    # The error is of fourth order in the piece's length.
-    wanted = np.where((ratios > 1.0) & np.isfinite(ratios), np.ceil(1.05 * ratios**0.25), 1.0)
-    most = np.clip(widths / (_SHORTEST * extent), 1.0, _MOST_PARTS)
-    return off, np.minimum(wanted, most).astype(np.int64)
+    return _errors_of(np.array(rates), exact, near, widths, extent)
+
+
+@compiled
+def _errors_of(rates: Array, exact: Array, near: Flags, widths: Array, extent: float) -> tuple[Array, Indices]:
+    """Return what `_errors` does, from given and exact q, q' and q'' at the probes, (3, 3M, n), where found."""
+    count, n, probes = len(widths), rates.shape[2], len(_PROBES)
+    off, parts = np.zeros((count, n)), np.ones(count, np.int64)
+    for i in range(count):
+        most, slope, bend = 0.0, 0.0, 0.0
+        for k in range(probes * i, probes * i + probes):
+            for j in range(n):
+                most, slope = max(most, abs(rates[0, k, j])), max(slope, abs(rates[1, k, j]))
+                bend = max(bend, abs(rates[2, k, j]))
+                off[i, j] = max(off[i, j], abs(exact[2, k, j] - rates[2, k, j]) if near[k] else np.inf)
+        allowed = TOLERANCE * max(bend, slope / extent) + _ROUNDING * (1.0 + most) / widths[i] ** 2
+        ratio = off[i].max() / max(allowed, _TINY)
+        if 1.0 < ratio < np.inf:
+            # The error is of fourth order in the piece's length.
+            longest = min(max(widths[i] / (_SHORTEST * extent), 1.0), _MOST_PARTS)
+            parts[i] = int(min(math.ceil(1.05 * ratio**0.25), longest))
+    return off, parts
 
 
 def _with_exact_knots(field: RateField, positions: PiecewisePolynomial, parts: Indices) -> PiecewisePolynomial:
     """Divide pieces at exact knots; a piece that would then leave the joint limits keeps its own quintic."""
-    piece, widths = np.repeat(np.arange(len(parts)), parts), np.diff(positions.breaks)
-    breaks = divided(positions.breaks, parts)
+    breaks, chain = divided(positions.breaks, parts), field.chain
     own = cut(positions, breaks)
-    starts = np.stack((own[:, 0], own[:, 1], 2.0 * own[:, 2]))
-    new = np.diff(piece, prepend=-1) == 0
-    starts[:, new] = exact_next_to(field, field.path.at(breaks[:-1][new]), *starts[:, new])[0]
-    ends = np.roll(starts, -1, axis=1)
-    ends[:, np.append(~new[1:], True)] = np.stack(derivatives(positions.coefficients, widths[:, None], 2))
-    lengths = np.diff(breaks)
-    coefficients = hermite_pieces(starts, ends, lengths)
-    hull = bernstein(coefficients * lengths[:, None, None] ** np.arange(coefficients.shape[1])[:, None])
-    beyond = (hull < field.chain.lower - SLACK) | (hull > field.chain.upper + SLACK)
-    is_beyond = np.zeros(len(parts), dtype=bool)
-    is_beyond[piece[beyond.any(axis=(1, 2))]] = True
-    unchanged = is_beyond[piece]
-    coefficients[unchanged] = own[unchanged]
-    return PiecewisePolynomial(breaks, coefficients)
+    knots = np.stack((own[:, 0], own[:, 1], 2.0 * own[:, 2]))
+    new = np.diff(np.repeat(np.arange(len(parts)), parts), prepend=-1) == 0
+    knots[:, new] = exact_next_to(field, field.path.at(breaks[:-1][new]), *knots[:, new])[0]
+    lower, upper = chain.lower - SLACK, chain.upper + SLACK
+    return PiecewisePolynomial(breaks, _rebuilt(positions.coefficients, parts, breaks, own, knots, lower, upper))
+
+
+@compiled
+def _rebuilt(
+    pieces: Array, parts: Indices, breaks: Array, own: Array, knots: Array, lower: Array, upper: Array
+) -> Array:
+    """Return the quintics between knots; of a piece that would leave the limits, what it was; shape (N, 6, n).
+
+    Args:
+        pieces: Those that are divided; shape (M, d + 1, n).
+        parts: Into how many each is divided; shape (M,).
+        breaks: Of the parts; shape (N + 1,).
+        own: What the pieces are there; shape (N, d + 1, n).
+        knots: q, q' and q'' at the start of each part; shape (3, N, n).
+        lower, upper: Limits, with some slack; shape (n,), [rad or m].
+    """
+    _, size, n = own.shape
+    ends, widths, first = np.empty(knots.shape), np.diff(breaks), 0
+    for i in range(len(parts)):
+        last = first + parts[i] - 1
+        ends[:, first:last] = knots[:, first + 1 : last + 1]
+        width = breaks[last + 1] - breaks[first]
+        for j in range(n):
+            value, slope, bend = 0.0, 0.0, 0.0
+            for k in range(size - 1, -1, -1):
+                bend = bend * width + 2.0 * slope
+                slope = slope * width + value
+                value = value * width + pieces[i, k, j]
+            ends[0, last, j], ends[1, last, j], ends[2, last, j] = value, slope, bend
+        first = last + 1
+    found, first = hermite(knots, ends, widths, _CONDITIONS), 0
+    for i in range(len(parts)):
+        last = first + parts[i]
+        if not _stays_within(found[first:last], widths[first:last], lower, upper):
+            found[first:last] = own[first:last]
+        first = last
+    return found
+
+
+@compiled
+def _stays_within(pieces: Array, widths: Array, lower: Array, upper: Array) -> bool:
+    """Return whether no Bernstein coefficient of quintics is beyond the limits; shapes (N, 6, n), (N,), (n,)."""
+    for i in range(len(pieces)):
+        for k in range(6):
+            for j in range(len(lower)):
+                value, power = 0.0, 1.0
+                for m in range(k + 1):
+                    value += BERNSTEIN[k, m] * power * pieces[i, m, j]
+                    power *= widths[i]
+                if value < lower[j] or value > upper[j]:
+                    return False
+    return True
 
 
 def exact_next_to(field: RateField, at: PathSamples, q: Array, first: Array, second: Array) -> tuple[Array, Flags]:

@@ -4,6 +4,7 @@ Between two exact knots q is the quintic with the same q, q' and q'' at both. A 
 the path within a share of the tolerance, and its rates agree with the field.
 """
 
+import math
 from dataclasses import dataclass
 from itertools import pairwise
 from math import comb, perm
@@ -11,13 +12,14 @@ from math import comb, perm
 import numpy as np
 
 from gelenk.robot.arrays import Array
+from gelenk.robot.compilation import compiled, inlined
 from gelenk.trajectory.follow.rate_field import SHARE, Knot, RateField, taken
 from gelenk.trajectory.motion.time_laws import hermite_pieces
 from gelenk.trajectory.paths.paths import PathSamples
 
 _QUINTIC = hermite_pieces(np.eye(6)[:3, None], np.eye(6)[3:, None], np.ones(1))[0]
 """Coefficients of the six quintics with one end condition 1 and the others 0, by powers of τ; shape (6, 6)."""
-_BERNSTEIN = np.array([[comb(i, k) / comb(5, k) for k in range(6)] for i in range(6)])
+BERNSTEIN = np.array([[comb(i, k) / comb(5, k) for k in range(6)] for i in range(6)])
 """Bernstein coefficients from power coefficients: a quintic stays between the smallest and the largest of them."""
 INNER = np.arange(1, 8) / 8.0
 """Places between 0 and 1 at which a piece is examined."""
@@ -32,7 +34,7 @@ def _basis(taus: Array, order: int = 0) -> Array:
 
 
 _VALUES, _RATES = _basis(INNER), _basis(INNER, 1)
-HULL, TO_POWERS = _BERNSTEIN @ _QUINTIC, _QUINTIC
+HULL, TO_POWERS = BERNSTEIN @ _QUINTIC, _QUINTIC
 """Matrices from a quintic's end conditions to its Bernstein and power coefficients."""
 
 RATE_TOLERANCE = 1e-3
@@ -92,8 +94,9 @@ def pieces_between(field: RateField, knots: list[Knot], at: PathSamples) -> list
     data = np.array([end_conditions(a, b) for a, b in pairwise(knots)])
     qs, h = values_within(data), np.diff([knot.s for knot in knots])
     dqs, sigmas = field.velocities(at, qs)
-    offset = np.array([knot.offset for knot in knots[:-1]])
-    ratios, deviations = judged(field, at, (data, h), (qs, dqs), offset)
+    offsets = np.array([knot.offset for knot in knots[:-1]])
+    tolerances = SHARE * np.array(field.tolerances)
+    ratios, deviations = judged(data, h, np.ascontiguousarray(dqs), field.errors(at, qs), offsets, tolerances)
     rows = zip(pairwise(knots), data, sigmas.reshape(len(h), -1), deviations, ratios, strict=True)
     return [
         Piece(a, b, own, np.concatenate(([a.sigma], inner, [b.sigma])), deviation, float(ratio))
@@ -101,31 +104,54 @@ def pieces_between(field: RateField, knots: list[Knot], at: PathSamples) -> list
     ]
 
 
+@compiled
 def values_within(data: Array) -> Array:
     """Return the configurations at the inner samples of M quintics by their end conditions; shape (7M, n)."""
-    qs: Array = (_VALUES @ data).reshape(-1, data.shape[2])
+    qs = np.zeros((len(INNER) * len(data), data.shape[2]))
+    for i in range(len(qs)):
+        for m in range(6):
+            for j in range(qs.shape[1]):
+                qs[i, j] += _VALUES[i % len(INNER), m] * data[i // len(INNER), m, j]
     return qs
 
 
+@compiled
 def judged(
-    field: RateField, at: PathSamples, quintics: tuple[Array, Array], within: tuple[Array, Array], offset: Array
+    data: Array, widths: Array, velocities: Array, errors: Array, offsets: Array, tolerances: Array
 ) -> tuple[Array, Array]:
     """Return the largest ratio of an error of each of M quintics to what is allowed, (M,), and deviations, (M, 2).
 
     Args:
-        at: The path at the inner samples, seven for each of them.
-        quintics: Their end conditions, (M, 6, n), and widths, (M,).
-        within: q and the field's q' at the inner samples; shape (7M, n) each.
-        offset: Distance of the first knot of each from the path; shape (M,).
+        data: End conditions; shape (M, 6, n).
+        widths: Shape (M,), [m or rad].
+        velocities: The field's q' at the inner samples, seven for each quintic; shape (7M, n).
+        errors: Distances [m] and angles [rad] of the tip there from the path; shape (2, 7M).
+        offsets: Distance of the first knot of each from the path; shape (M,).
+        tolerances: Allowed distance [m] and angle [rad]; shape (2,).
     """
-    (data, h), (qs, dqs) = quintics, within
-    velocities = dqs.reshape(len(h), -1, dqs.shape[1])
-    fastest = np.maximum(np.abs(velocities).max(axis=(1, 2)), np.abs(data[:, [1, 4]]).max(axis=(1, 2)) / h)
-    errors = np.abs(_RATES @ data / h[:, None, None] - velocities).max(axis=(1, 2))
-    ratios = errors / (RATE_TOLERANCE * np.maximum(fastest, 1e-300) + 20.0 * offset / h)
-    deviations = field.errors(at, qs).reshape(2, len(h), -1).max(axis=2).T
-    off = (deviations / (SHARE * np.array(field.tolerances) + 10.0 * offset[:, None])).max(axis=1)
-    return np.maximum(ratios, off), deviations
+    ratios, deviations, inner = np.empty(len(data)), np.zeros((len(data), 2)), len(INNER)
+    for i in range(len(data)):
+        fastest, missed = 1e-300, 0.0
+        for k in range(inner * i, inner * i + inner):
+            for j in range(data.shape[2]):
+                rate = 0.0
+                for m in range(6):
+                    rate += _RATES[k - inner * i, m] * data[i, m, j]
+                missed = _larger(missed, abs(rate / widths[i] - velocities[k, j]))
+                fastest = max(fastest, abs(velocities[k, j]))
+                fastest = max(fastest, max(abs(data[i, 1, j]), abs(data[i, 4, j])) / widths[i])
+            for side in range(2):
+                deviations[i, side] = _larger(deviations[i, side], errors[side, k])
+        ratios[i] = missed / (RATE_TOLERANCE * fastest + 20.0 * offsets[i] / widths[i])
+        for side in range(2):
+            ratios[i] = _larger(ratios[i], deviations[i, side] / (tolerances[side] + 10.0 * offsets[i]))
+    return ratios, deviations
+
+
+@inlined
+def _larger(one: float, other: float) -> float:
+    """Return the larger number, NaN if one is."""
+    return one if one >= other or math.isnan(one) else other
 
 
 def next_knot(field: RateField, a: Knot, s: float, at: PathSamples) -> Knot | None:

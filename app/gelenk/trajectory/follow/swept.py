@@ -4,16 +4,39 @@ Each stretch without a break is sampled in one go and followed by compiled elimi
 judged as `bounds` judges one. If anything is in doubt there is no trace here, and `integrate` goes from knot to knot.
 """
 
-from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
-from gelenk.ik.search.task import FULL_POSE
+from gelenk.ik.search.iteration import FULL
+from gelenk.ik.search.task import FULL_POSE, task_errors
+from gelenk.kinematics.simd.kernels import COLUMN, chain_poses
+from gelenk.kinematics.simd.lanes import LANES, Lanes, lanes, load, sqrt_lanes, store
 from gelenk.robot.arrays import Array
+from gelenk.robot.chain import FlatChain
+from gelenk.robot.compilation import compiled, inlined, unmanaged
 from gelenk.trajectory.follow.bounds import CERTAIN, FINEST, SLACK
-from gelenk.trajectory.follow.nearest import Walk, rates_at, walked
-from gelenk.trajectory.follow.rate_field import RateField, sampled, taken
+from gelenk.trajectory.follow.elimination import (
+    BEND,
+    RIGHT,
+    TWIST,
+    WEIGHTS,
+    Elimination,
+    elimination,
+    factored,
+    gather,
+    gather_goals,
+    least_sigma,
+    linearised,
+    moved,
+    rates_at,
+    store_change,
+    store_errors,
+    store_rest,
+)
+from gelenk.trajectory.follow.nearest import EXACT, FARTHEST, MOST_STEPS, NEARLY
+from gelenk.trajectory.follow.rate_field import SHARE, RateField, sampled
 from gelenk.trajectory.follow.step import HULL, INNER, judged, values_within
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, divided
 from gelenk.trajectory.motion.time_laws import hermite_pieces
@@ -22,20 +45,39 @@ _PIECES, _MOST_PIECES, _ROUNDS = 8, 100, 5
 """Pieces of each stretch without a break, at first and at most, and how often they are divided."""
 _ON_PATH = 1e-9
 """Distance of the start from the path that counts as none, [rad or m]."""
+_CORRECTIONS, _SETTLED = 2, 1e-12
+"""Corrections of a spare motion, and its change that counts as none, [rad or m]."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Stretch:
+class _Bounds(NamedTuple):
+    """What quintics must keep.
+
+    Attributes:
+        joints: Limits, (2, n), [rad or m].
+        tolerances: Of the tip's distance [m] and angle [rad] from the path; shape (2,).
+        threshold: Of the smallest singular value.
+    """
+
+    joints: Array
+    tolerances: Array
+    threshold: float
+
+
+class _Stretch(NamedTuple):
     """Quintics along a part of the path without a break.
 
     Attributes:
-        breaks: Places of their ends; shape (M + 1,), [m or rad].
-        rates: q, q' and q'' there; shape (3, M + 1, n).
+        is_whole: Whether there is a knot at each place, far from singularities.
+        is_clear: Whether, also between them, the joints keep their limits, and σ stays above the threshold.
+        rates: q, q' and q'' at the knots; shape (3, M + 1, n).
+        ratios: Of the largest error in each piece to what is allowed; shape (M,).
         deviations: Largest distance [m] and angle [rad] of the tip from the path in each; shape (M, 2).
     """
 
-    breaks: Array
+    is_whole: bool
+    is_clear: bool
     rates: Array
+    ratios: Array
     deviations: Array
 
 
@@ -46,56 +88,236 @@ def swept(field: RateField, start: Array) -> tuple[PiecewisePolynomial, Array] |
     """
     if not len(field.task) == len(FULL_POSE) <= len(field.chain):
         return None
-    found: list[_Stretch] = []
+    chain, slack = field.chain, SLACK if field.limited else np.inf
+    joints = np.stack((chain.lower - slack, chain.upper + slack))
+    bounds = _Bounds(joints, SHARE * np.array(field.tolerances), field.threshold)
+    breaks, rates, deviations = [np.zeros(1)], [np.array(start)[None, None]], []
     for ends in pairwise((0.0, *field.path.breaks, field.path.extent)):
-        stretch = _along(field, found[-1].rates[0, -1] if found else start, ends)
-        if stretch is None:
+        found = _along(field, rates[-1][0, -1], ends, bounds)
+        if found is None:
             return None
-        found.append(stretch)
-    breaks = np.concatenate((found[0].breaks[:1], *(one.breaks[1:] for one in found)))
-    starts = np.concatenate([one.rates[:, :-1] for one in found], axis=1)
-    ends_ = np.concatenate([one.rates[:, 1:] for one in found], axis=1)
-    positions = PiecewisePolynomial(breaks, hermite_pieces(starts, ends_, np.diff(breaks)))
-    return positions, np.concatenate([one.deviations for one in found]).max(axis=0)
+        breaks.append(found[0][1:])
+        rates.append(found[1].rates)
+        deviations.append(found[1].deviations)
+    starts = np.concatenate([one[:, :-1] for one in rates[1:]], axis=1)
+    finishes = np.concatenate([one[:, 1:] for one in rates[1:]], axis=1)
+    every = np.concatenate(breaks)
+    positions = PiecewisePolynomial(every, hermite_pieces(starts, finishes, np.diff(every)))
+    return positions, np.concatenate(deviations).max(axis=0)
 
 
-def _along(field: RateField, start: Array, stretch: tuple[float, float]) -> _Stretch | None:
-    """Follow a stretch by quintics, divided where the errors between knots are too large."""
-    breaks = np.linspace(*stretch, _PIECES + 1)
+def _along(
+    field: RateField, start: Array, stretch: tuple[float, float], bounds: _Bounds
+) -> tuple[Array, _Stretch] | None:
+    """Follow a stretch by quintics, divided where the errors between knots are too large; return their ends too."""
+    breaks, first = np.linspace(*stretch, _PIECES + 1), np.ascontiguousarray(start)
     for _ in range(_ROUNDS):
-        h = np.diff(breaks)
-        at = field.samples(np.concatenate((breaks, (breaks[:-1, None] + h[:, None] * INNER).ravel())), *stretch)
-        at_knots, within = taken(at, slice(0, len(breaks))), taken(at, slice(len(breaks), None))
-        walk = walked(field.chain.flat, breaks, *sampled(at_knots), np.ascontiguousarray(start))
-        if not walk.is_whole or np.abs(walk.rates[0, 0] - start).max() > _ON_PATH:
+        inner = breaks[:-1, None] + np.diff(breaks)[:, None] * INNER
+        at = field.samples(np.concatenate((breaks, inner.ravel())), *stretch)
+        found = followed(field.chain.flat, breaks, *sampled(at), first, bounds)
+        if not found.is_whole:
             return None
-        powers = h[:, None] ** np.arange(3)[:, None, None]
-        data = np.concatenate((powers * walk.rates[:, :-1], powers * walk.rates[:, 1:])).transpose(1, 0, 2)
-        qs = values_within(data)
-        dqs, sigmas = rates_at(field.chain.flat, np.ascontiguousarray(within.first), qs)
-        ratios, deviations = judged(field, within, (data, h), (qs, dqs), np.zeros(len(h)))
-        if (ratios <= 1.0).all():
-            is_clear = _is_within(field, data) and _is_regular(field, walk, sigmas.reshape(len(h), -1), h)
-            return _Stretch(breaks, walk.rates, deviations) if is_clear else None
+        if (found.ratios <= 1.0).all():
+            return (breaks, found) if found.is_clear else None
         # The error of the rates is of fifth order.
-        parts = np.ceil(np.clip(1.1 * ratios**0.2, 1.0, _PIECES)).astype(np.int64)
-        if not np.isfinite(ratios).all() or parts.sum() > _MOST_PIECES:
+        parts = np.ceil(np.clip(1.1 * found.ratios**0.2, 1.0, _PIECES)).astype(np.int64)
+        if not np.isfinite(found.ratios).all() or parts.sum() > _MOST_PIECES:
             return None
-        breaks = divided(breaks, np.where(ratios > 1.0, parts, 1))
+        breaks = divided(breaks, np.where(found.ratios > 1.0, parts, 1))
     return None
 
 
-def _is_within(field: RateField, data: Array) -> bool:
+@compiled
+def followed(
+    flat: FlatChain,
+    breaks: Array,
+    positions: Array,
+    rotations: Array,
+    twists: Array,
+    bends: Array,
+    start: Array,
+    bounds: _Bounds,
+) -> _Stretch:
+    """Follow a path from a configuration by quintics, and judge them.
+
+    Args:
+        breaks: Places of their ends; shape (M + 1,), [m or rad].
+        positions, rotations, twists, bends: The path at all of them, and then at seven places within each piece.
+        start: At the first place; shape (n,), [rad or m].
+    """
+    count, n = len(breaks) - 1, len(start)
+    walk = walked(flat, breaks, positions, rotations, twists, bends, start)
+    ratios, deviations = np.full(count, np.inf), np.zeros((count, 2))
+    if not walk.is_whole or np.abs(walk.rates[0, 0] - start).max() > _ON_PATH:
+        return _Stretch(False, False, walk.rates, ratios, deviations)
+    widths, data = np.diff(breaks), np.empty((count, 6, n))
+    for i in range(count):
+        for order in range(3):
+            data[i, order] = widths[i] ** order * walk.rates[order, i]
+            data[i, 3 + order] = widths[i] ** order * walk.rates[order, i + 1]
+    qs = values_within(data)
+    dqs, sigmas = rates_at(flat, twists[count + 1 :], qs)
+    tips, turned = chain_poses(flat, qs)
+    errors = task_errors(np.ones(6), FULL, 0, positions[count + 1 :], rotations[count + 1 :], tips, turned)
+    ratios, deviations = judged(data, widths, dqs, errors, np.zeros(count), bounds.tolerances)
+    is_clear = _is_within(data, bounds.joints) and _is_regular(walk, sigmas, widths, bounds.threshold)
+    return _Stretch(True, is_clear, walk.rates, ratios, deviations)
+
+
+@inlined
+def _is_within(data: Array, joints: Array) -> bool:
     """Return whether the joints stay within their limits, also between samples."""
-    hulls = HULL @ data
-    within = (hulls >= field.chain.lower - SLACK) & (hulls <= field.chain.upper + SLACK)
-    return bool(within.all() or not field.limited)
+    for i in range(len(data)):
+        for k in range(6):
+            for j in range(data.shape[2]):
+                value = 0.0
+                for m in range(6):
+                    value += HULL[k, m] * data[i, m, j]
+                if not joints[0, j] <= value <= joints[1, j]:
+                    return False
+    return True
 
 
-def _is_regular(field: RateField, walk: Walk, inner: Array, widths: Array) -> bool:
+@compiled
+def _is_regular(walk: "Walk", inner: Array, widths: Array, threshold: float) -> bool:
     """Return whether σ stays above the threshold, also between samples; `inner` bounds it from below within pieces."""
-    sigmas = np.column_stack((walk.sigmas[:-1], inner, walk.sigmas[1:]))
-    steps = widths * np.maximum(walk.changes[:-1], walk.changes[1:]) / (len(INNER) + 1)
-    between = 0.5 * (sigmas[:, :-1] + sigmas[:, 1:] - CERTAIN * steps[:, None])
-    is_regular = (sigmas >= field.threshold).all() and (between >= (1.0 - FINEST) * field.threshold).all()
-    return bool(is_regular or field.threshold <= 0.0)
+    per_piece = len(INNER)
+    for i in range(len(widths)):
+        step = CERTAIN * widths[i] * max(walk.changes[i], walk.changes[i + 1]) / (per_piece + 1)
+        before = walk.sigmas[i]
+        for k in range(per_piece + 1):
+            after = inner[per_piece * i + k] if k < per_piece else walk.sigmas[i + 1]
+            is_above = before >= threshold and after >= threshold
+            if threshold > 0.0 and not (is_above and 0.5 * (before + after - step) >= (1.0 - FINEST) * threshold):
+                return False
+            before = after
+    return True
+
+
+class Walk(NamedTuple):
+    """Configurations along a path.
+
+    Attributes:
+        is_whole: Whether each sample has one, far from singularities.
+        rates: q, q' and q''; shape (3, N, n).
+        sigmas: Lower bounds of the smallest singular value of J; shape (N,).
+        changes: Norms of dJ/ds; shape (N,).
+    """
+
+    is_whole: bool
+    rates: Array
+    sigmas: Array
+    changes: Array
+
+
+@compiled
+def walked(
+    flat: FlatChain, places: Array, positions: Array, rotations: Array, twists: Array, bends: Array, start: Array
+) -> Walk:
+    """Follow a path from a configuration at its first sample from sample to sample, as `step.next_knot` does.
+
+    All lanes hold the same. Nothing here is done for several samples at once: each begins at the one before.
+
+    Args:
+        places: s of the samples, rising; shape (N,), [m or rad].
+        positions, rotations, twists, bends: The path there; shapes (N, 3), (N, 3, 3), (N, 6), (N, 6).
+        start: Shape (n,), [rad or m].
+    """
+    n, count, work, off = len(start), len(places), elimination(flat, len(start)), np.empty(len(start))
+    walk = Walk(True, np.zeros((3, count, n)), np.zeros(count), np.zeros(count))
+    rates = walk.rates
+    for i in range(count):
+        last = max(i - 1, 0)
+        h, q, dq, ddq = places[i] - places[last], rates[0, last], rates[1, last], rates[2, last]
+        rates[0, i] = start if i == 0 else q + h * (dq + 0.5 * h * ddq)
+        gather_goals(positions[i : i + 1], rotations[i : i + 1], 0, work.state)
+        gather(twists[i : i + 1], 0, TWIST, work.state)
+        gather(bends[i : i + 1], 0, BEND, work.state)
+        floor = EXACT * (1.0 + np.abs(positions[i]).max() + np.abs(rates[0, i]).max())
+        for correction in range(1 + (_CORRECTIONS if n > COLUMN and i > 0 else 0)):
+            if correction > 0:
+                off[:] = q + 0.5 * h * (dq + rates[1, i]) + h * h / 12.0 * (ddq - rates[2, i]) - rates[0, i]
+                if _along_self_motion(work, off) <= _SETTLED:
+                    break
+                rates[0, i] += off
+            _spread(rates[0, i], 0, work.rates)
+            if not _settled(flat, work, floor):
+                return Walk(False, rates, walk.sigmas, walk.changes)
+            walk.changes[i] = _store_rates(flat, work)
+            for order in range(3):
+                for j in range(n):
+                    rates[order, i, j] = work.rates[(order * n + j) * LANES]
+        walk.sigmas[i] = _first(work, least_sigma(work))
+    return walk
+
+
+@inlined
+def _first(work: Elimination, values: Lanes) -> float:
+    """Return the first of eight numbers."""
+    store(work.number, 0, values)
+    number: float = work.number[0]
+    return number
+
+
+@inlined
+def _spread(values: Array, row: int, work: Array) -> None:
+    """Write each number into a row of lanes."""
+    for j in range(len(values)):
+        store(work, row + j, lanes(values[j]))
+
+
+@unmanaged
+def _along_self_motion(work: Elimination, off: Array) -> float:
+    """Leave of a change of the joints what J maps to zero; return its size."""
+    zero = lanes(0.0)
+    for k in range(COLUMN):
+        store(work.state, RIGHT + k, zero)
+    _spread(off, 0, work.rates)
+    store_rest(work, RIGHT, work.J, 0)
+    moved(work, RIGHT, 0)
+    size = 0.0
+    for j in range(len(off)):
+        off[j] = work.rates[j * LANES]
+        size = max(size, abs(off[j]))
+    return size
+
+
+@unmanaged
+def _settled(flat: FlatChain, work: Elimination, floor: float) -> bool:
+    """Lead q to the nearest configuration at the goal by Newton's method; J and its factors are those there."""
+    before = np.inf
+    for _ in range(MOST_STEPS):
+        frame = linearised(flat, work)
+        if not _first(work, factored(work)) > 0.0:
+            break
+        error = _first(work, store_errors(work, frame))
+        if error <= floor or (error <= NEARLY and error > 0.5 * before):
+            return True
+        if not _first(work, moved(work, RIGHT, 0)) <= FARTHEST:
+            break
+        before = error
+    return False
+
+
+@unmanaged
+def _store_rates(flat: FlatChain, work: Elimination) -> float:
+    """Write q' and q'' at q, by the formula of `rate_field`; return the norm of dJ/ds."""
+    n, zero = len(work.J) // (COLUMN * LANES), lanes(0.0)
+    for j in range(2 * n):
+        store(work.rates, n + j, zero)
+    for k in range(COLUMN):
+        store(work.state, WEIGHTS + k, load(work.state, TWIST + k))
+    moved(work, WEIGHTS, 1)
+    store_rest(work, TWIST, work.J, 1)
+    moved(work, RIGHT, 1)
+    square = store_change(flat, work)
+    for j in range(n if n > COLUMN else 0):
+        along = zero
+        for k in range(COLUMN):
+            along = along + load(work.change, COLUMN * j + k) * load(work.state, WEIGHTS + k)
+        store(work.rates, 2 * n + j, along)
+    for _ in range(2):
+        store_rest(work, BEND, work.change, 1)
+        store_rest(work, RIGHT, work.J, 2)
+        moved(work, RIGHT, 2)
+    return _first(work, sqrt_lanes(square))

@@ -6,8 +6,7 @@ code that plays, samples, scales or audits a motion needs to handle no other.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from math import comb, factorial, perm
+from math import factorial, perm
 
 import numpy as np
 
@@ -108,14 +107,3 @@ def divided(breaks: Array, counts: Indices) -> Array:
     piece = np.repeat(np.arange(len(counts)), counts)
     share = (np.arange(len(piece)) - (np.cumsum(counts) - counts)[piece]) / counts[piece]
     return np.append(breaks[piece] + share * np.diff(breaks)[piece], breaks[-1])
-
-
-def bernstein(c: Array) -> Array:
-    """Convert power coefficients of polynomials to Bernstein coefficients on [0, 1]; shape (N, d + 1, n)."""
-    result: Array = _bernstein_matrix(c.shape[1] - 1) @ c
-    return result
-
-
-@lru_cache
-def _bernstein_matrix(degree: int) -> Array:
-    return np.array([[comb(j, k) / comb(degree, k) for k in range(degree + 1)] for j in range(degree + 1)])

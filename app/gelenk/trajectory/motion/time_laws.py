@@ -13,7 +13,7 @@ import numpy as np
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
-_END_CONDITIONS: Final = {
+END_CONDITIONS: Final = {
     2: np.array([[3.0, -1.0], [-2.0, 1.0]]),
     3: np.array([[10.0, -4.0, 0.5], [-15.0, 7.0, -1.0], [6.0, -3.0, 0.5]]),
     4: np.array(
@@ -61,7 +61,7 @@ def hermite_pieces(starts: Array, ends: Array, durations: Array) -> Array:
     from gelenk.trajectory.motion.evaluation import hermite  # noqa: PLC0415 - a client has no compiler
 
     first, last, lasting = (np.ascontiguousarray(rows, dtype=float) for rows in (starts, ends, durations))
-    return hermite(first, last, lasting, _END_CONDITIONS[len(starts)])
+    return hermite(first, last, lasting, END_CONDITIONS[len(starts)])
 
 
 def _left_at_end(lower: list[Array], ends: list[Array], displacement: Array) -> Array:
