@@ -29,6 +29,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if (marker := item.get_closest_marker("quick")) is not None:
             sweeps[item.nodeid.partition("[")[0], marker.args[0]].append(item)
     for (_, kept), cases in sweeps.items():
-        cases.sort(key=lambda item: zlib.crc32(item.nodeid.encode()))
+        cases.sort(key=lambda item: (item.get_closest_marker("slow") is not None, zlib.crc32(item.nodeid.encode())))
         for item in cases[kept:]:
             item.add_marker(pytest.mark.slow)

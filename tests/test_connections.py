@@ -139,7 +139,7 @@ def still_answers(port: int) -> None:
             assert answer(connection)[0::2] == (200, b"0")
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("start", [b"", b"G", b"GET / HTTP/1.1\r\nHost: x\r\n", b"\r\n"])
 def test_a_head_that_does_not_come_is_not_waited_for(start: bytes) -> None:
     with serving() as (port, gate, _, _), connected(port) as connection:
@@ -321,6 +321,7 @@ def test_what_is_not_http_is_a_problem() -> None:
         still_answers(port)
 
 
+@pytest.mark.slow
 def test_slow_sockets_give_way_to_others_where_there_are_too_many() -> None:
     with serving(ConnectionLimits(connections=50)) as (port, gate, _, _):
         slow = [connected(port) for _ in range(150)]
@@ -343,6 +344,7 @@ def test_of_few_connections_most_stay_where_one_has_to_go() -> None:
         assert 0 < gate.closed <= 4
 
 
+@pytest.mark.slow
 def test_of_a_crowd_that_comes_at_once_the_newest_stay() -> None:
     """All are let in within a turn of the event loop, in which those that have to go are still there."""
     with serving(ConnectionLimits(connections=16)) as (port, gate, _, _), ExitStack() as crowd:
@@ -412,6 +414,7 @@ def test_who_asks_again_sooner_than_told_is_not_read_from_until_then_nearly() ->
         assert answered + 0.1 < 2.2 < time.monotonic() - began
 
 
+@pytest.mark.slow
 def test_pipelined_requests_that_are_refused_end_the_connection() -> None:
     with serving(ConnectionLimits(waiting=1)) as (port, _, _, _), connected(port) as connection:
         busy = [connected(port) for _ in range(30)]

@@ -321,6 +321,7 @@ def test_a_wrong_setting_ends_it_with_one_line(tmp_path: Path) -> None:
     assert "GELENK_DATA_DRI" in run.stderr
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("arguments", [[], ["--workers", "3"]], ids=str)
 @pytest.mark.parametrize("host", [HOST, "localhost"])
 def test_a_taken_port_is_all_that_it_tells_of(host: str, arguments: list[str], tmp_path: Path) -> None:

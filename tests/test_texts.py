@@ -111,6 +111,7 @@ def unmarked(path: Path) -> list[str]:
     return [text for text in words if re.search(r"[a-z]{3}", text)]
 
 
+@pytest.mark.slow
 def test_the_words_of_every_step_are_translated(tmp_path: Path) -> None:
     (tmp_path / "page.py").write_text('step("Links", _("All of them."), "n = 4")')
     assert unmarked(tmp_path / "page.py") == ["Links"]

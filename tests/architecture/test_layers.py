@@ -61,10 +61,12 @@ def loaded(*modules: str) -> set[str]:
     return set(answer.stdout.split())
 
 
+@pytest.mark.slow
 def test_independent_ways_to_the_same_number_never_meet_pinocchio() -> None:
     assert "pinocchio" not in loaded(*WITHOUT_PINOCCHIO)
 
 
+@pytest.mark.slow
 def test_the_core_knows_neither_http_nor_settings() -> None:
     modules = loaded(*CORE)
     assert "pinocchio" in modules

@@ -47,6 +47,7 @@ def counts(path: Path) -> set[str]:
     return found
 
 
+@pytest.mark.slow
 def test_what_is_counted_has_a_form_for_one() -> None:
     assert (counted(1, "entry"), counted(0, "entry"), counted(2, "joint")) == ("1 entry", "0 entries", "2 joints")
     assert {one for path in Path("app/gelenk").rglob("*.py") for one in counts(path)} - NEVER_ONE == set()
@@ -101,6 +102,7 @@ def parroted(tree: ast.Module) -> list[str]:
     return found
 
 
+@pytest.mark.slow
 def test_a_docstring_says_more_than_the_name() -> None:
     paths = Path("app/gelenk").rglob("*.py")
     found = {path.name: names for path in paths if (names := parroted(ast.parse(path.read_text(encoding="utf-8"))))}

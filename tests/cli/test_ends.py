@@ -79,6 +79,7 @@ def test_an_interrupt_has_a_code_of_its_own(shell: Shell, monkeypatch: pytest.Mo
     assert len(ended) == 1
 
 
+@pytest.mark.slow
 def test_a_job_is_begun_for_later(shell: Shell, url: str, tmp_path: Path) -> None:
     """With the answer that the command waits for otherwise; nothing is left behind."""
     angles = np.random.default_rng(1).uniform(0.2, 1.2, (60, 2))
@@ -118,6 +119,7 @@ def test_progress_is_told_as_it_goes_on(own: InProcess) -> None:
     assert moments[-1] - moments[0] > 0.1
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("name", "head"), [("m.yaml", "# Robot ur5"), ("m.json", '{"header"'), ("m.script", "# Robot ur5")]
 )
@@ -134,6 +136,7 @@ def test_a_motion_out_of_another_needs_no_start(shell: Shell) -> None:
     assert "start" in shell("trajectory", "planar_2r", "--joint", "0.5 0.2", code=2)[1]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("kind", ["svg", "png"])
 def test_pictures_into_files(shell: Shell, tmp_path: Path, kind: str) -> None:
     head = {"svg": b"<?xml", "png": b"\x89PNG"}[kind]
@@ -171,6 +174,7 @@ def ran(*arguments: str, **environment: str) -> str:
     return run.stdout
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["bash", "zsh", "fish"])
 def test_a_shell_completes(name: str) -> None:
     script = ran("--show-completion", name, _TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION="1")
@@ -178,6 +182,7 @@ def test_a_shell_completes(name: str) -> None:
     assert f"complete_{name}" in script
 
 
+@pytest.mark.slow
 def test_names_of_robots_are_completed(url: str) -> None:
     dh = {"convention": "standard", "joints": [{"type": "revolute", "a": 1.0, "alpha": 0.0, "d": 0.0, "theta": 0.0}]}
     assert get(f"{url}/v1/robots", "POST", {"name": "panda_of_mine", "dh": dh})[0] == 201

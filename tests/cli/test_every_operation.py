@@ -335,7 +335,7 @@ WRONG: dict[str, tuple[str, str, dict[str, Any]]] = {
 }
 
 
-@pytest.mark.quick(6)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", WRONG)
 def test_what_is_wrong_is_said_in_the_sentence_of_the_api(shell: Shell, url: str, name: str) -> None:
     operation, robot, fields = WRONG[name]

@@ -60,7 +60,7 @@ def completed(words: str, server: str = "") -> list[str]:
     return ran(**typed, **({"GELENK_SERVER": server} if server else {})).split()
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("shell_name", ["bash", "zsh", "fish"])
 def test_completion_is_installed(tmp_path: Path, shell_name: str) -> None:
     """And bash, which is everywhere, completes with it."""

@@ -45,7 +45,7 @@ def cut(fields: dict[str, Any], part: slice) -> dict[str, Any]:
     return {name: value[part] if is_each[name] else value for name, value in fields.items()}
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("operation", BATCHES)
 def test_the_numbers_are_those_of_one_call(
     shell: Shell, url: str, rows: Path, operation: str, monkeypatch: pytest.MonkeyPatch
@@ -139,6 +139,7 @@ LONG = {
 }
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", LONG)
 def test_a_bar_is_shown_on_a_terminal_alone_and_only_of_long_work(
     shell: Shell, monkeypatch: pytest.MonkeyPatch, name: str

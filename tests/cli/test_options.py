@@ -161,6 +161,7 @@ def options() -> Iterator[tuple[str, str]]:
                     yield f"{name} {part}".strip(), long[-1].removeprefix("--")
 
 
+@pytest.mark.slow
 def test_each_option_is_compared() -> None:
     compared = set()
     for asked, (option, *_), _ in CASES:

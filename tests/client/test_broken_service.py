@@ -76,7 +76,7 @@ def hurried(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("gelenk.client.client._BETWEEN_STREAMS", 0.001)
 
 
-@pytest.mark.quick(12)
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("fault", [hangs_up, stops_halfway, says("502 Bad Gateway", b"<html>", "text/html")])
 @pytest.mark.parametrize(
     ("call", "done", "is_repeatable"),
@@ -188,6 +188,7 @@ ELSEWHERE: dict[str, tuple[Step, str]] = {
 }
 
 
+@pytest.mark.quick(7)
 @pytest.mark.parametrize("case", ELSEWHERE)
 def test_what_is_not_the_service_is_called_so(ask: Ask, case: str) -> None:
     step, sentence = ELSEWHERE[case]

@@ -84,6 +84,7 @@ def targets_of(gelenk: Client) -> Any:
     return gelenk.fk("ur5", joint_positions=[[0.1, -1.0, 1.0, 0.2, 0.3, 0.1]]).poses
 
 
+@pytest.mark.slow
 def test_awaited(url: str) -> None:
     async def ask() -> tuple[InverseAnswer, InverseAnswer, Array, list[Any], str]:
         async with AsyncClient(url) as gelenk:

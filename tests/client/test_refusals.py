@@ -260,6 +260,7 @@ def test_nobody_there(monkeypatch: pytest.MonkeyPatch) -> None:
         client.robots()
 
 
+@pytest.mark.slow
 def test_key_and_address_come_from_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GELENK_SERVER", "http://lab.invalid/gelenk/")
     monkeypatch.setenv("GELENK_KEY", "gelenk.secret")

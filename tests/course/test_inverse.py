@@ -130,6 +130,7 @@ ARMS = [
 ]
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("name", ARMS)
 def test_by_hand_are_all_the_solutions_of_the_solver(name: str) -> None:
     chain = robot(name).chain(None, None)

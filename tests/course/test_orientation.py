@@ -242,6 +242,7 @@ def worst(found: Notations, R: Array) -> float:
     return max(float(np.abs(one.as_matrix() - R).max()) for one in again)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("kind", HARD)
 def test_every_notation_is_the_rotation_to_scipy(kind: str) -> None:
     for R in hard(kind):

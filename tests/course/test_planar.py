@@ -65,6 +65,7 @@ def test_the_exam_that_knows_the_ring_alone_misses_the_disc() -> None:
     assert not reached((1.0, 0.9, 0.5), 0.41, np.linspace(-pi, pi, 3600)).all()
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize("links", [links for links in ARMS if len(links) == 3], ids=str)
 def test_3600_orientations_at_each_distance(links: tuple[float, ...]) -> None:
     arm = planar_workspace(links)

@@ -63,6 +63,7 @@ def latex(steps: list[Step]) -> str:
     return "\n".join(line for step in steps for line in step.latex)
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("ends", CHAINS.values(), ids=CHAINS)
 @pytest.mark.parametrize("view", VIEWS)
 def test_columns_by_geometry_are_those_of_the_kernels(ends: Ends, view: str) -> None:

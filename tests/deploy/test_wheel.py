@@ -81,6 +81,7 @@ def test_the_library_brings_no_server() -> None:
     assert not library & SERVING
 
 
+@pytest.mark.slow
 def test_a_client_loads_and_converts_poses_without_what_computes(client_alone: str) -> None:
     code = """
 import numpy as np
@@ -105,6 +106,7 @@ def test_what_a_client_cannot_do_it_says_in_one_line(client_alone: str, command:
     assert "--server" in run.stderr
 
 
+@pytest.mark.slow
 def test_the_library_without_its_engine_says_what_to_install(client_alone: str) -> None:
     run = python(f"{client_alone}import gelenk\nprint(gelenk.__version__)\ngelenk.Robot")
     assert run.stdout == f"{PROJECT['version']}\n"

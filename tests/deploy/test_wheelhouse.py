@@ -123,6 +123,7 @@ def test_what_was_carried_over_is_installed(project: Path) -> None:
     assert dev(project, "wheelhouse", "carried", index=project.parent / "index").returncode != 0, "it is there already"
 
 
+@pytest.mark.slow
 def test_a_wheel_that_is_another_one_is_not_installed(project: Path) -> None:
     wheels = project / "wheels"
     shutil.copytree(project.parent / "index", wheels)
@@ -134,6 +135,7 @@ def test_a_wheel_that_is_another_one_is_not_installed(project: Path) -> None:
     assert not list((project / ".venv").glob("lib/*/site-packages/evil.py"))
 
 
+@pytest.mark.slow
 def test_nothing_is_left_of_one_that_could_not_be_made(project: Path) -> None:
     run = dev(project, "wheelhouse", "carried")
     assert run.returncode != 0
@@ -203,6 +205,7 @@ def wait_for(is_so: Callable[[], bool]) -> None:
         time.sleep(0.05)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(
     ("machine", "words"),
     [

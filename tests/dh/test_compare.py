@@ -133,7 +133,7 @@ def each_row(dh: DhTable, change: Callable[[DhJoint], dict[str, float]]) -> DhTa
 # Published tables
 
 
-@pytest.mark.quick(23)
+@pytest.mark.quick(10)
 @pytest.mark.parametrize("case", PUBLISHED, ids=lambda case: f"{case.table}-{case.chain[1]}-{case.chain[2]}")
 @pytest.mark.parametrize(
     "freedom", [NOTHING, PLACES, SENSES, ZEROS, EVERYTHING], ids=["held", "places", "s", "o", "all"]
@@ -155,6 +155,7 @@ def test_a_published_table_describes_its_robot(case: Published, freedom: Freedom
     assert placement.offsets == pytest.approx(np.zeros(len(dh.joints)), abs=1e-4)
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("case", PUBLISHED, ids=lambda case: f"{case.table}-{case.chain[1]}-{case.chain[2]}")
 def test_the_errors_are_those_of_a_product_that_shares_no_code(case: Published) -> None:
     name, base, tip = case.chain
@@ -174,6 +175,7 @@ def test_a_table_of_the_catalogue_describes_its_own_robot(name: str) -> None:
     assert max(comparison.placement.errors) < 1e-12
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("first", "second"), [(a, b) for a, b in product(("ur3", "ur5", "ur10"), repeat=2) if a != b])
 def test_arms_of_a_family_are_told_apart(first: str, second: str) -> None:
     comparison = verdict(published(f"{first}_dh"), (second, "base_link", "tool0"))
@@ -189,6 +191,7 @@ def test_arms_of_a_family_are_told_apart(first: str, second: str) -> None:
 # The height of the shoulder, which a free base absorbs
 
 
+@pytest.mark.slow
 def test_a_shoulder_too_high_shows_where_the_base_is_held() -> None:
     dh = replace(changed(published("ur5_dh"), (1, "d", 0.089459)), base=HALF_TURN)
     for freedom in (NOTHING, NOTHING._replace(tool=True), NOTHING._replace(tool=True, offsets=True)):
@@ -287,7 +290,7 @@ MISTAKES: dict[str, tuple[DhTable, tuple[str, str, str], str, list[tuple[int, st
 }  # fmt: skip
 
 
-@pytest.mark.quick(5)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", [name for name, case in MISTAKES.items() if case[2]])
 def test_a_mistake_is_diagnosed(name: str) -> None:
     dh, chain, mistake, places = MISTAKES[name]
@@ -325,6 +328,7 @@ def test_craigs_numbers_read_as_standard_differ_first_where_a_standard_table_wou
     assert (comparison.first_difference.row, comparison.first_difference.parameter) == (1, "alpha")
 
 
+@pytest.mark.slow
 def test_a_joint_that_turns_the_other_way() -> None:
     wrong = z_flipped(textbook(published("ur5_dh")), 2)[0]
     dh = rebuilt(published("ur5_dh"), wrong)
@@ -357,6 +361,7 @@ def test_a_tool_that_is_not_as_given() -> None:
     assert comparison.diagnoses[0].placement.table.tool == pytest.approx(np.eye(4), abs=1e-9)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("freedom", [PLACES, Freedom(base=False, tool=True, offsets=False, signs=False), NOTHING])
 def test_of_several_wrong_numbers_the_first_is_named(freedom: Freedom) -> None:
     dh = replace(changed(published("ur5_dh"), (2, "a", -0.42), (3, "a", -0.39), (5, "d", 0.1)), base=HALF_TURN)
@@ -368,6 +373,7 @@ def test_of_several_wrong_numbers_the_first_is_named(freedom: Freedom) -> None:
     assert difference.expected == pytest.approx(-0.425, abs=1e-9)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("convention", ["standard", "modified"])
 def test_several_wrong_numbers_of_one_row(convention: Literal["standard", "modified"]) -> None:
     right = random_table(np.random.default_rng(2), 6, convention, generic=True, types="RRRRRR")
@@ -568,7 +574,7 @@ def moved(rng: np.random.Generator, dh: DhTable, freedom: Freedom) -> tuple[DhTa
     return rebuilt(dh, oracle), flipped
 
 
-@pytest.mark.quick(19)
+@pytest.mark.quick(6)
 @pytest.mark.parametrize("freedom", [PLACES, ZEROS, SENSES, EVERYTHING], ids=["places", "zeros", "senses", "all"])
 @pytest.mark.parametrize("convention", ["standard", "modified"])
 @pytest.mark.parametrize("seed", [1134, *range(75)])
@@ -587,7 +593,7 @@ def test_tables_that_differ_by_the_convention_are_equivalent(
     assert poses_found(comparison, qs) == pytest.approx(expected, abs=1e-8)
 
 
-@pytest.mark.quick(12)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("seed", range(20))
 @pytest.mark.parametrize("freedom", [NOTHING, NOTHING._replace(tool=True), NOTHING._replace(base=True)])
 def test_what_is_held_is_held(seed: int, freedom: Freedom) -> None:
@@ -622,7 +628,7 @@ def same_number(parameter: str, value: object, expected: float) -> bool:
     return abs(math.remainder(apart, 2 * math.pi) if parameter in {"alpha", "theta"} else apart) < 1e-6
 
 
-@pytest.mark.quick(8)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("freedom", [PLACES, NOTHING, ZEROS, EVERYTHING], ids=["places", "nothing", "zeros", "all"])
 @pytest.mark.parametrize("generic", [True, False], ids=["generic", "special"])
 @pytest.mark.parametrize("seed", list(range(30)))
@@ -683,7 +689,7 @@ def test_the_screws_of_a_chain_are_those_of_its_table() -> None:
     assert found.tips[0] == pytest.approx(target.tip, abs=1e-12)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("numbers", [(1e6, 1e6, -1e6, 1e6), (0.0, 0.0, 0.0, 0.0), (1e-300, 1e-300, 1e6, 0.0)])
 @pytest.mark.parametrize("freedom", [PLACES, NOTHING, EVERYTHING])
 def test_absurd_numbers_get_an_answer(numbers: tuple[float, float, float, float], freedom: Freedom) -> None:

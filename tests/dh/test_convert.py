@@ -75,6 +75,7 @@ def test_every_frame_of_a_table(convention: Convention, seed: int) -> None:
         assert np.abs(judge - [dh.pose(q) for q in qs]).max() < 1e-12, number
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("convention", ["standard", "modified"])
 def test_the_certificate_of_a_table_is_what_is_measured(convention: Convention) -> None:
     for seed in range(1000, 1020):
@@ -169,6 +170,7 @@ def test_default_chain_of_a_table() -> None:
     assert RobotModel(describe_dh("arm", rows("modified", [(1, 0, 0, 0)] * 3, "RRR"))).default_chain == ("base", "tool")
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("convention", ["standard", "modified"])
 def test_another_reader_sees_random_tables_the_same(convention: Convention) -> None:
     """It takes a placement within 1e-8 of the identity for the identity, so a few tables differ by that much."""
@@ -245,6 +247,7 @@ def test_a_leader_of_any_multiplier_has_limits(multiplier: float) -> None:
 # The other convention
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("convention", ["standard", "modified"])
 def test_the_other_convention_is_the_same_chain(convention: Convention) -> None:
     other: Convention = "modified" if convention == "standard" else "standard"

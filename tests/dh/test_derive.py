@@ -186,6 +186,7 @@ def check_determinant(solution: WorkedSolution, judge: dh_columns.Table, q: Arra
     assert expressions.latex_value(formula.latex, legend(solution), names) == pytest.approx(wanted, abs=1e-11)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", ARMS)
 def test_a_textbook_arm_has_the_determinant_that_the_textbook_prints(name: str) -> None:
     arm = ARMS[name]
@@ -351,6 +352,7 @@ def test_reference_numbers_of_determinants() -> None:
     assert ur5.numeric[1].singular_values[:3] == pytest.approx([2.073079224, 1.450502321, 0.545464331], abs=1e-9)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", swept(catalogue.TABLES))
 def test_every_table_of_the_catalogue_is_derived_and_certified(name: str) -> None:
     dh = table(catalogue.dh_table(name))
@@ -498,6 +500,7 @@ def test_three_slides_in_odd_directions_are_singular_nowhere() -> None:
     assert singular(solution).formula is not None
 
 
+@pytest.mark.slow
 def test_a_turn_beside_the_constant_angle_of_a_slide_is_solved_for_the_joint() -> None:
     dh = rows("modified", [(0, 0, 0, 0), (0.5, 0, 0, 0.7), (0, H, 0, 0)], "RPP")
     for condition in singular(worked_solution(dh)).conditions:
@@ -751,6 +754,7 @@ def test_a_wrist_at_the_end_of_an_arm_has_the_indices_of_its_joints() -> None:
     )
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("dh", [STANFORD, PUMA_CRAIG, UR5], ids=["Stanford", "Puma", "UR5"])
 def test_other_indices_change_nothing_else(dh: DhTable) -> None:
     usual, other = formulas(worked_solution(dh)), formulas(worked_solution(dh, first_index=4))

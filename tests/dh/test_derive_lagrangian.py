@@ -214,6 +214,7 @@ def siciliano(q: Array, v: Array) -> Textbook:
     return Textbook(np.array([[b11, b12], [b12, b22]]), np.array(C), np.array([g1, g * c12 * (a2 * p4 + p5)]))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("book", [spong, siciliano])
 @pytest.mark.parametrize("dh", [PLANAR_2R, PLANAR_2R_CRAIG], ids=["standard", "modified"])
 @pytest.mark.parametrize("style", ["short", "full"])
@@ -341,7 +342,7 @@ CASES = {
 }
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", CASES)
 def test_every_formula_has_the_value_of_energies_and_their_slopes(name: str) -> None:
     case = CASES[name]
@@ -350,7 +351,7 @@ def test_every_formula_has_the_value_of_energies_and_their_slopes(name: str) -> 
     check_by_text(case.dh, found, oracle(case.dh, case.links, case.gravity))
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["3R", "3R beside its links", "RPR"])
 @pytest.mark.parametrize("style", ["short", "full"])
 def test_values_in_place_of_symbols_change_nothing(name: str, style: Style) -> None:
@@ -369,6 +370,7 @@ def test_what_is_left_out_stays_a_symbol_of_any_value() -> None:
     check_by_text(PLANAR_2R, found, oracle(PLANAR_2R, links), extra)
 
 
+@pytest.mark.slow
 def test_three_joints_against_pinocchio() -> None:
     """A description by hand: three bars that hang on each other, turning about y, gravity along -z."""
     links = ["<link name='l0'/>"]
@@ -445,7 +447,7 @@ def planar(convention: Convention, types: str, lengths: Sequence[tuple[float, fl
 # Properties, numbers and what stays out
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", CASES)
 def test_the_rate_of_m_less_twice_c_is_skew_symmetric(name: str) -> None:
     """Ṁ by differences of M along the motion, C by the text."""
@@ -474,7 +476,7 @@ def test_without_gravity_there_is_none_and_nothing_to_note() -> None:
     assert solution.notes == []
 
 
-@pytest.mark.quick(5)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", CASES)
 def test_numbers_at_configurations(name: str) -> None:
     case = CASES[name]
@@ -510,6 +512,7 @@ def test_a_rounded_right_angle_is_certified_on_both_sides() -> None:
     assert motion(solution).numeric[0].mass_matrix == pytest.approx(np.diag([0.7 + 0.06 + 1.2 * 0.64, 1.2]), abs=1e-4)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("scale", [1e6, 1e-6])
 def test_neither_huge_nor_tiny_numbers_spoil_the_comparison(scale: float) -> None:
     joints = tuple(replace(row, a=row.a * scale) for row in PLANAR_3R.joints)
@@ -621,7 +624,7 @@ ODD = {
 }
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ODD)
 def test_the_constant_angle_of_a_slide_is_not_differentiated(name: str) -> None:
     dh, count = ODD[name], len(ODD[name].joints)
@@ -677,6 +680,7 @@ def test_links_and_velocities_must_fit_the_table() -> None:
         worked_solution(PLANAR_2R, [[0.1, 0.2]], dynamics=MassProperties((), UPRIGHT, [[0.1]]))
 
 
+@pytest.mark.slow
 def test_three_joints_take_no_minutes() -> None:
     bodies = tuple(LinkBody(center=(0.1, 0.05, 0.02)) for _ in range(3))
     direction = (0.48 / hypot(0.48, 0.6, 0.64), 0.6, 0.64)

@@ -136,6 +136,7 @@ def test_every_leaf_chain_of_the_catalogue(name: str, convention: Convention) ->
             assert abs(row.theta) <= QUARTER + 1e-9
 
 
+@pytest.mark.quick(7)
 @both_conventions
 @pytest.mark.parametrize("name", swept(catalogue.NAMES))
 def test_the_certificate_is_what_is_measured(name: str, convention: Convention) -> None:
@@ -333,7 +334,7 @@ def random_text(seed: int) -> str:
     return serial(joints)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @both_conventions
 @pytest.mark.parametrize("seed", range(5))
 def test_random_chains(seed: int, convention: Convention) -> None:

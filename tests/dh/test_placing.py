@@ -76,6 +76,7 @@ def test_steps_are_axes_frame_0_a_step_for_each_pair_and_the_table() -> None:
     assert not any("\\" in line for step in steps for line in step.plain)
 
 
+@pytest.mark.slow
 def test_every_kind_of_pair_is_met_and_every_text_is_filled_in() -> None:
     met = set()
     for name in MOVING:

@@ -58,7 +58,7 @@ def difference(pair: Pair, table: Table | None = None) -> tuple[float, float]:
     return pose_errors(ours.positions, ours.rotations, expected[:, :3, 3], expected[:, :3, :3])[:2]
 
 
-@pytest.mark.quick(8)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: f"{pair.table}-{pair.base}-{pair.tip}")
 def test_table_and_description_agree(pair: Pair) -> None:
     position, orientation = difference(pair)

@@ -179,7 +179,7 @@ def explained(right: DhTable, names: tuple[str, ...], seed: int) -> str | None:
     return f"{len(comparison.diagnoses[0].mistakes)} mistakes" if comparison.diagnoses else "nothing"
 
 
-@pytest.mark.quick(5)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", MAKERS)
 @pytest.mark.parametrize("arm", ["ur5_dh", "panda_dh", "puma560", "random-0", "random-2", "random-3"])
 def test_a_mistake_is_named(arm: str, name: str) -> None:

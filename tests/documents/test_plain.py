@@ -31,6 +31,7 @@ def directives(text: str) -> list[str]:
     return found
 
 
+@pytest.mark.quick(17)
 @pytest.mark.parametrize("page", PAGES, ids=str)
 def test_a_page_has_no_directives(page: Path) -> None:
     assert directives(page.read_text(encoding="utf-8")) == []

@@ -216,7 +216,7 @@ def test_an_arm_without_closed_form_is_refused(client: TestClient, name: str) ->
     assert ik(client, name, targets=targets)["closed_form"] is None
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["crx 0", "jaco 2, 60 degrees", "gen3 lite", "axes 1 2 3 parallel, 0"])
 def test_six_joints_without_a_closed_form_are_solved_by_continuation(client: TestClient, name: str) -> None:
     arm = six_joint_arms.arm(name)

@@ -182,7 +182,7 @@ def test_poses_in_all_notations(arm: Arm) -> None:
             assert np.abs(np.linalg.norm(array[:, 3:], axis=1) - 1).max() < TOLERANCE
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 def test_jacobians_forces_and_motions(arm: Arm) -> None:
     qs = arm.configurations(4)
     count = len(qs)
@@ -245,7 +245,7 @@ def test_workspaces(arm: Arm) -> None:
         assert np.isfinite(array).all()
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 def test_conversions_of_real_chains(arm: Arm) -> None:
     for convention in ("standard", "modified"):
         answer = arm.client.get(f"/v1/robots/{arm.name}/dh", params={"convention": convention})

@@ -47,7 +47,7 @@ def check_refusal(client: TestClient, body: Any, mentions: tuple[str, ...], stat
         assert word in answer.text.lower(), problem["detail"]
 
 
-@pytest.mark.quick(40)
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("case", REFUSED, ids=lambda case: case.name)
 def test_a_urdf_that_is_no_robot(client: TestClient, case: Refused) -> None:
     body = b'{"name": "refused", "urdf": ' + to_json(case.text) + b"}"
@@ -55,16 +55,19 @@ def test_a_urdf_that_is_no_robot(client: TestClient, case: Refused) -> None:
     assert client.get("/v1/robots/refused").status_code == 404
 
 
+@pytest.mark.quick(27)
 @pytest.mark.parametrize("case", REFUSED_DH, ids=lambda case: case.name)
 def test_a_table_that_is_no_robot(client: TestClient, case: RefusedDh) -> None:
     check_refusal(client, {"name": "refused", "dh": case.table}, case.mentions, {422})
 
 
+@pytest.mark.quick(31)
 @pytest.mark.parametrize(("name", "body"), REFUSED_JSON, ids=[name for name, _ in REFUSED_JSON])
 def test_a_body_that_is_no_upload(client: TestClient, name: str, body: bytes) -> None:  # noqa: ARG001
     check_refusal(client, body, (), {400, 422})
 
 
+@pytest.mark.quick(11)
 @pytest.mark.parametrize("case", ODD, ids=lambda case: case.name)
 def test_an_odd_robot_is_accepted_with_a_warning(client: TestClient, case: Odd) -> None:
     answer = client.post("/v1/robots", json={"name": "odd", "urdf": case.text})

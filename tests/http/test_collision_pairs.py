@@ -32,6 +32,7 @@ def own(tmp_path: Path) -> Iterator[TestClient]:
         yield client
 
 
+@pytest.mark.slow
 def test_pairs_are_listed_with_their_reasons(client: TestClient) -> None:
     answer = client.get("/v1/robots/panda/collision-pairs")
     assert answer.status_code == 200, answer.text
@@ -86,6 +87,7 @@ def test_the_catalogue_is_read_only_and_others_are_unknown(client: TestClient) -
     assert client.put("/v1/robots/nobody/collision-pairs", json={"pairs": []}).status_code == 404
 
 
+@pytest.mark.slow
 def test_a_broken_mesh_is_refused_only_where_its_shape_is_needed(own: TestClient) -> None:
     archive = zipped({"p/r.urdf": BROKEN.encode(), "p/broken.stl": b"solid?"})
     added = own.post("/v1/robots", data={"name": "broken"}, files={"archive": ("r.zip", archive)})

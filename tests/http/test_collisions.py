@@ -189,6 +189,7 @@ def test_a_mesh_that_cannot_be_read_is_named(own: TestClient, name: str, content
     assert words in answer.json()["detail"]
 
 
+@pytest.mark.slow
 def test_a_stored_cloud_is_never_farther_than_its_points(own: TestClient) -> None:
     cloud = {"type": "points", "file": "scan.npy", "radius": 0.005}
     few = np.random.default_rng(0).uniform(-0.3, 0.3, (400, 3)).astype("f4")
@@ -205,6 +206,7 @@ def test_a_stored_cloud_is_never_farther_than_its_points(own: TestClient) -> Non
     assert -excess - 2e-3 <= answer["results"][0]["clearance"] - given["clearance"] <= 2e-3
 
 
+@pytest.mark.slow
 def test_a_scene_of_too_many_pieces_or_pairs_is_refused(client: TestClient) -> None:
     random = np.random.default_rng(0)
 

@@ -75,6 +75,7 @@ def test_what_is_given_is_held(client: TestClient) -> None:
     assert [each["mistake"] for each in content["diagnoses"]] == ["number", "base"]
 
 
+@pytest.mark.slow
 def test_find_chooses_what_is_found(client: TestClient) -> None:
     nothing = ask(client, table(), find=[])
     assert not nothing["equivalent"]
@@ -86,6 +87,7 @@ def test_find_chooses_what_is_found(client: TestClient) -> None:
     assert any("is ignored" in note for note in content["notes"])
 
 
+@pytest.mark.slow
 def test_zeros_and_senses_are_found_where_asked_for(client: TestClient) -> None:
     shifted = deepcopy(table())
     shifted["joints"][1]["theta"] = 0.4
@@ -99,6 +101,7 @@ def test_zeros_and_senses_are_found_where_asked_for(client: TestClient) -> None:
     assert free["signs"] == [1] * 6
 
 
+@pytest.mark.slow
 def test_the_first_difference_says_where_and_by_how_much(client: TestClient) -> None:
     content = ask(client, number(5, "d", 0.1))
     difference = content["first_difference"]
@@ -125,12 +128,14 @@ def test_the_shoulder_of_a_table_in_circulation(client: TestClient) -> None:
     assert any("d = 0.089159 instead of 0.089459" in note for note in absorbed["notes"])
 
 
+@pytest.mark.slow
 def test_three_tenths_of_a_millimetre_are_within_a_tolerance_of_one(client: TestClient) -> None:
     wrong = number(1, "d", 0.089459, base=HALF_TURN, tool=IDENTITY)
     assert ask(client, wrong, position_tolerance=1e-3)["equivalent"]
     assert not ask(client, wrong, position_tolerance=2e-4)["equivalent"]
 
 
+@pytest.mark.slow
 def test_degrees_and_the_other_convention(client: TestClient) -> None:
     degrees = deepcopy(table())
     for joint in degrees["joints"]:
@@ -169,6 +174,7 @@ def test_the_answers_poses_are_valid_requests(client: TestClient, pose_format: s
     assert again["found"] == []
 
 
+@pytest.mark.slow
 def test_a_tables_own_export_is_equivalent(client: TestClient) -> None:
     for robot in ("z1", "stanford", "kinova"):
         for convention in ("standard", "modified"):
@@ -199,6 +205,7 @@ def test_what_is_refused(client: TestClient, fields: dict[str, Any], status: int
     assert mention in answer.text
 
 
+@pytest.mark.slow
 def test_an_answer_takes_less_than_a_second(client: TestClient) -> None:
     """Also where nothing explains the table, and everything has been tried."""
     wrong = table("xarm7_dh")

@@ -343,6 +343,7 @@ def test_a_field_of_an_absolute_encoder_that_cannot_be_is_named(
     refuse(client, "encoder", body, field)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("call", EXAMPLES)
 def test_every_number_may_be_as_large_or_small_as_json_has_them(client: TestClient, call: str) -> None:
     """Whatever is put in the place of a number: an answer without NaN, or a refusal that says where."""

@@ -258,6 +258,7 @@ def test_ten_thousand_samples(client: TestClient) -> None:
     assert len(content["samples"]["positions"]) == 10_000
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("media_type", "begins"), [("image/svg+xml", b"<?xml"), ("image/png", b"\x89PNG")])
 def test_as_a_picture(client: TestClient, media_type: str, begins: bytes) -> None:
     answer = client.post(PATH, json=EXAMPLE_FLY_OVER, headers={"accept": media_type})

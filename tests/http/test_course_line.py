@@ -202,6 +202,7 @@ def test_refusals_name_the_field(client: TestClient, change: dict[str, Any], fie
     assert field in answer.json()["detail"] or field in str(answer.json().get("errors"))
 
 
+@pytest.mark.slow
 def test_the_picture(client: TestClient) -> None:
     answer = client.post(PATH, json=EXAMPLE_LINE, headers={"Accept": "image/png"})
     assert answer.content.startswith(b"\x89PNG")

@@ -200,6 +200,7 @@ def test_numbers_that_are_none(client: TestClient, name: str, number: str) -> No
     assert answer.status_code in {400, 422}, answer.text
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("size", [1e-300, 1e-17, 1e-9, 1.0, 1e6])
 @pytest.mark.parametrize("name", ["rpy", "zyz", "rotation_vector"])
 def test_angles_of_any_size_give_numbers(client: TestClient, name: str, size: float) -> None:

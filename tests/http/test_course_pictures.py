@@ -15,6 +15,7 @@ STATICS: dict[str, Any] = {"joint_positions": [[0.3, 0.8]], "wrenches": [[6.0, -
 COUNTS = {"space": "planar", "links": 4, "pairs": {"revolute": 4}}
 
 
+@pytest.mark.slow
 def test_the_list_names_pictures_that_are_there(client: TestClient) -> None:
     listed = CoursePictures.model_validate_json(client.get(PICTURES).content)
     assert [picture.name for picture in listed.pictures] == sorted({*TITLES, *CALCULATED})
@@ -29,6 +30,7 @@ def test_the_list_names_pictures_that_are_there(client: TestClient) -> None:
         assert answer.content.startswith(b"<?xml")
 
 
+@pytest.mark.slow
 def test_format_and_language(client: TestClient) -> None:
     path = f"{PICTURES}/kinematic-spaces"
     assert client.get(path, headers=PNG).content.startswith(b"\x89PNG")
@@ -45,6 +47,7 @@ def test_an_unknown_picture_is_answered_with_those_there_are(client: TestClient)
     assert client.get(f"{PICTURES}/joint-pairs", params={"language": "fr"}).status_code == 422
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["dc_motor", "pulse_width_modulation", "encoder", "count_mobility"])
 def test_calculators_draw_their_examples(client: TestClient, name: str) -> None:
     endpoint = next(one for one in BY_NAME.values() if one.id == name)

@@ -104,6 +104,7 @@ def test_a_call_that_is_none(client: TestClient, body: bytes) -> None:
     assert answer.status_code in {400, 422}
 
 
+@pytest.mark.slow
 def test_lengths_of_all_sizes_have_finite_answers(client: TestClient) -> None:
     rng = np.random.default_rng(5)
     for _ in range(200):
@@ -116,6 +117,7 @@ def test_lengths_of_all_sizes_have_finite_answers(client: TestClient) -> None:
         good(client, links=row[:3], point=row[3:])
 
 
+@pytest.mark.slow
 def test_the_documentation_says_what_other_solutions_miss(client: TestClient) -> None:
     text = json.dumps(client.get("/openapi.json").json()["paths"][PATH])
     assert "miss the disc" in text

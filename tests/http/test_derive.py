@@ -67,7 +67,7 @@ def test_the_anthropomorphic_arm(client: TestClient) -> None:
     assert answer["notes"] == []
 
 
-@pytest.mark.quick(3)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", swept(catalogue.TABLES))
 @pytest.mark.parametrize("options", [{}, {"notation": "full", "symbolic": False}], ids=str)
 def test_the_catalogue_by_its_text(client: TestClient, name: str, options: dict[str, Any]) -> None:
@@ -249,6 +249,7 @@ def row(kind: str, a: float, alpha: float, theta: float) -> dict[str, Any]:
     return {"type": kind, "a": a, "alpha": alpha, "d": 0, "theta": theta}
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("convention", "joints", "dynamics"),
     [
@@ -303,6 +304,7 @@ def test_a_row_that_follows_another_joint_is_refused(client: TestClient) -> None
     assert answer.json()["pointer"] == "#/dh/joints/2/mimic"
 
 
+@pytest.mark.slow
 def test_a_large_arm_is_answered_in_time_and_says_what_it_leaves_out(client: TestClient) -> None:
     row = {"type": "revolute", "a": 0.1, "alpha": 0.7, "d": 0.2, "theta": 0.3}
     started = time.monotonic()
@@ -358,6 +360,7 @@ def test_an_import_is_never_broken_off(tmp_path: Path, monkeypatch: pytest.Monke
     assert sys.modules["slow_to_load"].is_whole
 
 
+@pytest.mark.slow
 def test_a_textbook_arm_is_answered_well_within_a_second_once_warm(client: TestClient) -> None:
     dh = catalogue.dh_table("ur5_dh")
     posted(client, {"dh": dh})

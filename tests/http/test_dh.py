@@ -51,7 +51,7 @@ def urdf_poses(text: str, base: str, tip: str, names: list[str], qs: Array) -> A
     return UrdfProduct(text).poses(base, tip, dict(zip(names, qs.T, strict=True)))
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("convention", ["standard", "modified"])
 @pytest.mark.parametrize("seed", range(6))
 def test_to_urdf_from_urdf_and_back(client: TestClient, convention: str, seed: int) -> None:
@@ -127,6 +127,7 @@ def test_an_answer_is_a_request_and_loses_nothing(client: TestClient) -> None:
     assert same["certificate"]["max_position_error"] == 0.0
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("convention", ["standard", "modified"])
 @pytest.mark.parametrize("name", ["panda", "ur5", "baxter", "icub", "talos_full"])
 def test_a_robot_of_the_catalogue_as_a_table(client: TestClient, name: str, convention: str) -> None:
@@ -219,6 +220,7 @@ def refused(client: TestClient, call: str, body: dict[str, Any], status: int = 4
     return content
 
 
+@pytest.mark.quick(30)
 @pytest.mark.parametrize("case", REFUSED_DH, ids=lambda case: case.name)
 def test_a_table_that_is_none(client: TestClient, case: RefusedDh) -> None:
     for call, more in (("to-urdf", {"name": "arm"}), ("convert", {"convention": "modified"})):
@@ -234,6 +236,7 @@ def test_a_urdf_that_is_none(client: TestClient, case: Refused) -> None:
     assert answer.headers["content-type"] == "application/problem+json"
 
 
+@pytest.mark.quick(19)
 @pytest.mark.parametrize("case", [*VALID, *ODD], ids=lambda case: case.name)
 def test_an_odd_urdf_is_answered_or_refused_for_a_reason(client: TestClient, case: Odd | Valid) -> None:
     answer = client.post("/v1/dh/from-urdf", json={"urdf": case.text})

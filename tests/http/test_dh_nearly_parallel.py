@@ -57,7 +57,7 @@ def test_an_arm_whose_description_rounds_pi(client: TestClient) -> None:
     assert f"{answer['certificate']['max_position_error']:.2g} m" in first
 
 
-@pytest.mark.quick(20)
+@pytest.mark.quick(6)
 @pytest.mark.parametrize("seed", range(40))
 def test_a_table_is_readable_or_says_why_not(client: TestClient, seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -13,6 +13,7 @@ JSON = {"Accept": "application/json"}
 PATH = "/v1/dh/picture"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("method", ["GET", "POST"])
 @pytest.mark.parametrize(
     ("accept", "begins"), [("*/*", b"<?xml"), ("image/png", b"\x89PNG"), ("text/html,*/*;q=0.8", b"<?xml")]
@@ -24,6 +25,7 @@ def test_it_is_a_picture_in_either_form(client: TestClient, method: str, accept:
     assert answer.content.startswith(begins)
 
 
+@pytest.mark.slow
 def test_the_lecture_s_picture_is_that_of_its_table(client: TestClient) -> None:
     for convention in ("standard", "modified"):
         drawn = client.get(PATH, params={"convention": convention}).content

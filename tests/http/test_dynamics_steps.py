@@ -26,6 +26,7 @@ def titled(answer: dict[str, Any]) -> dict[str, list[str]]:
     return {step["title"]: step["latex"] for step in answer["steps"][0]}
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("name", "options"), [("panda", LOAD), ("scara", PUSH), ("double_pendulum_simple", PUSH), ("so100", {})]
 )
@@ -51,6 +52,7 @@ def plain(symbol: str) -> str:
     return re.sub(r"\W", "", symbol).lower()
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["double_pendulum_simple", "asr_twodof", "planar_2r"])
 def test_a_short_planar_arm_moves_by_the_equations_in_symbols(client: TestClient, name: str) -> None:
     """Their symbols with the values beside them make the mass matrix and the gravity torques of the robot."""

@@ -86,6 +86,7 @@ def test_the_watch_sees_a_long_step(longest_step: Steps) -> None:
     assert longest_step(lambda: asyncio.run(hold_up())) >= 5e-3
 
 
+@pytest.mark.slow
 def test_every_example(client: TestClient, longest_step: Steps) -> None:
     steps = {}
     for path, method, operation in OPERATIONS:
@@ -101,6 +102,7 @@ def test_every_example(client: TestClient, longest_step: Steps) -> None:
     assert {name: seconds for name, seconds in steps.items() if seconds > LONGEST} == {}
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("path", "content"),
     [

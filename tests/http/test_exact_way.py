@@ -42,6 +42,7 @@ def two_links(u: float, _: Array) -> Array:
     return np.array([np.arctan2(y, x) - np.arctan2(np.sin(second), 1.0 + np.cos(second)), second])
 
 
+@pytest.mark.slow
 def test_the_lectures_scaling_of_a_line_is_that_of_the_exact_one(client: TestClient) -> None:
     """Two unit links, the cubic: k = 2.480316904599, from the accelerations."""
     upload(client, "two", [((1.0, 0.0, 0.0, 0.0), False)] * 2)
@@ -79,7 +80,7 @@ def random_start(table: Table, rng: np.random.Generator) -> Array | None:
     return None
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("kinds", ["RRRRRR", "PRRRRR", "RRPRRR"])
 @pytest.mark.parametrize("arms", [2, pytest.param(10, marks=pytest.mark.slow)])
 def test_peaks_differ_from_those_of_the_exact_way_by_no_more_than_is_stated(

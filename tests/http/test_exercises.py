@@ -29,7 +29,7 @@ def test_all_exercises_are_listed_by_lectures(client: TestClient) -> None:
     assert lectures[0] == "mobility"
 
 
-@pytest.mark.quick(13)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("exercise", list(exercises()))
 def test_a_variant_is_drawn_solved_and_graded(client: TestClient, exercise: str) -> None:
     drawn = post(client, f"{PATH}/{exercise}", seed=3)

@@ -53,6 +53,7 @@ def test_an_upload_is_taken_with_warnings_or_strictly_refused(own: TestClient, u
         assert own.delete("/v1/robots/faulty").status_code == 204
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("urdf", FORGIVEN.values(), ids=FORGIVEN)
 def test_a_table_of_a_faulty_urdf(client: TestClient, urdf: str) -> None:
     answer = client.post("/v1/dh/from-urdf", json={"urdf": urdf})

@@ -37,6 +37,7 @@ def listed(client: TestClient, name: str, joint: str, value: float, count: int, 
     return found, whole
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("name", "joint", "value"),
     [("panda", "panda_joint7", 0.6), ("panda", "panda_joint1", -0.3), ("xarm7", "joint7", 0.6)],

@@ -48,6 +48,7 @@ def test_its_address_without_a_slash_leads_to_the_folder_that_its_links_count_fr
     assert (answer.status, answer.header("location")) == (307, "handbook/")
 
 
+@pytest.mark.quick(1)
 @pytest.mark.usefixtures("folder")
 @pytest.mark.parametrize("path", ["nothing.html", "course", "course/", "../secret.html", "course/../../secret.html"])
 def test_what_is_not_among_the_pages_is_a_problem(path: str) -> None:

@@ -80,7 +80,7 @@ def check(client: TestClient, calls: Iterable[Call]) -> None:
     assert not found, "\n".join(found)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "path", "example"), JSON_OPERATIONS, ids=[f"{method} {path}" for method, path, _ in JSON_OPERATIONS]
 )
@@ -120,7 +120,7 @@ def test_an_array_that_is_none(client: TestClient, case: RefusedNpy) -> None:
     check(client, [call])
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "operation", ["jacobian", "ik", "statics", "dynamics", "manipulability", "velocity", "singularities", "collisions"]
 )
@@ -151,6 +151,7 @@ def test_an_archive_that_is_no_robot(client: TestClient, case: RefusedZip) -> No
     assert not kept
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("case", ODD_ZIPS, ids=lambda case: case.name)
 def test_an_odd_archive_is_a_robot(client: TestClient, case: OddZip) -> None:
     answer = client.post("/v1/robots", data={"name": "odd_archive"}, files={"archive": ("robot.zip", case.make())})

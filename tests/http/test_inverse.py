@@ -63,6 +63,7 @@ def planar(x: float, y: float) -> dict[str, Any]:
     return {"position": [x, y, 0.0], "quaternion_xyzw": IDENTITY}
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["panda", "ur5", "puma560", "tiago", "scara", "stanford", "baxter"])
 def test_what_is_reached_is_what_was_asked_for(client: TestClient, name: str) -> None:
     targets = poses(client, name, within(name, 40))
@@ -232,6 +233,7 @@ def test_five_joints_say_which_directions_they_cannot_serve(client: TestClient) 
     assert result(client, "so100", target, task=["x", "y", "z"])["status"] == "solved"
 
 
+@pytest.mark.slow
 def test_a_budget_that_is_too_small_says_so(client: TestClient) -> None:
     targets = poses(client, "panda", within("panda", 60))
     short = ik(client, "panda", targets=targets, max_iterations=1)["results"]
@@ -244,6 +246,7 @@ def test_a_budget_that_is_too_small_says_so(client: TestClient) -> None:
     assert all(entry["stop_reason"] == "time_limit" for entry in timed if entry["status"] == "not_converged")
 
 
+@pytest.mark.slow
 def test_a_long_trace_is_told_evenly_thinned(client: TestClient) -> None:
     """From the first configuration to the last, in an answer of bounded size; a short one is told as a whole."""
     call = {"method": "gradient", "step_size": 1e-3, "seeds": [[0.1, 0.2]], "trace": True, "position_tolerance": 1e-12}

@@ -123,6 +123,7 @@ def test_a_stream_tells_of_a_job_to_its_end(client: TestClient) -> None:
     assert client.get(f"{location}/events", headers=last).status_code == 204
 
 
+@pytest.mark.slow
 def test_a_stream_keeps_alive_and_ends_when_its_job_is_cancelled(
     client: TestClient, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -226,6 +227,7 @@ def test_unknown_jobs(client: TestClient, method: str, name: str) -> None:
             assert client.get(f"/v1/jobs/{name}/{part}").json()["type"] == "urn:gelenk:unknown-job"
 
 
+@pytest.mark.slow
 def test_a_failed_job_answers_with_its_problem(tmp_path: Path) -> None:
     with TestClient(create_app(Settings(data_dir=tmp_path, job_processes=1, job_bytes=1000))) as client:
         location = posted(client, {"kind": "cloud", "samples": 1000})
@@ -237,6 +239,7 @@ def test_a_failed_job_answers_with_its_problem(tmp_path: Path) -> None:
         assert answer.json()["detail"].endswith("more than the 1000 allowed")
 
 
+@pytest.mark.slow
 def test_a_job_goes_on_after_the_end_of_the_service(tmp_path: Path) -> None:
     call = {"kind": "dexterity", "samples": 20_000, "voxel_size": 0.1, "orientations": 10, "job_id": "mine"}
     settings = Settings(data_dir=tmp_path, job_processes=1)

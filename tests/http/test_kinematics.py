@@ -319,6 +319,7 @@ def test_a_time_variation_needs_velocities(client: TestClient) -> None:
     assert "2 entries" in refusal(client, "/v1/robots/panda/jacobian", call, 422)["detail"]
 
 
+@pytest.mark.slow
 def test_an_answer_beyond_the_limit_is_refused_before_it_is_computed(client: TestClient) -> None:
     call = {"joint_positions": [[0.0] * 7] * 150_000, "frames": "all"}
     problem = refusal(client, "/v1/robots/panda/fk", call, 413)

@@ -95,7 +95,7 @@ def poses(client: TestClient, robot: str, count: int, joints: int, tip: str | No
     return Ts
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("robot", "joints", "options"),
     [
@@ -143,7 +143,7 @@ def told_poses(Ts: Array) -> list[dict[str, Any]]:
 POSTURE = [0.1, -0.4, 0.2, -1.9, 0.1, 1.5, 0.3]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("robot", "joints", "options"),
     [
@@ -254,6 +254,7 @@ def test_the_answer_does_not_depend_on_how_busy_the_machine_is(
         assert now.content == client.get(result).content
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("trace", [False, True])
 def test_a_solution_that_time_kept_from_its_objective_says_so(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, trace: bool
@@ -268,7 +269,7 @@ def test_a_solution_that_time_kept_from_its_objective_says_so(
     assert (result["status"], result["stop_reason"]) == ("solved", "time_limit")
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("path", ["workspace", "ik", "trajectory"])
 def test_a_job_and_its_result_say_for_which_version_of_a_robot(client: TestClient, path: str) -> None:
     """The digest of its description, as it was when the job was asked for; whatever stands under the name by now."""
@@ -332,6 +333,7 @@ def test_what_is_wrong_is_said_at_once(client: TestClient, path: str, call: dict
     assert answer.json().get("field") == field
 
 
+@pytest.mark.slow
 def test_a_job_may_have_more(client: TestClient) -> None:
     target = {"position": [0.3, 0.2, 0.4], "rpy": [0.0, 0.0, 0.0]}
     call = {"targets": [target] * 1001, "method": "newton", "max_iterations": 1}
@@ -347,6 +349,7 @@ def test_a_preference_that_cannot_be_met_is_left_aside(client: TestClient) -> No
     assert "preference-applied" not in answer.headers
 
 
+@pytest.mark.slow
 def test_a_job_is_kept_and_needs_the_scope_for_that(tmp_path: Path) -> None:
     keys = {scope: new_key(str(scope), [scope]) for scope in (Scope.READ, Scope.WRITE)}
     settings = Settings(data_dir=tmp_path, api_keys="\n".join(key.entry() for _, key in keys.values()))

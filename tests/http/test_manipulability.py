@@ -287,7 +287,7 @@ def test_a_long_header_is_read_in_no_time() -> None:
     assert time.process_time() - started < 0.1
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "start"), [(SVG, b"<?xml"), (PNG, b"\x89PNG")])
 @pytest.mark.parametrize(("robot", "q"), [("planar_2r", [0.3, 0.8]), ("panda", READY)])
 def test_pictures(client: TestClient, robot: str, q: list[float], kind: str, start: bytes) -> None:
@@ -318,6 +318,7 @@ def test_postures_of_a_planar_arm_are_drawn(client: TestClient) -> None:
     assert answer.content.startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_a_robot_with_names_that_are_no_latin_can_be_drawn(client: TestClient) -> None:
     urdf = (
         '<robot name="x"><link name="底座 $\\frac{$"/><link name="b"/><joint name="j" type="continuous">'
@@ -400,6 +401,7 @@ def test_extreme_numbers_never_leave_a_hole(client: TestClient) -> None:
         ask(client, **{"joint_positions": [READY], **fields})
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("lengths", [(1e-300, 1e-300), (1e6, 1e-6), (1e-90, 1e-90), (1e6, 1e6), (0.0, 0.0)])
 def test_arms_of_odd_lengths(client: TestClient, lengths: tuple[float, float]) -> None:
     row = {"type": "revolute", "alpha": 0.0, "d": 0.0, "theta": 0.0, "velocity": 1e18, "effort": 1e-18}

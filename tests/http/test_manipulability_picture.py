@@ -18,6 +18,7 @@ def drawn(client: TestClient, body: dict[str, Any], robot: str = "planar_2r") ->
     return answer.content
 
 
+@pytest.mark.slow
 def test_what_is_asked_for_changes_the_picture(client: TestClient) -> None:
     body = {"joint_positions": BENT}
     along = {"directions": [[1, 0, 0]]}
@@ -28,6 +29,7 @@ def test_what_is_asked_for_changes_the_picture(client: TestClient) -> None:
     assert drawn(client, {**body, **other}) != pictures[2]
 
 
+@pytest.mark.slow
 def test_limits_that_the_description_does_not_give_are_said_to_be_missing(client: TestClient) -> None:
     assert drawn(client, {"joint_positions": BENT, "polytopes": True}) != drawn(client, {"joint_positions": BENT})
 

@@ -109,6 +109,7 @@ def query_examples(field: dict[str, Any]) -> list[Any]:
     return found
 
 
+@pytest.mark.slow
 def test_what_the_schema_has_for_a_query_beside_an_array_can_stand_there(client: TestClient) -> None:
     """And beside JSON none is offered, and none taken."""
     schemas = document()["components"]["schemas"]
@@ -209,6 +210,7 @@ def test_a_page_and_what_it_loads_come_from_here_alone(client: TestClient, page:
             assert "@import" not in loaded.text
 
 
+@pytest.mark.slow
 def test_the_schema_names_no_host(client: TestClient) -> None:
     assert "://" not in client.get("/openapi.json").text
 

@@ -73,6 +73,7 @@ def test_each_key_has_its_own_room_and_a_restart_forgets_nothing(tmp_path: Path)
         assert not (tmp_path / "robots" / "anna3").exists()
 
 
+@pytest.mark.slow
 def test_without_keys_all_share_one_room_of_robots_and_bytes(tmp_path: Path) -> None:
     size = len(urdf().encode())
     with served(tmp_path, client_robots=3, client_robot_bytes=2 * size + 100) as client:
@@ -87,6 +88,7 @@ def names(client: TestClient) -> set[str]:
     return {robot["name"] for robot in client.get("/v1/robots").json()["robots"] if robot["source"] == "uploaded"}
 
 
+@pytest.mark.slow
 def test_the_list_is_that_of_the_folder_whoever_changes_it(tmp_path: Path) -> None:
     """Another process, of which a second library has the part, and the list's own, with the list kept between."""
     other = Library(CATALOGUE, tmp_path / "robots")

@@ -40,7 +40,7 @@ def test_the_list_holds_the_catalogue(client: TestClient) -> None:
     assert robots["scara"]["format"] == "dh"
 
 
-@pytest.mark.quick(9)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", CATALOGUE)
 def test_every_robot_of_the_catalogue_is_described_and_moves(client: TestClient, name: str) -> None:
     answer = client.get(f"/v1/robots/{name}")
@@ -238,6 +238,7 @@ def test_mesh_names_that_no_disk_takes_are_missing_and_nothing_more(own: TestCli
     assert own.get(f"/v1/robots/zipped/meshes/{'a' * 5000}.stl").status_code == 404
 
 
+@pytest.mark.slow
 def test_broken_folders_harm_nobody_else_and_say_what_is_wrong(tmp_path: Path) -> None:
     def folder(name: str, robot_json: object = None) -> Path:
         path = tmp_path / "robots" / name
@@ -316,6 +317,7 @@ def test_a_form_must_be_one(client: TestClient) -> None:
     assert client.post("/v1/robots", content=b"x", headers={"content-type": "text/plain"}).status_code == 415
 
 
+@pytest.mark.slow
 def test_a_folder_dropped_in_by_hand_is_a_robot(tmp_path: Path) -> None:
     for client in ready_client(tmp_path):
         folder = tmp_path / "robots" / "by_hand"

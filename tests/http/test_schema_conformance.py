@@ -78,6 +78,7 @@ def finished_job(client: TestClient) -> None:
         time.sleep(0.05)
 
 
+@pytest.mark.slow
 def test_the_schema_allows_its_own_examples() -> None:
     for operation in OPERATIONS:
         content = operation.definition.raw.get("requestBody", {}).get("content", {}).get("application/json")
@@ -87,13 +88,13 @@ def test_the_schema_allows_its_own_examples() -> None:
                 jsonschema_rs.validator_for(schema).validate(example)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("operation", OPERATIONS, ids=lambda operation: operation.label)
 def test_a_request_that_the_schema_allows(client: TestClient, operation: Any) -> None:
     assert try_out(client, operation, GenerationMode.POSITIVE, _FEW)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("operation", CHOOSY, ids=lambda operation: operation.label)
 def test_a_request_that_the_schema_forbids(client: TestClient, operation: Any) -> None:
     assert try_out(client, operation, GenerationMode.NEGATIVE, _FEW)

@@ -52,6 +52,7 @@ def test_a_bundle_and_questions_for_moodle(client: TestClient) -> None:
     assert fromstring(written(client, "application/xml").content).tag == "quiz"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="there is no Chromium: apt-get install chromium")
 @pytest.mark.parametrize(("content", "pages"), [("sheets", 2), ("solutions", 4)])
 def test_a_pdf(client: TestClient, content: str, pages: int) -> None:
@@ -61,6 +62,7 @@ def test_a_pdf(client: TestClient, content: str, pages: int) -> None:
     assert len(re.findall(rb"/Type /Page\b", answer.content)) == pages
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("program", "reason"),
     [(None, "there is no Chromium"), ("exit 3", "Chromium ended with 3"), ("sleep 60", "more than 1 s")],
@@ -143,6 +145,7 @@ def test_a_secret_is_made_once_and_for_nobody_else(tmp_path: Path) -> None:
         kept_secret(tmp_path / "file")
 
 
+@pytest.mark.slow
 def test_the_operators_secret_counts() -> None:
     with TestClient(application(course_secret=SECRET), base_url="http://127.0.0.1:8000") as client:
         assert written(client, secret=None).text == sheets_page(homework(*IDS))

@@ -273,7 +273,7 @@ def test_numbers_that_are_none(client: TestClient, text: str) -> None:
     assert answer.headers["content-type"] == "application/problem+json"
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("robot", ["ur5_dh", "panda", "scara", "stanford", "planar_3r"])
 def test_the_largest_numbers_give_numbers(client: TestClient, robot: str) -> None:
     names = ask(client, robot, joint_positions=[])["joint_names"]

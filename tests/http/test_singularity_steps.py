@@ -21,6 +21,7 @@ def worked(client: TestClient, name: str, q: list[float], **call: Any) -> dict[s
     return {step["title"]: step for step in steps}
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("name", "q", "task"),
     [

@@ -34,7 +34,7 @@ def ends(shape: dict[str, Any]) -> np.ndarray:
     return np.array([shape["pose"]["position"] - half, shape["pose"]["position"] + half])
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["panda", "ur5", "talos_left_arm", "xarm7", "so101", "icub"])
 @pytest.mark.parametrize("left", ["no visuals", "meshes without files"])
 def test_a_rod_leads_from_each_joint_to_the_next(own: TestClient, name: str, left: str) -> None:

@@ -220,7 +220,7 @@ def tried(client: TestClient, rng: np.random.Generator, one: Arm, law: str, kind
     return 200, f"{beyond}" if beyond and told["audit"]["passed"] else ""
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("law", "kind"), CASES)
 @pytest.mark.parametrize("motions", [1, pytest.param(6, marks=pytest.mark.slow)])
 def test_no_audit_passes_above_a_limit_that_the_request_states(
@@ -238,6 +238,7 @@ def test_no_audit_passes_above_a_limit_that_the_request_states(
     assert found.count(200) >= 0.3 * motions - 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("motions", [4, pytest.param(40, marks=pytest.mark.slow)])
 def test_no_audit_passes_above_a_stated_limit_past_waypoints(client: TestClient, motions: int) -> None:
     for number in range(motions):
@@ -246,7 +247,7 @@ def test_no_audit_passes_above_a_stated_limit_past_waypoints(client: TestClient,
         assert (status, beyond) == (200, ""), (number, one.name)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 def test_limits_of_a_line_that_is_not_reached_do_no_harm(client: TestClient, law: str) -> None:
     """The first of two blended lines leads out of reach; the second alone has a limit of the tip."""

@@ -43,7 +43,7 @@ def asked(client: TestClient, path: str, call: dict[str, Any]) -> dict[str, Any]
     return refusal
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("robot", "kind"), list(product(("planar_2r", "panda", "scara"), ("cloud", "grid", "dexterity")))
 )
@@ -63,6 +63,7 @@ def test_voxels(client: TestClient, robot: str, kind: str) -> None:
     assert refused or kind != "dexterity"
 
 
+@pytest.mark.slow
 def test_a_grid_of_a_millimetre_with_ten_million_samples(client: TestClient) -> None:
     call = {"kind": "grid", "samples": 10_000_000, "voxel_size": 0.001}
     refusal = asked(client, "panda/workspace", call)
@@ -70,6 +71,7 @@ def test_a_grid_of_a_millimetre_with_ten_million_samples(client: TestClient) -> 
     assert 5_000_000 < int(voxels.replace(",", "")) < 10_000_000
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("robot", "size"), [("planar_2r", 0.002), ("scara", 0.02), ("panda", 0.05)])
 def test_voxels_of_many_samples_are_foreseen(robot: str, size: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """From the first part of eight."""
@@ -82,6 +84,7 @@ def test_voxels_of_many_samples_are_foreseen(robot: str, size: float, monkeypatc
     assert 0.95 * counted <= foreseen <= 1.6 * counted
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("robot", "size"), [("panda", 0.015), ("scara", 0.006)])
 def test_a_fine_grid_for_which_there_is_room_is_taken(client: TestClient, robot: str, size: float) -> None:
     """Ten million samples fall into less than a million voxels each."""

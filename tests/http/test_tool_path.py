@@ -113,6 +113,7 @@ def test_what_is_not_allowed_beside_a_path_is_refused(client: TestClient, name: 
     refused(post_motion(client, start=AT, path={"poses": poses(client), **FREE}, **{name: value}), f"/{name}", "path")
 
 
+@pytest.mark.slow
 def test_numbers_that_are_none_and_other_arms_are_refused(client: TestClient) -> None:
     body = '{"path": {"poses": [{"position": [NaN, 0, 0], "rpy": [0, 0, 0]}], "free": []}}'
     headers = {"content-type": "application/json"}

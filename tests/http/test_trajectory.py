@@ -297,6 +297,7 @@ def test_out_of_reach_is_an_answer(client: TestClient, here: dict[str, Any]) -> 
     assert answer["segments"][2]["length"] == pytest.approx(2.0 * done, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_every_format_says_what_is_missing(client: TestClient) -> None:
     """Two links of 1 m and 0.7 m, bent by a right angle and drawn out along a line, reach 1.7 m."""
     away = {"type": "line", "target": {"position": [1.0, 3.7, 0.0], "rpy": [0.0, 0.0, 0.0]}}
@@ -314,6 +315,7 @@ def test_every_format_says_what_is_missing(client: TestClient) -> None:
     assert post(client, "planar_2r", PNG, **call).content.startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_a_way_that_cannot_be_begun_is_an_answer(client: TestClient) -> None:
     """The wrist is stretched: axes four and six coincide."""
     start = [0.1, -1.2, 1.4, -0.7, 0.0, 0.3]
@@ -328,6 +330,7 @@ def test_a_way_that_cannot_be_begun_is_an_answer(client: TestClient) -> None:
     assert post(client, "ur5_dh", PNG, **call).content.startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_nothing_at_all_is_an_answer(client: TestClient) -> None:
     answer = panda(client, {**JOINT, "target": READY})
     assert (answer["duration"], answer["times"], answer["joint_positions"]) == (0.0, [0.0], [READY])
@@ -350,7 +353,7 @@ def test_every_robot_moves_its_joints(client: TestClient, name: str) -> None:
         assert max(velocity, acceleration) == pytest.approx(1.0, abs=1e-6)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", [SVG, PNG])
 def test_pictures(client: TestClient, here: dict[str, Any], kind: str) -> None:
     line = {"type": "line", "target": moved(here, 0.1, 0.2)}

@@ -31,7 +31,7 @@ def shifted(pose: dict[str, Any], x: float, z: float = 0.0) -> dict[str, Any]:
     return {**pose, "position": [px + x, py, pz + z]}
 
 
-@pytest.mark.quick(8)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(("law", "place", "fallback"), list(product(LAWS, ("trajectory", "segment"), (False, True))))
 def test_being_slow_only_where_joints_must_is_the_time_optimal_law_or_refused(
     client: TestClient, law: str, place: str, fallback: bool
@@ -85,6 +85,7 @@ def test_a_note_on_jerk_names_a_ratio_above_one(client: TestClient, ratio: float
     assert all(f"reaches {words} its limit" in note for note in found)
 
 
+@pytest.mark.slow
 def test_a_spline_whose_tip_accelerates_most_beside_a_break_is_answered(client: TestClient) -> None:
     """Its acceleration along the tip peaks between the end of a piece and the sample before."""
     pose = tip(client)
@@ -108,7 +109,7 @@ def test_a_spline_whose_tip_accelerates_most_beside_a_break_is_answered(client: 
     assert answer.json()["audit"]["tip"]["acceleration"]["ratio"] <= 1.0 + 1e-6
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("law", LAWS)
 def test_a_line_may_be_as_short_as_it_likes(client: TestClient, law: str) -> None:
     pose = tip(client)
@@ -136,7 +137,7 @@ def test_ramps_may_be_as_short_as_they_like(client: TestClient, law: str, kind: 
     assert max(durations[1:]) <= durations[0] * (1.0 + 1e-5)
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("speeds", [(0.2, 0.05, 0.2), (0.05, 0.2, 0.1), (0.1, 0.1, 0.02), (None, 0.05, None)])
 def test_of_blended_lines_each_keeps_its_own_speed(

@@ -42,6 +42,7 @@ def places(problem: dict[str, Any]) -> list[str]:
     return [problem["pointer"]] if "pointer" in problem else [error["pointer"] for error in problem["errors"]]
 
 
+@pytest.mark.quick(19)
 @pytest.mark.parametrize(
     ("changes", "pointer", "words"),
     [

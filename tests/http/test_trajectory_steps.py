@@ -121,6 +121,7 @@ def test_other_laws_and_splines(client: TestClient, law: str) -> None:
         assert title in text
 
 
+@pytest.mark.slow
 def test_a_turn_on_the_spot_and_a_failure(client: TestClient) -> None:
     beyond = {"type": "line", "target": at(1.5, 1.2)}
     content, text = worked(client, "planar_2r", start=[0.3, 0.8], task=["x", "y"], segments=[beyond])

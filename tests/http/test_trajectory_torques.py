@@ -106,6 +106,7 @@ def test_a_given_duration_that_asks_for_more_is_refused(client: TestClient) -> N
     refused(client, "segments.0.duration", limits=limits, law="cubic", segments=[{**MOVE, "duration": least}])
 
 
+@pytest.mark.slow
 def test_moving_ends_take_longer_or_are_refused(client: TestClient) -> None:
     limits = {"joint_torque": {"panda_joint4": 26.0}}
     ends: dict[str, Any] = {"law": "quintic", "start_velocities": [0.1] * 7}

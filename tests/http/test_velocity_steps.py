@@ -59,6 +59,7 @@ def post(client: TestClient, operation: str, robot: str, **call: Any) -> dict[st
     return dict(answer.json())
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize(("operation", "robot", "call"), CALLS)
 def test_steps_come_beside_the_same_numbers_in_the_language_asked_for(
     client: TestClient, operation: str, robot: str, call: dict[str, Any]

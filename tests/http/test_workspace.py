@@ -109,6 +109,7 @@ def test_a_grid_counts_its_samples(client: TestClient) -> None:
     assert cells == {tuple(cell) for cell in np.rint(voxels[:, :3] / 0.1).astype(int).tolist()}
 
 
+@pytest.mark.slow
 def test_the_dexterity_of_three_planar_links(client: TestClient) -> None:
     """planar_3r has lengths 0.5, 0.4, 0.3: WS₂ is the disc to 0.2 and the ring from 0.4 to 0.6."""
     result = finished(client, {"kind": "dexterity", "samples": 5000, "orientations": 24}, "planar_3r")
@@ -139,7 +140,7 @@ def test_two_planar_links_cannot_be_dexterous(client: TestClient) -> None:
     assert dexterity["excluded"] in summary["notes"]
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("voxel_size", [None, 0.05])
 def test_the_dexterous_volume_of_a_scara_is_between_its_bounds(client: TestClient, voxel_size: float | None) -> None:
     """Its last joint turns all the way, so that it is all that its two links sweep, times the slide."""
@@ -174,6 +175,7 @@ def test_ranges_hold_joints_where_they_are_wanted(client: TestClient) -> None:
     assert (voxels[:, 5] <= 1.0 / 16).all(), "stretched out, each point is reached in one direction at most"
 
 
+@pytest.mark.slow
 def test_pictures(client: TestClient) -> None:
     plane = {"origin": [0.0, 0.0, 0.5], "normal": [0.0, 0.0, 2.0], "thickness": 0.1}
     for call in ({"samples": 20_000}, {"kind": "grid", "samples": 20_000, "plane": plane}):
@@ -241,6 +243,7 @@ def test_what_stands_beside_a_picture(client: TestClient, call: dict[str, Any], 
     assert ("voxel" in "".join(said)) == (summary["samples_counted"] > 0)
 
 
+@pytest.mark.quick(8)
 @pytest.mark.parametrize(
     ("call", "status", "pointer"),
     [
@@ -315,6 +318,7 @@ def test_a_large_body_is_not_parsed_beside_the_event_loop(client: TestClient) ->
     assert (answer.status_code, answer.json()["allowed"]) == (413, PARSED_HERE_BYTES)
 
 
+@pytest.mark.slow
 def test_the_service_writes_where_it_is_told(tmp_path: Path) -> None:
     with TestClient(create_app(Settings(data_dir=tmp_path, job_processes=1))) as client:
         assert not (tmp_path / "jobs").exists()
@@ -323,6 +327,7 @@ def test_the_service_writes_where_it_is_told(tmp_path: Path) -> None:
     wait_for(lambda: names_in(tmp_path / "jobs" / "mine") == ["result.json", "result.npy"], 20.0)
 
 
+@pytest.mark.slow
 def test_the_service_starts_with_a_damaged_table_of_jobs(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     folder = tmp_path / "jobs" / ".database"
     folder.mkdir(parents=True)

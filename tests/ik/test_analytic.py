@@ -15,6 +15,7 @@ from tests.ik.arms import PLANAR, catalogue_arm, draw, poses, table_arm
 HALF = np.pi / 2.0
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize("unreachable", range(10))
 @pytest.mark.parametrize("name", ["planar_2r", "puma560"])
 def test_unreachable_neighbours_take_no_solution_away(name: str, unreachable: int) -> None:

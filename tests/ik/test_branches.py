@@ -275,6 +275,7 @@ def test_a_double_solution_of_three_links_stands_once() -> None:
     assert np.diff(answer.firsts).tolist() == [1] * 30
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("seed", [0, 1])
 def test_a_stretched_elbow_halves_the_number_of_solutions(seed: int) -> None:
     machine, chain = table_arm(DECOUPLED)

@@ -136,7 +136,7 @@ def are_distinct(arm: Arm, qs: Array) -> bool:
 # Every branch, and the configuration that a target was made of.
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", CLASSES)
 def test_the_generating_configuration_is_among_the_branches(name: str) -> None:
     kind = CLASSES[name]
@@ -176,7 +176,7 @@ STANDARD_FULL = [
 ]
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", STANDARD_FULL)
 def test_nothing_is_missing_that_a_search_from_many_starts_finds(name: str) -> None:
     arm = CLASSES[name].arm(0)
@@ -195,7 +195,7 @@ def test_of_an_arm_that_positions_nothing_is_missing(name: str) -> None:
     assert counts.min() >= 1
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", LIMBS)
 def test_arms_of_the_catalogue(name: str) -> None:
     machine, chain = catalogue_arm(name)
@@ -392,7 +392,7 @@ def names(form: ClosedForm, table: BranchTable) -> list[tuple[tuple[str, str | i
     return [tuple(sorted(form.branch(int(code)).items())) for code in table.codes]
 
 
-@pytest.mark.quick(13)
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("name", CLASSES)
 def test_no_two_branches_of_a_target_have_the_same_name(name: str) -> None:
     kind = CLASSES[name]
@@ -465,6 +465,7 @@ def in_front_of_axis_2(arm: Arm, q: Array) -> bool:
     return bool(np.linalg.norm(frames[4][:2, 3]) > np.linalg.norm(frames[1][:2, 3]))
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["puma", "irb", "decoupled"])
 def test_the_elbow_that_is_up_is_higher(name: str) -> None:
     arm = Arm(*NAMED[name])
@@ -496,6 +497,7 @@ def test_the_wrist_flips_where_joint_5_is_negative(name: str) -> None:
         assert form.branch(int(code))["wrist"] == ("no_flip" if np.sin(q[4]) > 0.0 else "flip")
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["puma", "decoupled", "irb"])
 def test_in_front_the_first_joint_turns_towards_the_wrist(name: str) -> None:
     arm = Arm(*NAMED[name])
@@ -580,7 +582,7 @@ def test_near_a_singularity_the_configuration_is_found_again(name: str, where: s
     assert apart <= allowed, (apart, sigma, table.qs)
 
 
-@pytest.mark.quick(25)
+@pytest.mark.quick(11)
 @pytest.mark.parametrize("delta", DELTAS)
 @pytest.mark.parametrize("where", SINGULAR)
 @pytest.mark.parametrize("name", ["decoupled", "puma", "ur5"])
@@ -616,6 +618,7 @@ def test_closer_and_closer_to_axis_1_nothing_is_lost(delta: float) -> None:
         assert found_again(arm, table, q[None])[0] <= 1e-14 / sigma
 
 
+@pytest.mark.slow
 def test_an_arm_that_folds_its_wrist_onto_axis_2() -> None:
     """Both its links are of one length, so that where it folds two singularities come together."""
     parameters: list[Row] = [
@@ -742,7 +745,7 @@ def test_at_a_singularity_the_free_joint_is_named_and_keeps_the_seed(name: str, 
     assert answer.complete == [False]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["decoupled", "puma", "irb", "ur5", "stanford"])
 def test_many_targets_near_singularities_of_joint_5(name: str) -> None:
     arm = Arm(*NAMED[name])
@@ -759,6 +762,7 @@ def test_many_targets_near_singularities_of_joint_5(name: str) -> None:
         assert not table.free.any()
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["decoupled", "puma", "irb", "ur5"])
 def test_the_search_finds_no_more_at_a_singular_wrist(name: str) -> None:
     """At a straight wrist every arm posture must be there that a search finds, whatever joints 4 and 6 are."""
@@ -787,7 +791,7 @@ def test_a_free_joint_whose_seed_does_not_serve_is_put_elsewhere() -> None:
         assert np.abs(same_turn(of(answer)[:, 0] - q[0])).min() < 1e-6, turned
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["RRR and a skew wrist", "RRP and a skew wrist", "RPR and a skew wrist",
                                   "a skew shoulder and RRR", "parallel axes 2 3 4"])  # fmt: skip
 def test_near_a_root_that_is_double_both_are_found(name: str) -> None:
@@ -898,6 +902,7 @@ def test_a_target_of_the_seed_itself() -> None:
         np.testing.assert_allclose(answer.qs, qs, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_rim_of_what_can_be_reached_and_a_little_beyond() -> None:
     arm = Arm(DECOUPLED, "RRRRRR")
     q = near_singular("decoupled", "elbow", 0.0)
@@ -922,7 +927,7 @@ def test_the_rim_of_what_can_be_reached_and_a_little_beyond() -> None:
 # The same arm elsewhere, larger, smaller, and from other frames.
 
 
-@pytest.mark.quick(9)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("size", [1e-3, 1e-2, 1.0, 10.0, 100.0])
 @pytest.mark.parametrize("name", ["puma", "ur5", "stanford", "irb"])
 def test_arms_of_a_millimetre_and_of_a_hundred_metres(name: str, size: float) -> None:
@@ -941,6 +946,7 @@ def test_arms_of_a_millimetre_and_of_a_hundred_metres(name: str, size: float) ->
     assert (np.diff(table.firsts) == counts).all()
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["ur5", "z1", "kinova", "talos_left_arm"])
 def test_a_chain_up_the_tree(name: str) -> None:
     machine, down = catalogue_arm(name)
@@ -1047,7 +1053,7 @@ def drawn_tables(count: int) -> list[tuple[list[Row], str]]:
     return tables
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("part_of_them", range(4))
 def test_of_tables_drawn_at_random_what_is_reported_solved_is_solved(part_of_them: int) -> None:
     solved = 0

@@ -112,6 +112,7 @@ def test_so_many_as_are_asked_for_are_not_all() -> None:
     assert "requested number" in answer.doubts[0]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["xarm6", "general 1"])
 def test_a_count_proves_what_elimination_leaves_in_doubt(name: str) -> None:
     """Beside singularities, where two of its roots nearly meet."""

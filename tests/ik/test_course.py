@@ -183,6 +183,7 @@ def test_the_gradients_first_steps_are_the_transpose_of_the_jacobian(step_size: 
         q = q + step_size * J.T @ (TARGET.positions[0, :2] - p)
 
 
+@pytest.mark.slow
 def test_the_gradient_converges_below_its_bound_and_cycles_above() -> None:
     assert 1.2 < SIGMA_MAX_BOUND < 1.25
     answer, _ = followed("gradient", step_size=1.2)
@@ -197,6 +198,7 @@ def test_the_gradient_converges_below_its_bound_and_cycles_above() -> None:
     np.testing.assert_allclose(errors(path)[-2:], errors(path)[-4:-2], rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_gradient_wanders_with_too_long_steps() -> None:
     answer, path = followed("gradient", step_size=2.0)
     assert answer.statuses == ["not_converged"]
@@ -394,6 +396,7 @@ def test_the_ur5_has_eight_solutions() -> None:
         assert 1 + int((np.diff(values) > 1e-6).sum()) == count
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("method", "most"), [("newton", 100), ("gradient", 5000), ("damped_least_squares", 500)])
 def test_without_a_bound_a_method_has_its_own_number_of_iterations(method: StepMethod, most: int) -> None:
     _, path = followed(method, target=at(5.0, 0.0), step_size=1e-6, damping=1e3)

@@ -111,7 +111,7 @@ def told(arm: Arm, q: Array, answer: InverseKinematics, task: Task) -> list[tupl
     return [(" ".join(re.findall(r"\d", " ".join(family.free_joints))), family.relation) for family in families]
 
 
-@pytest.mark.quick(13)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("case", CASES)
 def test_where_infinitely_many_solutions_are_the_joints_that_move_are_told(case: str, seed: int) -> None:
@@ -124,6 +124,7 @@ def test_where_infinitely_many_solutions_are_the_joints_that_move_are_told(case:
     assert len(answer.qs) >= 5
 
 
+@pytest.mark.quick(9)
 @pytest.mark.parametrize("name", [name for name in CLASSES if not name.startswith(("spherical shoulder", "the same"))])
 def test_regular_targets_have_no_family(name: str) -> None:
     kind = CLASSES[name]
@@ -132,6 +133,7 @@ def test_regular_targets_have_no_family(name: str) -> None:
         assert not answered(arm, q, kind.task).families
 
 
+@pytest.mark.slow
 def test_a_singularity_from_which_nothing_goes_on_is_no_family() -> None:
     """Arms stretched out: the Jacobian is singular, and there is no second solution."""
     for lengths in ((0.4, 0.3), (0.4, 0.3, 0.2)):

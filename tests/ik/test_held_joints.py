@@ -44,7 +44,7 @@ def check(name: str, joint: int, value: float, count: int) -> tuple[int, int]:
     return int(lost.sum()), int((~doubtful).sum())
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("joint", range(7))
 @pytest.mark.parametrize("name", ["fr3", "gen3"])
 def test_every_branch_is_listed_whichever_joint_is_held(name: str, joint: int) -> None:

@@ -114,6 +114,7 @@ def test_the_shortest_rotation_brings_an_axis_onto_the_targets(axis: int, angle:
         np.testing.assert_allclose(Rotation.from_rotvec(w).as_matrix() @ R[:, axis], goal[:, axis], atol=1e-7)
 
 
+@pytest.mark.quick(4)
 @every_task
 def test_rows_of_the_jacobian_are_derivatives_of_the_pose(task: Task) -> None:
     targets = targets_near(QS, 1.1)

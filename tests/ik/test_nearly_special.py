@@ -16,7 +16,7 @@ def drawn(arm: Arm, each: int, seed: int) -> Array:
     return np.concatenate((arm.configurations(2 * each, seed), *beside))
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "off", "seed", "chosen"),
     [

@@ -101,7 +101,7 @@ def test_values_and_gradients_are_what_they_are_said_to_be(name: str, task: Task
     assert compared >= 3
 
 
-@pytest.mark.quick(11)
+@pytest.mark.quick(2)
 @every_objective
 @every_case
 def test_the_objective_falls_and_the_target_stays_reached(name: str, task: Task, objective: str) -> None:
@@ -138,6 +138,7 @@ def steepest(machine: RobotModel, chain: Chain, q: Array, task: Task, gradient: 
     return float(np.linalg.norm(solution.x))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("objective", ["posture", "mid_range", "limits"])
 @pytest.mark.parametrize("name", ["panda", "xarm7", "ur5, position", "scara, position"])
 def test_at_the_end_nothing_that_is_allowed_makes_it_smaller(name: str, objective: str) -> None:
@@ -238,6 +239,7 @@ def test_a_posture_is_needed_and_said_to_be() -> None:
         settle(problem(chain, poses(machine, chain, qs), qs, task=FULL_POSE), qs, Objective("posture"))
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "objective", [Objective("posture", np.full(6, 4.0)), Objective("manipulability")], ids=["posture", "manipulability"]
 )

@@ -94,6 +94,7 @@ def test_every_solution_is_one_and_no_two_are_the_same(arm: tuple[RobotModel, Ch
         assert (np.abs(answer.qs[:i] - answer.qs[i]).max(axis=1, initial=0.0) > 1e-4).all()
 
 
+@pytest.mark.slow
 @SETTINGS
 @given(
     arms(3, 6),
@@ -114,6 +115,7 @@ def test_a_batch_is_its_targets_one_by_one(arm: tuple[RobotModel, Chain], seed: 
         np.testing.assert_array_equal(alone.qs[0], together.qs[i])
 
 
+@pytest.mark.slow
 @SETTINGS
 @given(arms(1, 4), st.integers(0, 2**31))
 def test_turning_changes_no_pose(arm: tuple[RobotModel, Chain], seed: int) -> None:

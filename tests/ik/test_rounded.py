@@ -38,7 +38,7 @@ def beside(arm: Arm, count: int, seed: int, joint_5: float, off: float) -> Array
     return qs
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("digits", rounded_arms.DIGITS)
 @pytest.mark.parametrize("name", ["ur10e", *WITH_A_WRIST])
 @pytest.mark.parametrize("middle", [0.0, np.pi])
@@ -50,7 +50,7 @@ def test_beside_a_singular_wrist_both_of_its_solutions_are_found(name: str, digi
     assert from_seeds(arm, qs).max() < CLOSE
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("digits", rounded_arms.DIGITS)
 @pytest.mark.parametrize("name", ["ur10e", "puma", "scara and a wrist"])
 def test_a_complete_list_of_a_rounded_arm_has_the_configuration_that_made_its_target(

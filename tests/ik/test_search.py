@@ -115,7 +115,7 @@ def same(found: Found, other: Found, order: Sequence[int] | Indices | None = Non
 # The same whatever else is asked
 
 
-@pytest.mark.quick(19)
+@pytest.mark.quick(6)
 @every_chain
 @pytest.mark.parametrize("task", ["full", "position", "free about z", "free about x"])
 def test_an_answer_does_not_depend_on_its_batch(ends: tuple[str, str | None, str | None], task: str) -> None:
@@ -334,6 +334,7 @@ def test_every_kind_of_task_is_solved(name: str, task: Task) -> None:
         assert np.abs(turns[:, angular]).max(initial=0.0) < 1e-6
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("count", [*range(1, 11), 12, 15, 20])
 def test_chains_of_any_length(count: int) -> None:
     for seed in range(3):
@@ -488,6 +489,7 @@ def test_a_small_step_of_the_joints_is_answered_by_a_small_step(name: str) -> No
         assert far.sum() <= 5, f"{far.sum()} of 1000 are far at a step of {size}"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("arm", ["ur5", "irb", "decoupled", "panda"])
 def test_a_small_step_of_the_tip_is_answered_by_a_small_step(arm: str) -> None:
     tables = {"ur5": UR5, "irb": IRB, "decoupled": DECOUPLED}

@@ -176,6 +176,7 @@ def test_products_and_values_of_functions_of_a_joint() -> None:
         assert np.allclose([f[0], f[1], f[2] + f[3], f[4], f[5]], powers, atol=1e-13)
 
 
+@pytest.mark.slow
 def test_roots_of_random_quartics() -> None:
     counts = np.zeros(5, dtype=int)
     for coefficients in drawn(3000, 5, seed=8):

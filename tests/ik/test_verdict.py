@@ -268,6 +268,7 @@ def test_a_diverging_gradient_is_not_converged(types: str) -> None:
 # Half turns
 
 
+@pytest.mark.quick(8)
 @pytest.mark.parametrize("axis", [*np.eye(3), None], ids=["x", "y", "z", "random"])
 @pytest.mark.parametrize("name", ["spherical_wrist", "ur5", "panda", "puma560", "kinova"])
 def test_a_half_turn_away(name: str, axis: Array | None) -> None:
@@ -555,7 +556,7 @@ def test_the_reach_of_a_target_is_looked_at_a_few_times(monkeypatch: pytest.Monk
 # The trace
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("task", ["full", "position", "free about x", "free about y", "free about z", "in the plane"])
 @pytest.mark.parametrize("name", ["ur5", "panda", "so100", "kinova", "stanford"])
 def test_a_trace_ends_at_the_solution(name: str, task: str) -> None:

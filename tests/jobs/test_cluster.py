@@ -65,6 +65,7 @@ def ended(runner: Runner, job: JobRecord) -> JobRecord:
     return now
 
 
+@pytest.mark.slow
 def test_a_cluster_that_is_not_there_is_said_to_be_missing(tmp_path: Path) -> None:
     address = f"{HOST}:{free_port()}"
     reason = f"the Ray cluster at {address} cannot be reached: Connection refused"
@@ -84,6 +85,7 @@ def test_a_cluster_that_is_not_there_is_said_to_be_missing(tmp_path: Path) -> No
         assert client.delete(location).json()["state"] == "cancelled"
 
 
+@pytest.mark.slow
 def test_a_cluster_that_is_not_there_is_done_without_where_that_is_wanted(tmp_path: Path) -> None:
     settings = Settings(data_dir=tmp_path, ray_address=f"{HOST}:{free_port()}", ray_lost="local")
     with TestClient(create_app(settings)) as client:
@@ -125,6 +127,7 @@ class Scripted:
         """There is nothing to end."""
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("is_local", [False, True])
 def test_what_is_lost_waits_or_goes_on_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, is_local: bool) -> None:
     monkeypatch.setattr(runner_module, "_LOOK_FOR_LEFT", 0.05)

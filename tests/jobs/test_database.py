@@ -63,6 +63,7 @@ def test_progress_rewrites_no_file(store: JobStore, root: Path) -> None:
     assert files() == before
 
 
+@pytest.mark.slow
 def test_two_processes_update_at_once(store: JobStore, root: Path) -> None:
     """Each its own job many times, and both the end of the same jobs: they agree on who was first."""
     names = [f"job-{k}" for k in range(40)]
@@ -105,6 +106,7 @@ def test_threads_update_at_once(store: JobStore) -> None:
     assert {store.get(name).progress for name in names} == {1.0}
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("is_durable", [True, False])
 def test_a_kill_in_the_middle_of_a_transaction_changes_nothing(store: JobStore, root: Path, is_durable: bool) -> None:
     job, _ = store.add("workspace", "x", {}, "mine")
@@ -122,6 +124,7 @@ def test_a_kill_in_the_middle_of_a_transaction_changes_nothing(store: JobStore, 
     assert store.change("mine", progress=0.5).progress == 0.5
 
 
+@pytest.mark.slow
 def test_a_kill_leaves_what_was_acknowledged(root: Path, store: JobStore) -> None:
     code = "store.start(store.add('workspace', 'x', {'a': b'b'}, 'mine')[0]); os.kill(os.getpid(), signal.SIGKILL)"
     assert run(code, root).returncode == -signal.SIGKILL
@@ -266,6 +269,7 @@ allows_mounts = pytest.mark.skipif(
 )
 
 
+@pytest.mark.quick(1)
 @allows_mounts
 @pytest.mark.parametrize("end", ["store.close()", "os.kill(os.getpid(), 9)"], ids=["closed", "killed"])
 def test_a_read_only_folder_is_read(root: Path, store: JobStore, end: str) -> None:
@@ -283,6 +287,7 @@ def test_a_read_only_folder_is_read(root: Path, store: JobStore, end: str) -> No
     assert store.get("mine").progress == 0.0
 
 
+@pytest.mark.quick(1)
 @allows_mounts
 @pytest.mark.parametrize(
     "end", ["add()", "add(); store.close()", "os.fork() or (add(), os.kill(os.getpid(), 9)); os.wait()"]

@@ -83,6 +83,7 @@ def test_results_come_in_order_and_progress_only_grows(runner: Runner) -> None:
     assert any(0.0 < value < 1.0 for value in progress)
 
 
+@pytest.mark.slow
 def test_progress_is_written_a_few_times_a_second(runner: Runner, monkeypatch: pytest.MonkeyPatch) -> None:
     times = []
     change = runner.store.change
@@ -210,6 +211,7 @@ def test_a_job_that_fails_says_why_and_harms_no_other(
     caplog.clear()
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("times", [1, 2, 99])
 def test_a_part_that_is_killed_is_tried_again_and_named_in_the_end(runner: Runner, tmp_path: Path, times: int) -> None:
     values = [(str(tmp_path / f"{k}"), times if k == 2 else 0) for k in range(4)]
@@ -237,6 +239,7 @@ def test_a_job_that_takes_too_long_is_ended(tmp_path: Path) -> None:
         runner.close()
 
 
+@pytest.mark.slow
 def test_the_end_of_the_service_leaves_its_jobs_to_the_next_one(tmp_path: Path) -> None:
     runner = opened(tmp_path, running=1)
     first = submitted(runner, "sleep", [0.0, 0.0, 0.0, 0.0, 60.0])

@@ -77,6 +77,7 @@ def test_unknown_names(store: JobStore, name: str) -> None:
             ask(name)
 
 
+@pytest.mark.slow
 def test_another_process_sees_a_job_and_cancels_it(store: JobStore, tmp_path: Path) -> None:
     job, _ = store.add("workspace", "digest", {})
     code = (
@@ -104,6 +105,7 @@ TAKES = (
 )
 
 
+@pytest.mark.slow
 def test_a_job_whose_process_is_gone_waits_to_be_taken_up(store: JobStore, tmp_path: Path) -> None:
     root = tmp_path / "jobs"
     subprocess.run([sys.executable, "-c", LEAVES, str(root)], check=False)
@@ -306,6 +308,7 @@ def test_what_is_no_job_is_left_aside(store: JobStore, tmp_path: Path) -> None:
     assert store.states() == {"queued": 3}
 
 
+@pytest.mark.quick(14)
 @pytest.mark.parametrize("cls", CONCRETE, ids=lambda cls: cls.__name__)
 def test_a_failure_is_raised_again_as_it_was(store: JobStore, cls: type[errors.KinematicsError]) -> None:
     error = example(cls)

@@ -46,6 +46,7 @@ def test_nothing_runs_before_the_first_part_and_nothing_is_left_at_the_end() -> 
         pool.submit(double, 1, soon())
 
 
+@pytest.mark.slow
 def test_parts_are_shared_by_the_processes_that_stay_warm(workers: Workers) -> None:
     mine = soon()
     for future in [workers.submit(sleep, 0.3, mine) for _ in range(4)]:
@@ -60,6 +61,7 @@ def test_an_error_comes_back_as_it_was_raised(workers: Workers) -> None:
         workers.submit(fail, "no such thing", soon()).result(SOON)
 
 
+@pytest.mark.slow
 def test_a_part_whose_process_is_killed_is_tried_three_times(workers: Workers, tmp_path: Path) -> None:
     for times in (1, 2):
         assert workers.submit(killed, (str(tmp_path / f"{times}"), times), soon()).result(SOON) == 1
@@ -96,6 +98,7 @@ def test_what_hangs_is_killed_when_it_is_cancelled_and_nothing_else_is(workers: 
     assert sum(gone(pid) for pid in pids) == 1
 
 
+@pytest.mark.slow
 def test_what_is_cancelled_and_finishes_soon_costs_no_process(workers: Workers) -> None:
     for future in [workers.submit(sleep, 0.3, soon()) for _ in range(2)]:
         future.result(SOON)

@@ -82,7 +82,7 @@ def test_terms_of_chains_anywhere_are_those_of_lagrange(ends: Ends) -> None:
     check_lagrange(ends, coriolis=ends[1] == "panda_rightfinger")
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ur5", "scara", "finger_edu", "planar_3r"])
 def test_coriolis_torques_are_those_of_lagrange(name: str) -> None:
     check_lagrange((name, None, None), coriolis=True)
@@ -412,6 +412,7 @@ def test_a_wrong_number_is_never_sent(monkeypatch: pytest.MonkeyPatch) -> None:
                 )
 
 
+@pytest.mark.slow
 def test_mechanisms_are_kept_but_not_without_end() -> None:
     ur5, many = robot("ur5"), robot("tiago_dual")
     chain = ur5.chain(None, None)

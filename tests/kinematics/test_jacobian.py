@@ -67,6 +67,7 @@ def one(machine: RobotModel, chain: Chain, q: Array, kind: Kind, *, derivatives:
 # Against differences
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", swept(catalogue.NAMES))
 def test_geometric_jacobians_are_derivatives_of_poses(name: str) -> None:
     machine = robot(name)
@@ -78,6 +79,7 @@ def test_geometric_jacobians_are_derivatives_of_poses(name: str) -> None:
             assert np.abs(one(machine, chain, q, kind).values[0] - expected).max() < 1e-10, kind
 
 
+@pytest.mark.quick(3)
 @every_kind
 @every_chain
 def test_jacobians_of_every_kind_are_derivatives_of_poses(ends: Ends, kind: Kind) -> None:
@@ -153,6 +155,7 @@ def test_columns_of_the_textbook(name: str) -> None:
     assert answer.certificate.max_error < 1e-12
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("standard", [True, False], ids=["standard", "modified"])
 def test_columns_of_random_tables(standard: bool) -> None:
     rng = np.random.default_rng(8)

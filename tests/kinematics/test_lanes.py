@@ -46,6 +46,7 @@ EXPRESSIONS: dict[str, tuple[Any, Any]] = {
 }
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", EXPRESSIONS)
 def test_the_operators_agree_with_numpy(name: str) -> None:
     in_lanes, in_numpy = EXPRESSIONS[name]

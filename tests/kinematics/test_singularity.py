@@ -363,6 +363,7 @@ def test_a_motion_that_moves_the_tip_is_not_certified(part: str) -> None:
         certify_reports(machine, chain, FULL_SPACE, q[None], [wrong])
 
 
+@pytest.mark.quick(8)
 @pytest.mark.parametrize("name", swept(catalogue.NAMES))
 @pytest.mark.parametrize("reference", ["local_world_aligned", "local", "world"])
 def test_what_is_told_of_every_robot_is_what_pinocchios_jacobian_does(name: str, reference: Reference) -> None:
@@ -508,6 +509,7 @@ def test_the_distance_of_the_blackboards_arm_is_that_of_its_elbow() -> None:
         assert found.joints == (1,)
 
 
+@pytest.mark.slow
 def test_the_distance_of_the_anthropomorphic_arm_by_a_dense_search() -> None:
     """The elbow is at s₃ = 0; of the shoulder a₂c₂ + a₃c₂₃ = 0 gives q₃ for each q₂."""
     chain = default_chain("anthropomorphic")
@@ -580,7 +582,7 @@ def constrained_distance(chain: Chain, q: Array, starts: int, respect_limits: bo
     return float(np.sqrt(best))
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("respect_limits", [False, True])
 @pytest.mark.parametrize("name", ["panda", "xarm7", "puma560"])
 def test_the_distance_by_another_minimisation(name: str, respect_limits: bool) -> None:
@@ -597,6 +599,7 @@ def test_the_distance_by_another_minimisation(name: str, respect_limits: bool) -
 SQUARE = [("ur5", FULL_SPACE), ("puma", FULL_SPACE), ("decoupled", FULL_SPACE), ("anthropomorphic", POSITION)]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("name", "space"), SQUARE)
 def test_no_line_meets_a_singularity_inside_the_distance(name: str, space: TaskSpace) -> None:
     """On lines from the configuration the determinant keeps its sign up to there, and vanishes at the end of one."""
@@ -614,6 +617,7 @@ def test_no_line_meets_a_singularity_inside_the_distance(name: str, space: TaskS
         assert smallest(chain, found.q[None], space)[0] < 1e-11
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["panda", "baxter", "scara", "stanford", "so101", "tiago"])
 def test_what_is_found_is_singular_and_the_way_there_is_as_long_as_said(name: str) -> None:
     chain = default_chain(name)
@@ -676,6 +680,7 @@ def test_a_path_that_stays_singular_is_one_place() -> None:
     assert places(chain, [[0.0, 0.5], [1.0, 0.5]], PLANE) == ()
 
 
+@pytest.mark.slow
 def test_a_path_that_only_comes_near_has_its_lowest_place_there() -> None:
     """Against a scan of a hundred thousand places: as many minima, in the same places."""
     chain = default_chain("panda")

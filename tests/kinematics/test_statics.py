@@ -165,11 +165,13 @@ def test_a_frame_that_other_joints_move_is_where_they_are_at_zero(ends: Ends, fr
 # The weight
 
 
+@pytest.mark.quick(4)
 @every_robot
 def test_gravity_torques_are_the_slope_of_the_potential_energy(name: str) -> None:
     check_gravity((name, None, None))
 
 
+@pytest.mark.quick(1)
 @every_chain
 def test_gravity_torques_of_chains_anywhere(ends: Ends) -> None:
     check_gravity(ends)

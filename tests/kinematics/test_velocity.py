@@ -53,7 +53,7 @@ def test_derivatives_of_the_motion_are_those_of_poses(ends: Ends) -> None:
         assert np.abs(found[k][0] - expected[k]).max() < 1e-10 * max(1.0, (2.0 / reach) ** (k + 1)), k
 
 
-@pytest.mark.quick(4)
+@pytest.mark.slow
 @every_robot
 def test_derivatives_of_the_jacobian_are_those_of_jacobians_of_poses(ends: Ends) -> None:
     chain = chain_of(ends)[1]

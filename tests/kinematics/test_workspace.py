@@ -170,7 +170,7 @@ EXACT = [
 ]
 
 
-@pytest.mark.quick(6)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("machine", "exact"), EXACT, ids=range(len(EXACT)))
 @pytest.mark.parametrize("samples", [20_000, 300, 100_000])
 @pytest.mark.parametrize("sequence", ["random", "low_discrepancy"])
@@ -480,7 +480,7 @@ def dexterous(machine: RobotModel, over: Over, count: int, **wish: object) -> tu
     return centres, shares(machine, chain, centres, seeds, asked), asked.rotations
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("lengths", [[1.0, 0.7, 0.2], [1.0, 0.9, 0.5], [0.5, 0.5, 0.5], [1.0, 0.2, 0.3]], ids=str)
 def test_the_share_of_orientations_of_three_planar_links(lengths: list[float]) -> None:
     """Against the wrist's annulus; where all are reached, that is WS₂, its inner disc included."""
@@ -492,6 +492,7 @@ def test_the_share_of_orientations_of_three_planar_links(lengths: list[float]) -
     assert inside.any() == (lengths != [1.0, 0.2, 0.3])
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("over", ["rotations", "approach_directions"])
 def test_the_share_of_orientations_of_an_arm_with_a_wrist(over: Over) -> None:
     centres, found, Rs = dexterous(robot("anthropomorphic_wrist"), over, 12, samples=3000, voxel_size=0.41)

@@ -126,6 +126,7 @@ def test_a_prismatic_joint_is_a_box_and_its_offset_has_its_position() -> None:
     assert lengths == pytest.approx([0.387, 0.12, 0.05])
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ARMS)
 def test_no_name_covers_another_one_or_leaves_the_page(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     figure = drawn(monkeypatch, ARMS[name])
@@ -142,6 +143,7 @@ def test_no_name_covers_another_one_or_leaves_the_page(name: str, monkeypatch: p
     assert covered < 0.3
 
 
+@pytest.mark.slow
 def test_the_table_below_has_degrees_and_the_variables(monkeypatch: pytest.MonkeyPatch) -> None:
     texts = [text.get_text() for text in drawn(monkeypatch, ARMS["Stanford"]).texts]
     row = texts[texts.index("3") : texts.index("3") + 5]

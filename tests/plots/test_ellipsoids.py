@@ -242,6 +242,7 @@ def test_pictures_are_small_and_the_same_each_time(name: str, kind: PictureForma
         assert 800 <= height <= 1400
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", swept(catalogue.NAMES))
 def test_every_robot_can_be_drawn(name: str, figures: list[Figure]) -> None:
     """Also where all joints are zero, which is singular for many."""

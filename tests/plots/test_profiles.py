@@ -64,7 +64,7 @@ def test_a_jump_is_a_vertical_line() -> None:
     assert values[jumps[0] + 1, 0] == pytest.approx(0.0)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("joints", [1, 2, 7, 32])
 def test_any_number_of_joints_and_pieces(joints: int) -> None:
     rng = np.random.default_rng(joints)
@@ -80,7 +80,7 @@ def test_the_same_bytes_each_time() -> None:
     assert len(first) < 200_000
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [0.0, 1e-30, 1e6, 1e25])
 def test_sizes(size: float) -> None:
     c = np.zeros((1, 4, 1))

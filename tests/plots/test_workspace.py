@@ -25,7 +25,7 @@ def test_an_element_shows_the_largest_value_behind_it() -> None:
     assert np.isnan(image).sum() == 7
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("count", "dimensions", "columns"),
     [(0, 3, POINT_COLUMNS), (0, 2, DEXTERITY), (1, 3, DEXTERITY), (1, 2, POINT_COLUMNS), (2000, 3, POINT_COLUMNS)],

@@ -56,7 +56,7 @@ def polyline(dh: DhTable, q: Array) -> list[Array]:
     return [*points, dh.pose(q.tolist())[:3, 3]]
 
 
-@pytest.mark.quick(7)
+@pytest.mark.quick(1)
 @both_conventions
 @pytest.mark.parametrize("seed", range(12))
 def test_rods_lie_along_d_and_a_wherever_the_robot_moves(convention: Convention, seed: int) -> None:

@@ -37,7 +37,7 @@ def poses(machine: RobotModel, base: str, tip: str, count: int = 20) -> tuple[Po
     return Poses(*chain_poses(chain.flat, qs)), by_name(chain, qs)
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", TREES)
 def test_chains_between_any_two_frames(name: str) -> None:
     machine, product = robot(name), UrdfProduct(catalogue.urdf_text(name))

@@ -157,7 +157,7 @@ def poses_are_sane(text: str) -> bool:
     return True
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["double_pendulum", "panda", "so101", "talos_left_arm", "xarm7", "z1"])
 def test_mutations_are_refused_or_robots(name: str) -> None:
     text, rng = catalogue.urdf_text(name), np.random.default_rng(7)

@@ -119,7 +119,7 @@ def cases() -> Iterator[tuple[str, str]]:
             yield fault, str(name)
 
 
-@pytest.mark.quick(20)
+@pytest.mark.quick(6)
 @pytest.mark.parametrize(("fault", "name"), list(cases()))
 def test_a_fault_that_kinematics_does_not_feel_is_a_warning(fault: str, name: str) -> None:
     rng = np.random.default_rng([len(fault), len(name)])

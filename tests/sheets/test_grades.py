@@ -32,11 +32,13 @@ def test_the_key_earns_all_points() -> None:
     assert {grade["participant"] for grade in grades} == {"Ada", "'@home", "'=1+1", "Müller; Öz"}
 
 
+@pytest.mark.slow
 def test_another_secret_earns_little() -> None:
     grades = read(grades_table(key_table(homework()), "some other phrase"))
     assert sum(float(grade["points"]) for grade in grades) < 0.7 * sum(float(grade["max_points"]) for grade in grades)
 
 
+@pytest.mark.slow
 def test_mistakes_have_their_names() -> None:
     """Those of the grades of one variant, in the current language."""
     one, rows, expected = homework(), [], {}

@@ -64,6 +64,7 @@ def test_each_participant_has_a_sheet_with_all_exercises_and_no_solution() -> No
             assert not {step.text for step in variant.exercise.steps(variant.numbers)} & set(found.texts)
 
 
+@pytest.mark.slow
 def test_the_booklet_has_every_answer_and_every_step() -> None:
     one = homework()
     found = Reader(booklet_page(one))

@@ -85,6 +85,7 @@ FILES = st.sampled_from(["x.stl", "y.obj", "y.mtl", "z.png", "x.STL", "notes.txt
 TREES = st.lists(st.tuples(st.lists(NAMES, max_size=MAX_FOLDERS + 3), FILES), max_size=40)
 
 
+@pytest.mark.slow
 @given(tree=TREES, used=st.integers(0, 40), data=st.data())
 @pytest.mark.filterwarnings("ignore:Duplicate name")
 @settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])

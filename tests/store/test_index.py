@@ -40,6 +40,7 @@ def edit(folder: Path, description: str) -> None:
     file.write_text(json.dumps(content | {"description": description}))
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("seed", range(6))
 def test_the_list_is_what_the_folders_are_whatever_happens_to_the_index(
     seed: int, new: Callable[[], Library], tmp_path: Path

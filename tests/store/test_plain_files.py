@@ -93,7 +93,7 @@ def template(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return data
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_nothing_waits_for_what_is_no_file(template: Path, tmp_path: Path, kind: str) -> None:
     files = sorted(path.relative_to(template) for path in template.rglob("*") if path.is_file())

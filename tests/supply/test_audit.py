@@ -46,6 +46,7 @@ def run(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> None:
     audit.main()
 
 
+@pytest.mark.slow
 def test_nothing_known(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], lock: Path, folder: Path
 ) -> None:
@@ -55,7 +56,7 @@ def test_nothing_known(
     assert capsys.readouterr().out.splitlines() == told
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("arguments", [[], ["--if-reachable"]])
 def test_a_vulnerability_fails_with_the_version_that_mends_it(
     monkeypatch: pytest.MonkeyPatch,

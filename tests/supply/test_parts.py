@@ -101,6 +101,7 @@ def test_the_bill_of_materials_is_valid_and_holds_each_part() -> None:
     assert "timestamp" not in content["metadata"]
 
 
+@pytest.mark.slow
 def test_the_bill_of_materials_is_the_same_each_time_and_another_for_another_lock(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

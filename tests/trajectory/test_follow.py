@@ -137,7 +137,7 @@ ARMS: list[tuple[str, Task]] = [
 ]
 
 
-@pytest.mark.quick(11)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize(("name", "task"), ARMS)
 def test_the_tip_stays_on_the_way_between_knots(name: str, task: Task, kind: str) -> None:

@@ -70,6 +70,7 @@ def go(path: Path, q: Array, near: NearSingularity = "stop", least: float = 0.01
 # Out of reach
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("begin", "end", "radius"),
     [((1.2, 0.3), (1.9, 0.9), L1 + L2), ((0.9, 0.2), (-0.9, 0.1), L1 - L2)],
@@ -305,6 +306,7 @@ def test_damped_joints_go_on_smoothly() -> None:
         assert jumps.max() <= 1e-6 * (1.0 + np.abs(one.at(knots)).max())
 
 
+@pytest.mark.slow
 def test_damped_joints_go_around_what_is_out_of_reach() -> None:
     """A line through the hole around the base: the tip goes along its edge, and returns to the line."""
     arm = of_table(rows("standard", [(L1, 0.0, 0.0, 0.0), (L2, 0.0, 0.0, 0.0)], "RR"))

@@ -28,6 +28,7 @@ def field_along(name: str, kind: str, size: float, seed: int) -> tuple[RateField
     return RateField(chain, path, FULL_POSE, tolerances, following.min_singular_value), q
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", ["panda", "ur5"])
 def test_it_is_the_path_traced_from_knot_to_knot(name: str, kind: str) -> None:

@@ -66,7 +66,7 @@ def by_ruckig(start: Array, end: Array, most: Array, shares: Array) -> tuple[flo
     return found.duration, np.array([found.at_time(share * found.duration)[0] for share in shares])
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("is_moving", [False, True])
 def test_it_ends_where_it_should_keeps_the_limits_and_is_smooth(is_moving: bool) -> None:
     for seed in range(200):

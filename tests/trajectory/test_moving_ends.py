@@ -129,6 +129,7 @@ def test_a_motion_planned_again_to_its_target_is_the_rest_of_itself(share: float
     assert again.duration == pytest.approx(whole.duration - time, abs=1e-7)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("law", "count"), [*RATES, ("trapezoidal", 0)])
 @pytest.mark.parametrize("former", ["quintic", "jerk_limited", "cubic"])
 def test_there_is_no_jump_out_of_a_running_motion(law: Law, count: int, former: Law) -> None:

@@ -110,6 +110,7 @@ def test_derivatives_by_differences(kind: str) -> None:
     np.testing.assert_allclose(at.second, (after.first - before.first) / (2.0 * step), atol=1e-4 * bend * scale)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_parameter_is_the_arc_length(kind: str) -> None:
     """The chords of many small steps add up to it, and the tangent has length one."""

@@ -127,7 +127,7 @@ def rival(times: Array, q: Array, boundary: Boundary, given: EndRates) -> CubicS
     return CubicSpline(times, q, bc_type=conditions)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("boundary", BOUNDARIES[:4])
 def test_a_thousand_random_splines_are_those_of_scipy(boundary: Boundary) -> None:
     rng = np.random.default_rng(BOUNDARIES.index(boundary))
@@ -140,6 +140,7 @@ def test_a_thousand_random_splines_are_those_of_scipy(boundary: Boundary) -> Non
         assert np.abs(found.motion.at(times) - q).max() < 1e-9
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_each_boundary_keeps_what_it_promises(boundary: Boundary) -> None:
     rng = np.random.default_rng(42)

@@ -212,6 +212,7 @@ def test_one_of_seven_joints_is_held_where_the_others_travel_least() -> None:
         assert _least_travel(poses, found.turn.places, "panda", {name: float(value)}) >= least - 1e-9
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("axis", [X, Z])
 def test_seven_joints_lead_the_tool_as_they_were_chosen(axis: Array) -> None:
     found = planned(seam(5, q=PANDA, name="panda"), axis, PANDA if axis is Z else None, name="panda")

@@ -35,6 +35,7 @@ def test_each_of_a_few_points_is_a_sphere() -> None:
     np.testing.assert_allclose([body.T_link_body[:3, 3] for body in bodies], points @ T[:3, :3].T + T[:3, 3])
 
 
+@pytest.mark.slow
 def test_many_points_are_in_boxes_that_reach_no_further_than_is_said() -> None:
     points = scan(40_000)
     bodies, excess = cloud_bodies("scan", "base", points, RADIUS, T)

@@ -185,6 +185,7 @@ for i in range(50):
     assert sorted(found) == sorted(f"{n}-{i}" for n in range(3) for i in range(50))
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("path", "headers", "status", "level"),
     [

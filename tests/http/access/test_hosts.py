@@ -47,7 +47,7 @@ def test_a_request_names_one_host(headers: list[tuple[bytes, bytes]]) -> None:
     assert (answer.status, answer.problem["type"]) == (400, "urn:gelenk:invalid-host")
 
 
-@pytest.mark.quick(7)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "host",
     [

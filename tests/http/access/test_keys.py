@@ -131,6 +131,7 @@ def test_keys_are_made_used_and_taken_away(
     assert status(otto) == 200
 
 
+@pytest.mark.slow
 def test_a_key_that_was_taken_away_opens_nothing_after_a_quiet_time(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -184,6 +185,7 @@ def test_a_name_is_given_once_and_a_foreign_file_left_alone(
     assert notes.read_text() == "dear diary"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "authorization",
     [

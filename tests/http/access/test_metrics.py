@@ -69,6 +69,7 @@ def test_calls_are_counted_with_their_batches_and_times(client: TestClient) -> N
     assert more("answers_total", operation="forward_kinematics", status="422") == 1
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("count", [1, 200])
 def test_the_solve_rate_is_that_of_the_answers(client: TestClient, count: int) -> None:
     """A few targets are solved on the event loop, many by the pool."""
@@ -107,6 +108,7 @@ def test_what_is_under_way_is_told(client: TestClient) -> None:
     assert sum(number(found, "jobs", state=state) for state in ("queued", "running", "succeeded")) == 1
 
 
+@pytest.mark.slow
 def test_names_from_outside_cannot_multiply_the_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(metrics, "MOST_ROBOTS", 3)
     made = metrics.Metrics(["panda", "ur5"], WorkerPool(2, 1, 1), dict)

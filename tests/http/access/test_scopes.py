@@ -63,7 +63,7 @@ def asked(app: FastAPI, method: str, path: str, token: str | None) -> Answer:
     return ask(app, path, method, (HOST, *([] if token is None else [bearer(token)])))
 
 
-@pytest.mark.quick(18)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("method", "route"), ROUTES, ids=[f"{m} {r.path}" for m, r in ROUTES])
 def test_each_route_has_its_scope(method: str, route: RouteContext) -> None:
     path, scope = filled(route), expected(method, route.path or "")
@@ -158,6 +158,7 @@ def test_without_keys_nothing_needs_one() -> None:
         assert asked(app, method, filled(route), None).status not in {401, 403}, route.path
 
 
+@pytest.mark.slow
 def test_the_schema_says_which_scope_an_operation_needs() -> None:
     with_keys, without = APP.openapi(), application().openapi()
     assert with_keys["components"]["securitySchemes"]["key"]["scheme"] == "bearer"

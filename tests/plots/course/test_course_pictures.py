@@ -116,7 +116,7 @@ PICTURES: dict[str, tuple[Callable[[], Figure], tuple[str, ...]]] = {
 }
 
 
-@pytest.mark.quick(9)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", PICTURES)
 def test_labels_are_there_and_apart(name: str) -> None:
     draw, labels = PICTURES[name]
@@ -129,7 +129,7 @@ def test_labels_are_there_and_apart(name: str) -> None:
     assert svg == as_bytes(draw(), "svg")
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", TITLES)
 def test_labels_are_apart_in_german_too(name: str) -> None:
     with language("de"):
@@ -138,6 +138,7 @@ def test_labels_are_apart_in_german_too(name: str) -> None:
     assert words(figure) != words(gallery_figure(name))
 
 
+@pytest.mark.slow
 def test_pixels() -> None:
     assert imread(BytesIO(as_bytes(gallery_figure("joint-pairs"), "png"))).std() > 0.01
 
@@ -161,7 +162,7 @@ def test_coincident_joints_of_any_number() -> None:
     assert not flaws(figure)
 
 
-@pytest.mark.quick(6)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("seed", range(40))
 def test_arms_of_any_posture(seed: int) -> None:
     """No label covers another one or a line, whatever the arm."""
