@@ -43,9 +43,19 @@ def localised(number: str) -> str:
     return number.replace(".", ",") if has_decimal_comma() else number
 
 
-def number_list(values: Iterable[float]) -> str:
+def number(value: float, form: str = ".4g") -> str:
+    """Return a number as text, with the decimal mark of the current language."""
+    return localised(format(value, form))
+
+
+def separator() -> str:
+    """Return what separates numbers in a list: behind decimal commas, a semicolon."""
+    return "; " if has_decimal_comma() else ", "
+
+
+def number_list(values: Iterable[float], form: str = "g") -> str:
     """Return numbers in a list, with six digits: 0.25, 1 or, behind decimal commas, 0,25; 1."""
-    return ("; " if has_decimal_comma() else ", ").join(localised(f"{value:g}") for value in values)
+    return separator().join(number(value, form) for value in values)
 
 
 class _CommaFormatter(Formatter):

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch, Polygon
 from matplotlib.patheffects import withStroke
 
+from gelenk.language import number, number_list, separator
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.dh_scene import DhScene, DrawnJoint, Kind, Stroke, dh_scene
@@ -208,7 +209,7 @@ def _write_head(figure: Figure, table: DhTable, q: Sequence[float]) -> None:
         "modified": _("Denavit-Hartenberg frames, modified convention"),
     }
     style.write(figure, 0.06, 1.0 - 0.19 / height, [titles[table.convention]], size=style.TITLE)
-    shown = ", ".join(f"{value:.4g}" for value in q[:12]) + (", …" if len(q) > 12 else "")
+    shown = number_list(q[:12], ".4g") + (separator() + "…") * (len(q) > 12)
     style.write(figure, 0.06, 1.0 - 0.46 / height, [f"q = ({shown})"], color=style.QUIET)
 
 
@@ -232,7 +233,7 @@ def _write_table(figure: Figure, table: DhTable) -> None:
 def _cells(table: DhTable) -> Iterator[tuple[str, ...]]:
     for i, row in enumerate(table.joints, start=1):
         numbers = (row.a, math.degrees(row.alpha), row.d, math.degrees(row.theta))
-        a, alpha, d, theta = (f"{round(number, 9) + 0.0:.6g}" for number in numbers)
+        a, alpha, d, theta = (number(round(value, 9) + 0.0, ".6g") for value in numbers)
         if row.type == "revolute":
             theta = _with_variable(i, theta)
         else:

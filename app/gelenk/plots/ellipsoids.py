@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from gelenk.kinematics.ellipsoids.limited_motion import LimitedMotion
 from gelenk.kinematics.ellipsoids.manipulability import Ellipsoids, is_within_task, space_of, transmission_ratios
+from gelenk.language import number, number_list
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.arm import arm_line
@@ -179,12 +180,12 @@ def _arrows(translation: Ellipsoids | None, quantities: Sequence[Quantity], over
         ratios = np.array(transmission_ratios(translation, directions, overlay.tolerance)).reshape(2, -1)
     arrows = []
     for i, direction in enumerate(directions):
-        words = f"({', '.join(f'{component + 0.0:.3g}' for component in np.round(direction, 9))}): "
+        words = f"({number_list(np.round(direction, 9) + 0.0, '.3g')}): "
         if not inside[i]:
             arrows.append(Arrow(i + 1, direction, (), words + _("not in the task")))
             continue
         values = ratios[:, i].tolist()
-        texts = [f"{value:.4g}" if np.isfinite(value) else _("unbounded") for value in values]
+        texts = [number(value) if np.isfinite(value) else _("unbounded") for value in values]
         reached = zip(quantities, values, strict=True)
         ends = tuple((one.color, value * one.scale) for one, value in reached if np.isfinite(value))
         arrows.append(Arrow(i + 1, direction, ends, f"{words}v {texts[0]}, F {texts[1]}"))

@@ -16,7 +16,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
+from matplotlib.ticker import ScalarFormatter
 
+from gelenk.language import has_decimal_comma
 from gelenk.robot.arrays import Array
 
 PictureFormat: TypeAlias = Literal["svg", "png"]
@@ -84,9 +86,22 @@ def light_axes(axes: Axes, x_label: str | None, y_label: str, *, size: float = T
         spine.set_color(QUIET)
         spine.set_linewidth(0.8)
     axes.tick_params(colors=QUIET, labelsize=size, length=3, width=0.8, labelbottom=x_label is not None)
+    decimal_marks(axes)
     if x_label is not None:
         axes.set_xlabel(x_label, fontproperties=font(), color=INK)
     axes.set_ylabel(y_label, fontproperties=font(), color=INK)
+
+
+def decimal_marks(axes: Axes) -> None:
+    """Write the numbers along axes with the decimal mark of the current language."""
+    if has_decimal_comma():
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_formatter(_DecimalCommas())
+
+
+class _DecimalCommas(ScalarFormatter):
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        return super().__call__(x, pos).replace(".", ",")
 
 
 def look_at(axes: Axes, middle: Array, half: Array) -> None:

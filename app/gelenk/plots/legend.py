@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from gelenk.kinematics.ellipsoids.manipulability import Ellipsoids
+from gelenk.language import number, separator
 from gelenk.language import translated as _
 from gelenk.plots.figure import INK, LINE, QUIET, TITLE, write
 from gelenk.plots.shadows import DOTTED, THIN, Arrow, Outline, Quantity
@@ -65,7 +66,8 @@ def legend(
 
 def _entry(quantity: Quantity) -> LegendRow:
     d = len(quantity.sizes)
-    ends = ", ".join(_("unbounded") if np.isinf(size) else f"{size:.{_DIGITS[d]}g}" for size in quantity.sizes)
+    sizes = (_("unbounded") if np.isinf(size) else number(size, f".{_DIGITS[d]}g") for size in quantity.sizes)
+    ends = separator().join(sizes)
     text = _("{name} {shape}, semi-axis {ends}" if d == 1 else "{name} {shape}, semi-axes {ends}")
     shape = text.format(name=quantity.name, shape=_(quantity.shape), ends=ends)
     lines = (shape, _scale(quantity.unit, quantity.scale))
@@ -95,8 +97,8 @@ def configuration_lines(chain: Chain, q: Array, width: float) -> list[str]:
     slides = {int(variable) for prismatic, variable in chain.flat.joints.tolist() if prismatic}
     units = ["m" if i in slides else "rad" for i in range(len(q))]
     mixed = len(set(units)) > 1
-    values = [f"{value:.4g} {unit}" if mixed else f"{value:.4g}" for value, unit in zip(q + 0.0, units, strict=True)]
-    text = f"q = ({', '.join(values)})" + ("" if mixed or not units else f" {units[0]}")
+    values = [number(value) + f" {unit}" * mixed for value, unit in zip(q + 0.0, units, strict=True)]
+    text = f"q = ({separator().join(values)})" + ("" if mixed or not units else f" {units[0]}")
     lines = textwrap.wrap(text, int((width - 0.8) / _CHARACTER))
     return lines if len(lines) <= _MOST_LINES else [*lines[: _MOST_LINES - 1], "…"]
 

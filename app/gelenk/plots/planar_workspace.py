@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Circle, Patch, Rectangle
 
 from gelenk.course.planar import Interval, PlanarWorkspace, orientations, posture, share
+from gelenk.language import number_list
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
 
@@ -32,7 +33,7 @@ def planar_workspace_picture(arm: PlanarWorkspace, point: Sequence[float] | None
     axes.plot(0.0, 0.0, marker="s", markersize=11, color=style.INK, zorder=3.5)
     if point is not None:
         _draw_arm(axes, arm, point)
-    lengths = ", ".join(f"{length:.4g}" for length in arm.links)
+    lengths = number_list(arm.links, ".4g")
     style.write(
         figure, 0.06, 0.975, [_("Planar arm with links of {lengths} m").format(lengths=lengths)], size=style.TITLE
     )

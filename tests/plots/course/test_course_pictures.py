@@ -1,5 +1,6 @@
 """The course's pictures: they show what they should, the same each time, and no text gets in the way of another."""
 
+import re
 from collections.abc import Callable
 from io import BytesIO
 from xml.etree import ElementTree
@@ -136,6 +137,14 @@ def test_labels_are_apart_in_german_too(name: str) -> None:
         figure = gallery_figure(name)
     assert not flaws(figure)
     assert words(figure) != words(gallery_figure(name))
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize("name", PICTURES)
+def test_a_german_picture_has_decimal_commas(name: str) -> None:
+    draw, _ = PICTURES[name]
+    with language("de"):
+        assert not re.search(r"\d\.\d", words(draw()))
 
 
 @pytest.mark.slow

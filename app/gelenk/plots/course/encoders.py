@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Wedge
 
 from gelenk.course.actuators.gray import Code, gray
+from gelenk.language import number
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.course.sketch import direction
@@ -69,7 +70,7 @@ def disc_figure(bits: int, code: Code = "gray", marked: Sequence[int] = ()) -> F
     style.write(figure, 0.04, 0.975, [title], size=style.TITLE)
     count = 1 << bits
     text = _("{count} positions of {angle}°; dark is 1, the highest digit is inside")
-    style.write(figure, 0.04, 0.925, [text.format(count=count, angle=f"{360.0 / count:.6g}")], color=style.QUIET)
+    style.write(figure, 0.04, 0.925, [text.format(count=count, angle=number(360.0 / count, ".6g"))], color=style.QUIET)
     axes = figure.add_axes((0.02, 0.02, 0.96, 0.86))
     axes.set_axis_off()
     axes.set_aspect("equal")

@@ -5,6 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from gelenk.course.actuators.dc_motor import Motor, operating_point, torque_speed_line
+from gelenk.language import number
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.course.sketch import Sketch, arc
@@ -76,7 +77,7 @@ def _draw_shaft(sketch: Sketch, start: float, y: float, motor: Motor | None, loa
 
 def _valued(symbol: str, value: float, unit: str, motor: Motor | None) -> str:
     """Return the symbol of a quantity, with its value if there is a motor."""
-    return f"${symbol}$" if motor is None else f"${symbol}$ = {value:.4g} {unit}".replace("-", "−")
+    return f"${symbol}$" if motor is None else f"${symbol}$ = {number(value)} {unit}".replace("-", "−")
 
 
 def _draw_line(axes: Axes, motor: Motor, voltage: float, load: float) -> None:
@@ -92,10 +93,10 @@ def _draw_line(axes: Axes, motor: Motor, voltage: float, load: float) -> None:
         axes.plot(x, y, "o", markersize=6.0, color=color, markeredgecolor=style.INK, zorder=4)
     axes.margins(x=0.05, y=0.12)
     texts = (
-        _("no load: {speed} rad/s").format(speed=f"{no_load:.4g}"),
-        _("stall: {torque} N m, {current} A").format(torque=f"{stall:.4g}", current=f"{line.stall_current:.4g}"),
+        _("no load: {speed} rad/s").format(speed=number(no_load)),
+        _("stall: {torque} N m, {current} A").format(torque=number(stall), current=number(line.stall_current)),
         _("at the load: {speed} rad/s, {current} A").format(
-            speed=f"{point.angular_velocity:.4g}", current=f"{point.current:.4g}"
+            speed=number(point.angular_velocity), current=number(point.current)
         ),
     )
     axes.set_title("   ·   ".join(texts), fontproperties=style.font(), color=style.INK, loc="left")

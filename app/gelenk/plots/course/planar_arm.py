@@ -7,6 +7,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 from matplotlib.figure import Figure
 
+from gelenk.language import number
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.course.sketch import DASHED, DOTTED, Sketch, arc, direction
@@ -120,16 +121,16 @@ def levers_figure(points: Array, force: Sequence[float], torques: Sequence[float
         ends = reach[[np.argmin(reach @ along), np.argmax(reach @ along)]]
         sketch.line(ends, color=style.FORCE, width=0.9, dashes=DOTTED)
         sketch.arrow(points[-1], head, color=style.FORCE, width=2.2)
-        sketch.label(rf"$F$ = {size:.4g} N", head, along, color=style.FORCE)
+        sketch.label(rf"$F$ = {number(size)} N", head, along, color=style.FORCE)
     for i, (joint, foot) in enumerate(zip(points[:-1], feet, strict=True)):
         unit = "N" if slides[i] else "N m"
-        torque = f"{torques[i]:.4g} {unit}".replace("-", "−")
+        torque = f"{number(torques[i])} {unit}".replace("-", "−")
         sketch.label(rf"$\tau_{{{i + 1}}}$ = {torque}", joint, joint - points[-1])
         lever = float(np.linalg.norm(foot - joint))
         if not slides[i] and lever > 1e-6 * length and size > 0.0:
             sketch.line([joint, foot], color=style.VELOCITY, dashes=DASHED)
             middle = (joint + foot) / 2.0
-            sketch.label(rf"$h_{{{i + 1}}}$ = {lever:.4g} m", middle, along, color=style.VELOCITY)
+            sketch.label(rf"$h_{{{i + 1}}}$ = {number(lever)} m", middle, along, color=style.VELOCITY)
     return sketch.figure()
 
 
@@ -188,5 +189,5 @@ def _named(letter: str, index: int, value: float, unit: str, values: bool) -> st
     name = rf"${letter}_{{{index + 1}}}$"
     if not values:
         return name
-    number = f"{np.degrees(value):.4g}°" if unit == "°" else f"{value:.4g} m"
-    return f"{name} = {number.replace('-', '−')}"
+    text = f"{number(np.degrees(value))}°" if unit == "°" else f"{number(value)} m"
+    return f"{name} = {text.replace('-', '−')}"

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from gelenk.course.actuators.pwm import Pulses
+from gelenk.language import number
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.robot.arrays import Array
@@ -38,8 +39,11 @@ def pulses_figure(pulses: Pulses, current: Sequence[float] | None = None, time_c
         low, high = current[:2]
         for value in (low, high):
             below.axhline(value, color=style.QUIET, linewidth=0.8, linestyle="--")
-        lines = [r"$i_{\mathrm{max}}$ = " + f"{high:.5g} A", r"$i_{\mathrm{min}}$ = " + f"{low:.5g} A",
-                 r"$\Delta i$ = " + f"{high - low:.4g} A"]  # fmt: skip
+        lines = [
+            r"$i_{\mathrm{max}}$ = " + f"{number(high, '.5g')} A",
+            r"$i_{\mathrm{min}}$ = " + f"{number(low, '.5g')} A",
+            r"$\Delta i$ = " + f"{number(high - low)} A",
+        ]
         _beside(figure, 0.34, lines, style.FORCE)
     return figure
 
@@ -58,17 +62,18 @@ def _draw_voltage(axes: Axes, figure: Figure, pulses: Pulses, period: float, lab
         axes.axhline(value, color=color, linewidth=1.2, linestyle=dashes)
     axes.set_xlim(0.0, _PERIODS * period)
     axes.margins(y=0.15)
-    lines = [r"$V_s$" + f" = {pulses.supply_voltage:.4g} V"]
+    lines = [r"$V_s$" + f" = {number(pulses.supply_voltage)} V"]
     _beside(figure, 0.8, lines, style.INK)
-    _beside(figure, 0.73, [r"$V_{\mathrm{avg}}$" + f" = {pulses.average_voltage:.4g} V"], style.VELOCITY)
-    _beside(figure, 0.66, [r"$V_{\mathrm{rms}}$" + f" = {pulses.rms_voltage:.4g} V"], style.FORCE)
+    _beside(figure, 0.73, [r"$V_{\mathrm{avg}}$" + f" = {number(pulses.average_voltage)} V"], style.VELOCITY)
+    _beside(figure, 0.66, [r"$V_{\mathrm{rms}}$" + f" = {number(pulses.rms_voltage)} V"], style.FORCE)
 
 
 def _write_head(figure: Figure, pulses: Pulses, scale: float, unit: str) -> None:
-    title = _("Pulse width modulation with D = {duty}").format(duty=f"{pulses.duty:.4g}")
+    title = _("Pulse width modulation with D = {duty}").format(duty=number(pulses.duty))
     style.write(figure, 0.03, 0.97, [title], size=style.TITLE)
     times = (1.0 / pulses.frequency / scale, pulses.on_time / scale, pulses.off_time / scale)
-    text = "T = {:.4g} {unit},  t_on = D T = {:.4g} {unit},  t_off = {:.4g} {unit}".format(*times, unit=unit)
+    period, on, off = (f"{number(time)} {unit}" for time in times)
+    text = f"T = {period},  t_on = D T = {on},  t_off = {off}"
     style.write(figure, 0.03, 0.97 - 0.25 / figure.get_figheight(), [text], color=style.QUIET)
 
 

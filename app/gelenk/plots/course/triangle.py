@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Polygon
 
 from gelenk.course.triangle.triangle import ANGLES, SIDES, SolvedTriangle, Triangle
+from gelenk.language import number, separator
 from gelenk.plots import figure as style
 from gelenk.robot.arrays import Array
 
@@ -30,9 +31,9 @@ def triangle_picture(found: SolvedTriangle, kind: style.PictureFormat) -> bytes:
         axes.set_axis_off()
         axes.set_aspect("equal", adjustable="box")
         _draw(axes, triangle, found.given, size)
-        sides = ", ".join(f"{name} = {side:.4g} m" for name, side in zip(SIDES, triangle.sides, strict=True))
+        sides = separator().join(f"{name} = {number(side)} m" for name, side in zip(SIDES, triangle.sides, strict=True))
         degrees = (math.degrees(angle) for angle in triangle.angles)
-        angles = ", ".join(f"{sign} = {angle:.4g}°" for sign, angle in zip(_SIGNS, degrees, strict=True))
+        angles = separator().join(f"{sign} = {number(angle)}°" for sign, angle in zip(_SIGNS, degrees, strict=True))
         style.write(figure, (k + 0.08) / count, 0.19, [sides, angles])
     return style.as_bytes(figure, kind)
 

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from gelenk.language import number
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.profiles import curve, time_axes
@@ -48,7 +49,7 @@ def _mark(axes: Axes, law: PiecewisePolynomial, *, is_named: bool) -> None:
         if is_named and time - shown > _ROOM * law.duration:
             shown = time
             axes.text(
-                time, 1.02, f"{time:.4g}", transform=axes.get_xaxis_transform(), ha="center", va="bottom", **_words()
+                time, 1.02, number(time), transform=axes.get_xaxis_transform(), ha="center", va="bottom", **_words()
             )
 
 

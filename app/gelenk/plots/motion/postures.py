@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from gelenk.kinematics.ellipsoids.manipulability import Ellipsoids
+from gelenk.language import number
 from gelenk.language import translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.arm import arm_line
@@ -51,7 +52,7 @@ def postures_picture(name: str, chain: Chain, qs: Array, translation: Ellipsoids
     title = _("{name}: {count} configurations").format(name=style.plain(name), count=len(qs))
     style.write(figure, 0.06, 0.975, [title], size=style.TITLE)
     measures = translation.measures
-    numbers = {"scale": f"{scale:g}", "least": f"{measures.min():.4g}", "most": f"{measures.max():.4g}"}
+    numbers = {"scale": number(scale, "g"), "least": number(measures.min()), "most": number(measures.max())}
     scales = _("Velocity ellipses at the tip; a semi-axis of 1 is drawn as {scale} m").format(**numbers)
     range_of_measure = _("Yoshikawa's measure: {least} to {most}").format(**numbers)
     style.write(figure, 0.13, 0.07, [scales, range_of_measure])
