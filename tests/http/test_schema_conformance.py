@@ -24,7 +24,7 @@ SCHEMA = schemathesis.openapi.from_dict(document())
 OPERATIONS: list[Any] = [found.ok() for found in SCHEMA.get_all_operations()]  # type: ignore[union-attr]
 CHOOSY = [operation for operation in OPERATIONS if operation.body or operation.query]
 """Those of which the schema can forbid anything but another path."""
-_FEW, _MANY = 6, 40
+_FEW, _MANY = 6, 20
 """Requests to each operation, of each kind."""
 
 
