@@ -15,8 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch, Polygon
 from matplotlib.patheffects import withStroke
 
-from gelenk.language import number, number_list, separator
-from gelenk.language import translated as _
+from gelenk.language import number, number_list, separator, translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.dh_scene import DhScene, DrawnJoint, Kind, Stroke, dh_scene
 from gelenk.plots.labels import Wanted, placed

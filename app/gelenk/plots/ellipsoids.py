@@ -14,8 +14,7 @@ from matplotlib.figure import Figure
 
 from gelenk.kinematics.ellipsoids.limited_motion import LimitedMotion
 from gelenk.kinematics.ellipsoids.manipulability import Ellipsoids, is_within_task, space_of, transmission_ratios
-from gelenk.language import number, number_list
-from gelenk.language import translated as _
+from gelenk.language import number, number_list, translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.arm import arm_line
 from gelenk.plots.legend import LegendRow, configuration_lines, legend, legend_height, write_head, write_legend

@@ -9,8 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from gelenk.kinematics.ellipsoids.manipulability import Ellipsoids
-from gelenk.language import number, separator
-from gelenk.language import translated as _
+from gelenk.language import number, separator, translated as _
 from gelenk.plots.figure import INK, LINE, QUIET, TITLE, write
 from gelenk.plots.shadows import DOTTED, THIN, Arrow, Outline, Quantity
 from gelenk.robot.arrays import Array

@@ -9,8 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Circle, Patch, Rectangle
 
 from gelenk.course.planar import Interval, PlanarWorkspace, orientations, posture, share
-from gelenk.language import number_list
-from gelenk.language import translated as _
+from gelenk.language import number_list, translated as _
 from gelenk.plots import figure as style
 
 _PRIMARY, _SECONDARY = style.VELOCITY, style.FORCE

@@ -9,8 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Wedge
 
 from gelenk.course.actuators.gray import Code, gray
-from gelenk.language import number
-from gelenk.language import translated as _
+from gelenk.language import number, translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.course.sketch import direction
 from gelenk.plots.course.titles import TITLES

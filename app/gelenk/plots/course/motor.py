@@ -5,8 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from gelenk.course.actuators.dc_motor import Motor, operating_point, torque_speed_line
-from gelenk.language import number
-from gelenk.language import translated as _
+from gelenk.language import number, translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.course.sketch import Sketch, arc
 from gelenk.plots.course.titles import TITLES

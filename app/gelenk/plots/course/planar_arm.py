@@ -7,8 +7,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 from matplotlib.figure import Figure
 
-from gelenk.language import number
-from gelenk.language import translated as _
+from gelenk.language import number, translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.course.sketch import DASHED, DOTTED, Sketch, arc, direction
 from gelenk.robot.arrays import Array

@@ -7,8 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from gelenk.course.actuators.pwm import Pulses
-from gelenk.language import number
-from gelenk.language import translated as _
+from gelenk.language import number, translated as _
 from gelenk.plots import figure as style
 from gelenk.robot.arrays import Array
 

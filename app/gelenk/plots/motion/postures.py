@@ -5,8 +5,7 @@ from typing import Any
 import numpy as np
 
 from gelenk.kinematics.ellipsoids.manipulability import Ellipsoids
-from gelenk.language import number
-from gelenk.language import translated as _
+from gelenk.language import number, translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.arm import arm_line
 from gelenk.plots.ellipsoids import drawn_scale, plane_of
