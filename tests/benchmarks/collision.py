@@ -1,6 +1,7 @@
-"""Contacts of the Panda with itself and ten boxes: the kernels against Coal through Pinocchio, on the same pieces.
+"""Contacts of the Panda: with itself and ten boxes, and inverse kinematics in shelves and a cage that touches nothing.
 
-The peer's loop over pairs is Pinocchio's, in C++; only that over configurations is in Python.
+The kernels stand against Coal through Pinocchio, on the same pieces. The peer's loop over pairs is Pinocchio's, in C++;
+only that over configurations is in Python.
 """
 
 import statistics
@@ -12,26 +13,39 @@ from tempfile import mkdtemp
 import numpy as np
 import pinocchio as pin
 
+from gelenk.collision.cell import cell_in
 from gelenk.collision.contact.judge import ContactJudge
 from gelenk.collision.contact.kernels import first_contacts, first_spheres, nearest_pairs
 from gelenk.collision.contact.world import World, build_world
 from gelenk.collision.scene import Obstacle
 from gelenk.collision.shapes.covers import covered_body
+from gelenk.ik.search.problem import Options, TargetProblem
+from gelenk.ik.solve import solve
+from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.operations.robot_bodies import bodies_of
 from gelenk.robot.arrays import Array
 from gelenk.settings import Settings
 from gelenk.store.library import Library
+from gelenk.store.records import LoadedRobot
 from tests.benchmarks.table import Row
+from tests.collision.motion_bench_maker import FINGERS, SETS, START, problems
 
 COUNT = 10_000
 ROUNDS = 7
 PEERS = 200
 """Configurations of a round for the peer, and for single calls."""
+SCENES, TARGETS, SPREAD = 25, 100, 0.2
+"""Scenes of a set, targets in each, and how far configurations are from its goal, [rad]."""
 
 
 def measure() -> list[Row]:
+    """Compare verdicts and clearances, then solve inverse kinematics among the problems of MotionBenchMaker."""
+    loaded = Library(Settings().catalogue_dir, Path(mkdtemp())).get("panda")
+    return [*_verdicts(panda_among_boxes(loaded)), *(_solutions(loaded, name) for name in SETS)]
+
+
+def _verdicts(world: World) -> list[Row]:
     """Compare verdicts and clearances, round by round."""
-    world = panda_among_boxes()
     qs = np.random.default_rng(1).uniform(world.chain.lower, world.chain.upper, (COUNT, len(world.chain)))
     some, judge = qs[:PEERS], ContactJudge(world)
     peer, whole = Peer(world, judge), [judge.whole(q) for q in some]
@@ -71,10 +85,27 @@ def measure() -> list[Row]:
     ]
 
 
-def panda_among_boxes() -> World:
+def _solutions(loaded: LoadedRobot, name: str) -> Row:
+    """Solve for tip poses of free configurations around the goals of a set, seeded with its start."""
+    rng, robot, chain = np.random.default_rng(2), loaded.robot, loaded.robot.chain(None, None)
+    solved, asked, seconds = 0, 0, 0.0
+    for problem in problems(name)[:SCENES]:
+        cell = cell_in(build_world(robot, chain, bodies_of(loaded), problem.obstacles, FINGERS))
+        near = problem.goal + rng.normal(0.0, SPREAD, (4 * TARGETS, len(chain)))
+        qs = np.clip(near, chain.lower, chain.upper)
+        qs = qs[~cell.touching(qs)][:TARGETS]
+        asking = TargetProblem(robot, chain, forward_kinematics(robot, chain, qs).poses, START[None], Options())
+        started = time.perf_counter()
+        found = solve(asking, cell)
+        seconds += time.perf_counter() - started
+        solved, asked = solved + len(found.qs) - int(cell.touching(found.qs).sum()), asked + len(qs)
+    what = f"Panda in {name}: ik that touches nothing, {asked} solvable targets in batches of {TARGETS}"
+    return Row(what, f"{solved / asked:.2%}, {seconds / asked * 1e6:.1f} µs", wanted="≥ 99.9 %, ≤ 30 µs")
+
+
+def panda_among_boxes(loaded: LoadedRobot) -> World:
     """Return the Panda with ten boxes around it, always the same."""
     rng = np.random.default_rng(0)
-    loaded = Library(Settings().catalogue_dir, Path(mkdtemp())).get("panda")
     root, obstacles = loaded.robot.description.root, []
     for i in range(10):
         T, angle = np.eye(4), 2.0 * np.pi * i / 10
