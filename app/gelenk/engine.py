@@ -234,6 +234,9 @@ class Robot:
             AuditFailed: The motion does not pass its audit.
         """
         call = _checked(TrajectoryRequest, {**self._ends(), "start": start, "segments": segments, **options})
+        for name in ("scene", "min_clearance"):
+            if getattr(call, name) is not None:
+                raise InvalidField(name, "counts in the service, which has the bodies of its robots")
         return plan(self.core, self.chain, trajectory_request.parse(self.core, self.chain, call).problem)
 
     def _ends(self) -> dict[str, str]:

@@ -91,6 +91,8 @@ CASES: list[tuple[Asked, list[str], dict[str, Any]]] = [
     (WELD, ["--path", "back.csv"], {"path": {"poses": SEAM[::-1], "free": []}}),
     (MOTION, ["--law", "cubic"], {"law": "cubic"}),
     (MOTION, ["--period", "0.05"], {"sample_period": 0.05}),
+    *((asked, ["--scene", "cell"], {"scene": "cell"}) for asked in (IK, MOTION)),
+    *((asked, ["--min-clearance", "0.02"], {"min_clearance": 0.02}) for asked in (IK, MOTION)),
     (WORKSPACE, ["--samples", "700"], {"samples": 700}),
     (WORKSPACE, ["--kind", "grid"], {"kind": "grid"}),
     (FROM_URDF, ["--convention", "modified"], {"convention": "modified"}),
@@ -120,6 +122,13 @@ def answer(url: str, asked: Asked, further: dict[str, Any]) -> Any:
     if asked is FROM_URDF:
         return get(f"{url}/v1/{asked.path}?{urlencode(fields)}")[1]
     return get(f"{url}/v1/{asked.path}", "POST", fields)[1]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def cell(url: str) -> None:
+    """The scene that options name."""
+    post = {"name": "post", "shape": {"type": "sphere", "radius": 0.1}, "pose": {"position": [0.0, 0.8, 0.3]}}
+    assert get(f"{url}/v1/scenes", "POST", {"name": "cell", "objects": [post]})[0] == 201
 
 
 @pytest.mark.slow

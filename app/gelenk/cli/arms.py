@@ -7,18 +7,21 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gelenk.cli.batches import in_calls
-from gelenk.cli.completion import METHODS, REFERENCES, REPRESENTATIONS, one_of, scenes_beginning_with
+from gelenk.cli.completion import METHODS, REFERENCES, REPRESENTATIONS, one_of
 from gelenk.cli.files.inputs import fields_of
 from gelenk.cli.files.outputs import AnswerRows, largest
 from gelenk.cli.files.rows import AXES, ORIENTATIONS, InputRows, numbers_of, rows_of
 from gelenk.cli.session import (
     BaseOption,
+    ClearanceOption,
     FieldsOption,
     FromOption,
     LaterOption,
     RobotArgument,
+    SceneOption,
     Session,
     TipOption,
+    cell_fields,
     draw,
     plot_option,
     session,
@@ -137,12 +140,8 @@ def ik(
     seed: Annotated[str | None, typer.Option(help="Configuration to start at.")] = None,
     task: Annotated[str | None, typer.Option(help="Directions that count, such as x,y,z,rx,ry.")] = None,
     free: Annotated[bool, typer.Option("--ignore-limits", help="Allow solutions beyond the joint limits.")] = False,
-    scene: Annotated[
-        str | None, typer.Option(help="Scene that solutions do not touch.", autocompletion=scenes_beginning_with)
-    ] = None,
-    clearance: Annotated[
-        float | None, typer.Option("--min-clearance", help="Least distance from contact, also of the arm itself, [m].")
-    ] = None,
+    scene: SceneOption = None,
+    clearance: ClearanceOption = None,
     fields: FieldsOption = None,
     later: LaterOption = False,
 ) -> None:
@@ -155,8 +154,7 @@ def ik(
         body["task"] = task.replace(",", " ").split()
     if seed is not None:
         body["seeds"] = [numbers_of(seed, "seeds")]
-    body |= {name: value for name, value in (("scene", scene), ("min_clearance", clearance)) if value is not None}
-    body |= fields_of(fields)
+    body |= cell_fields(scene, clearance) | fields_of(fields)
     with shared.robot(robot) as (client, name):
         if later:
             shared.tell_job(client.jobs.ik(name, **body).info)

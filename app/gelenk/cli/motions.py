@@ -14,10 +14,13 @@ from gelenk.cli.files.outputs import AnswerRows, Format, check_place
 from gelenk.cli.files.rows import numbers_of, rows_of, target_of
 from gelenk.cli.session import (
     BaseOption,
+    ClearanceOption,
     FieldsOption,
     LaterOption,
     RobotArgument,
+    SceneOption,
     TipOption,
+    cell_fields,
     draw,
     plot_option,
     session,
@@ -52,13 +55,16 @@ def trajectory(
     tip: TipOption = None,
     law: Annotated[str, word_option(LAWS)] = LAWS[0],
     period: Annotated[float, typer.Option(help="Between samples, [s].")] = 0.01,
+    scene: SceneOption = None,
+    clearance: ClearanceOption = None,
     plot: Annotated[Path | None, plot_option("profiles")] = None,
     program: Annotated[Path | None, typer.Option(help="Write it for ROS (.yaml, .json) or a UR (.script).")] = None,
     later: LaterOption = False,
 ) -> None:
     """A motion through configurations and poses, joints first, or of a tool; exit code 1 if it cannot be completed."""
     shared, fields = session(context), _motion(start, joint or [], line or [], motion, path, free)
-    fields = {"base_frame": base, "tip_frame": tip, "law": law, "sample_period": period, **fields}
+    around = cell_fields(scene, clearance)
+    fields = {"base_frame": base, "tip_frame": tip, "law": law, "sample_period": period, **around, **fields}
     kind = None if program is None else _program_kind(program)
     with shared.robot(robot) as (client, name):
         if later:
@@ -76,6 +82,8 @@ def trajectory(
     )
     rows = [(time, *chain(*values)) for time, *values in table]
     notes = [f"{answer.duration:.6g} s, {answer.completed_fraction:.0%} of it can be done"]
+    if (clearance_found := answer.audit.clearance) is not None and clearance_found.value is not None:
+        notes.append(f"clearance {clearance_found.value:.6g} m at {clearance_found.time:.6g} s")
     if answer.failure is not None:
         notes.append(answer.failure.detail)
     shared.write(answer, AnswerRows(columns, rows, (*notes, *answer.notes)))

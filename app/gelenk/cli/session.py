@@ -12,7 +12,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-from gelenk.cli.completion import frames_beginning_with, one_of, robots_beginning_with
+from gelenk.cli.completion import frames_beginning_with, one_of, robots_beginning_with, scenes_beginning_with
 from gelenk.cli.files.inputs import description_from, packages_of, pairs_of, robot_named
 from gelenk.cli.files.outputs import AnswerRows, Output, picture_kind
 from gelenk.errors import InvalidField
@@ -57,6 +57,16 @@ TipOption = Annotated[
 FromOption = Annotated[
     str | None, typer.Option("--from", help="File with one row for each, CSV, npy or JSON; - is standard input.")
 ]
+SceneOption = Annotated[
+    str | None,
+    typer.Option(
+        "--scene", help="Scene of the service in which nothing may touch.", autocompletion=scenes_beginning_with
+    ),
+]
+ClearanceOption = Annotated[
+    float | None,
+    typer.Option("--min-clearance", help="Least distance from contact, also of the robot with itself, [m]."),
+]
 FieldsOption = Annotated[
     str | None,
     typer.Option("--fields", help="Further fields of the API as JSON, or a file with it; they override the options."),
@@ -88,6 +98,12 @@ def _of_known_kind(plot: Path | None) -> Path | None:
     if plot is not None:
         picture_kind(plot)  # before the work, not after it
     return plot
+
+
+def cell_fields(scene: str | None, clearance: float | None) -> dict[str, Any]:
+    """Return the fields of these options that are given."""
+    given = {"scene": scene, "min_clearance": clearance}
+    return {name: value for name, value in given.items() if value is not None}
 
 
 def plot_option(what: str) -> Any:

@@ -10,6 +10,7 @@ from gelenk.contract.course_motion import Duration
 from gelenk.contract.kinematics import ByName, ByOrder, Configuration
 from gelenk.contract.options import Directions, WithSteps
 from gelenk.contract.pose import ORIENTATIONS, AnswerFormat, Pose, pose_fields
+from gelenk.contract.scene import InCell
 from gelenk.contract.statics import CarriedLoad, Gravity
 from gelenk.robot.arrays import Array, Configuration as GivenConfiguration
 from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw
@@ -372,13 +373,14 @@ class RunningMotion(Payload):
     """A motion that is being carried out, by the request that it was planned from, and a time in it."""
 
     trajectory: Motion = Field(
-        description="The former request, with its `start`; it is planned again, and nothing needs to be stored. Of a "
-        "motion that began with `at` itself, give the start with its velocities and accelerations."
+        description="The former request, with its `start`, and without its `scene` and `min_clearance`; it is planned "
+        "again, and nothing needs to be stored. Of a motion that began with `at` itself, give the start with its "
+        "velocities and accelerations."
     )
     time: float = Field(ge=0.0, le=1e6, description="Since its start, [s].")
 
 
-class TrajectoryRequest(Motion):
+class TrajectoryRequest(Motion, InCell):
     """A motion through segments, one after the other, from rest, from given rates, or out of another motion."""
 
     at: RunningMotion | None = optional(

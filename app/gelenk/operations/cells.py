@@ -51,9 +51,14 @@ def cell_of(loaded: LoadedRobot, chain: Chain, call: InCell) -> tuple[Cell, list
     return None if found is None else (found.cell(loaded.robot, chain, call.min_clearance), found.warnings)
 
 
+def has_cell(call: InCell) -> bool:
+    """Whether contacts count in a request."""
+    return call.scene is not None or call.min_clearance is not None
+
+
 def cell_bodies(loaded: LoadedRobot, call: InCell) -> CellBodies | None:
     """Return the bodies that a request is about; raises as `cell_of` does."""
-    if call.scene is None and call.min_clearance is None:
+    if not has_cell(call):
         return None
     return CellBodies(bodies_of(loaded), obstacles_of(call.scene, loaded.robot.description.root))
 

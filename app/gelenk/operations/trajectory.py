@@ -4,6 +4,7 @@ from typing import Any
 
 from gelenk.contract.pose import Pose
 from gelenk.contract.trajectory_request import MAX_SAMPLES, JointSegment, TrajectoryRequest
+from gelenk.operations.cells import cell_bodies, has_cell
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.trajectory_planned import PlannedTrajectory, TrajectorySizeLimits
 from gelenk.operations.trajectory_programs import programs
@@ -32,18 +33,22 @@ def attempt(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> Out
 
 
 def is_heavy(call: TrajectoryRequest) -> bool:
-    """Check whether planning takes more than about a millisecond: all but one movement of resting joints."""
+    """Check whether planning takes more than about a millisecond: all but one movement of resting joints, in no cell.
+
+    The first call in a cell prepares its bodies, which takes long.
+    """
     if call.segments is None:
         return True
     first = call.segments[0]
     is_move = isinstance(first, JointSegment) and not isinstance(first.target, Pose)
     is_moving = any(getattr(call, name) is not None for name in _MOVING)
-    has_more = call.steps or call.coefficients or call.compare_timing or has_torques(call)
+    has_more = call.steps or call.coefficients or call.compare_timing or has_torques(call) or has_cell(call)
     return len(call.segments) > 1 or not is_move or is_moving or has_more or is_awaited()
 
 
 def _planned(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> PlannedTrajectory:
-    return PlannedTrajectory.of(loaded.robot, call, TrajectorySizeLimits(MAX_SAMPLES, limits.answer_numbers))
+    bounds = TrajectorySizeLimits(MAX_SAMPLES, limits.answer_numbers)
+    return PlannedTrajectory.of(loaded.robot, call, bounds, cell_bodies(loaded, call))
 
 
 def _outcome(loaded: LoadedRobot, call: TrajectoryRequest, planned: PlannedTrajectory) -> Outcome:

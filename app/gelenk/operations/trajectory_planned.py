@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from gelenk.kinematics.judge.judge import certify_poses
 from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.language import language
+from gelenk.operations.cells import CellBodies
 from gelenk.operations.chains import head
 from gelenk.operations.outcome import PictureFormat
 from gelenk.operations.pose_arrays import pose_columns
@@ -26,6 +27,7 @@ from gelenk.operations.trajectory_torques import torque_notes
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
+from gelenk.robot.result import Result
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.plan import plan
 from gelenk.trajectory.problem.problem import SegmentLimits, Trajectory
@@ -125,12 +127,25 @@ class PlannedTrajectory:
     question: SourcedProblem
     found: Trajectory
     bounds: TrajectorySizeLimits
+    bodies: CellBodies | None = None
 
     @classmethod
-    def of(cls, robot: RobotModel, call: TrajectoryRequest, bounds: TrajectorySizeLimits) -> "PlannedTrajectory":
-        """Plan a trajectory; raises InvalidInput, which names the field, or AuditFailed for a motion that fails it."""
+    def of(
+        cls,
+        robot: RobotModel,
+        call: TrajectoryRequest,
+        bounds: TrajectorySizeLimits,
+        bodies: CellBodies | None = None,
+    ) -> "PlannedTrajectory":
+        """Plan a trajectory, among bodies if contacts count.
+
+        Raises InvalidInput, which names the field; TooLarge; AuditFailed for a motion that fails its audit.
+        """
         chain, question = checked(robot, call, bounds)
-        return cls(robot, chain, call, question, plan(robot, chain, question.problem), bounds)
+        cell = None if bodies is None else bodies.cell(robot, chain, call.min_clearance)
+        return cls(
+            robot, chain, call, question, plan(robot, chain, replace(question.problem, cell=cell)), bounds, bodies
+        )
 
     @property
     def further(self) -> list[str]:
@@ -190,11 +205,11 @@ class PlannedTrajectory:
             **head(self.chain),
             "duration": found.motion.duration,
             "completed_fraction": found.completed_fraction,
-            "failure": found.failure,
+            "failure": found.failure and _given(found.failure, ("first_contact", "nearest")),
             **sampled,
             "tip_poses": sampled.get("tip_poses"),
             "segments": self._segments_json(),
-            "audit": found.audit,
+            "audit": _given(found.audit, ("clearance",)),
             "limits": limits_json(bounds.limits),
             "limit_sources": bounds.sources,
             "notes": self._notes(),
@@ -211,6 +226,8 @@ class PlannedTrajectory:
         notes = limit_notes(self.chain, self.question.own, self.question.segment_bounds)
         if self.question.bounds.limits.torque is not None:
             notes += torque_notes(self.robot, self.chain, self.call)
+        if self.bodies is not None:
+            notes += self.bodies.warnings
         return notes
 
     def _segments_json(self) -> list[dict[str, Any]]:
@@ -248,6 +265,13 @@ class PlannedTrajectory:
             title += f", {100.0 * found.completed_fraction:.3g} % done: {found.failure.reason}"
         lines = ProfileLines(chain.joint_names, units, (None, None, None), spans=spans)
         return profiles_picture(title, found.motion, lines, kind)
+
+
+def _given(result: Result, further: tuple[str, ...]) -> dict[str, Any]:
+    """Return a result's fields, further ones only if they have a value."""
+    names = (one.name for one in fields(result))  # type: ignore[arg-type]
+    known = {name: getattr(result, name) for name in names}
+    return {name: value for name, value in known.items() if value is not None or name not in further}
 
 
 def limits_json(limits: SegmentLimits) -> dict[str, Any]:

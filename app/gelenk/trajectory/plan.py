@@ -4,7 +4,7 @@ A trajectory that can only be completed in part is planned as far as possible, f
 why it ends. A motion that fails its audit is never returned.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import accumulate
 from typing import cast
@@ -12,18 +12,21 @@ from typing import cast
 import numpy as np
 
 from gelenk.errors import AuditFailed, InvalidField
+from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import check_limits
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.audit import audit, whole_audit
+from gelenk.trajectory.audit.contact.clearance import clearance_of, nearness
 from gelenk.trajectory.audit.demands import Demands
 from gelenk.trajectory.audit.result import Audit, Peak, TipPeaks
+from gelenk.trajectory.contact_end import ContactEnd, contact_ends
 from gelenk.trajectory.joint_part import joint_part
 from gelenk.trajectory.joints.moving_ends import given_rates
 from gelenk.trajectory.motion.extremes import largest_ratio
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
 from gelenk.trajectory.paths.segment_paths import is_blended
-from gelenk.trajectory.problem.parts import PlannedPart, standing
+from gelenk.trajectory.problem.parts import PlannedPart, lasting, standing
 from gelenk.trajectory.problem.problem import BLENDABLE, Segment, Trajectory, TrajectoryProblem
 from gelenk.trajectory.timing.torque_constraints import torque_factor
 from gelenk.trajectory.tip_part import tip_part
@@ -43,8 +46,6 @@ _MOST_REASONS = 4
 """Largest number of reasons that a refusal lists."""
 _CUBIC = 3
 """Degree from which on a polynomial has a jerk, and the order of the jerk."""
-_MOMENT = 1e-9
-"""Duration that stands for zero in an audit, [s]."""
 
 
 def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Trajectory:
@@ -57,10 +58,26 @@ def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Traject
     """
     check_limits(chain, problem.start[None])
     if problem.tool is None:
-        return _whole(robot, chain, problem, _parts(robot, chain, problem))
+        return _clear(robot, chain, problem, lambda end: _parts(robot, chain, problem, end))
     placed, sequence = placed_tool(chain, problem, problem.tool)
-    parts = stopped(_parts(robot, chain, placed), placed, sequence)
-    return replace(_whole(robot, chain, placed, parts), choice=sequence.choice)
+    found = _clear(robot, chain, placed, lambda end: stopped(_parts(robot, chain, placed, end), placed, sequence))
+    return replace(found, choice=sequence.choice)
+
+
+def _clear(
+    robot: RobotModel, chain: Chain, problem: TrajectoryProblem, parts: Callable[[ContactEnd | None], list[PlannedPart]]
+) -> Trajectory:
+    """Return the trajectory, which ends at rest before the first contact in the problem's cell."""
+    found, cell = _whole(robot, chain, problem, parts(None)), problem.cell
+    if cell is None:
+        return found
+    near = nearness(cell, lasting(found.motion))
+    for end in () if near.first_contact is None else contact_ends(chain, cell, found, near.first_contact, near.nearest):
+        found = _whole(robot, chain, problem, parts(end))
+        near = nearness(cell, lasting(found.motion))
+        if near.first_contact is None:
+            break
+    return replace(found, audit=replace(found.audit, clearance=clearance_of(cell, near)))
 
 
 def _whole(robot: RobotModel, chain: Chain, problem: TrajectoryProblem, planned: list[PlannedPart]) -> Trajectory:
@@ -75,7 +92,7 @@ def _whole(robot: RobotModel, chain: Chain, problem: TrajectoryProblem, planned:
         judgement = whole_audit(chain, motion, audits, [starts[i] for i in moving])
     else:  # An audit needs pieces that take time.
         motion = standing(problem.start)
-        judgement = audit(robot, chain, standing(problem.start, _MOMENT), Demands())
+        judgement = audit(robot, chain, lasting(motion), Demands())
     refuse_failed(judgement)
     return Trajectory(
         motion,
@@ -90,11 +107,17 @@ def _whole(robot: RobotModel, chain: Chain, problem: TrajectoryProblem, planned:
     )
 
 
-def _parts(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> list[PlannedPart]:
+def _parts(
+    robot: RobotModel, chain: Chain, problem: TrajectoryProblem, end: ContactEnd | None = None
+) -> list[PlannedPart]:
+    """Plan the parts one after the other, as far as it goes, or to a given end."""
     parts: list[PlannedPart] = []
     configuration = problem.start
     for first, segments in _grouped(problem.segments):
         if segments[0].turn is not None and segments[0].turn.is_blocked:
+            break
+        if end is not None and first + len(segments) > end.failure.segment:
+            parts.append(_ending(robot, chain, configuration, segments, first, problem, end))
             break
         if segments[0].type == "joint" or segments[0].configurations is not None:
             part = joint_part(robot, chain, configuration, segments[0], first, problem)
@@ -105,6 +128,23 @@ def _parts(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> list[
             break
         configuration = part.motion.at(part.motion.breaks[-1:])[0]
     return parts
+
+
+def _ending(
+    robot: RobotModel,
+    chain: Chain,
+    start: Array,
+    segments: tuple[Segment, ...],
+    first: int,
+    problem: TrajectoryProblem,
+    end: ContactEnd,
+) -> PlannedPart:
+    """Plan the part in which a trajectory ends before a contact: a path of the tip up to there, no other motion."""
+    if end.stop is None:
+        return PlannedPart(standing(start), (), Demands(), replace(end.failure, segment=first), 0.0)
+    part = tip_part(robot, chain, start, segments, first, problem, end.stop)
+    segment = end.failure.segment if part.failure is None else part.failure.segment
+    return replace(part, failure=replace(end.failure, segment=segment))
 
 
 def _grouped(segments: tuple[Segment, ...]) -> Iterator[tuple[int, tuple[Segment, ...]]]:

@@ -18,6 +18,7 @@ from gelenk.trajectory.audit.torques import TorqueLimits
 from gelenk.trajectory.audit.words import Law
 from gelenk.trajectory.follow.exact import path_error
 from gelenk.trajectory.follow.follow import FollowedPath, follow
+from gelenk.trajectory.follow.verdict import Stop
 from gelenk.trajectory.laws.laws import LAWS, scaled_law
 from gelenk.trajectory.motion.composition import times_at
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
@@ -37,17 +38,26 @@ _SLACK = 1.05
 
 
 def tip_part(
-    robot: RobotModel, chain: Chain, start: Array, segments: Sequence[Segment], first: int, problem: TrajectoryProblem
+    robot: RobotModel,
+    chain: Chain,
+    start: Array,
+    segments: Sequence[Segment],
+    first: int,
+    problem: TrajectoryProblem,
+    stop: Stop | None = None,
 ) -> PlannedPart:
     """Plan a line, a circle, a spline, or lines each blended into the next, as far as the joints can follow.
 
-    The start has the shape (n,), [rad or m]; `first` is the index of the first segment in the trajectory.
+    The start has the shape (n,), [rad or m]; `first` is the index of the first segment in the trajectory. The path may
+    be given an earlier end, at which it stops.
     `InvalidField` if the path is impossible, or cannot be travelled in the given time.
     """
     positions, rotations = chain_poses(chain.flat, start[None])
     path = path_through(Poses(positions, rotations).matrices()[0], segments, first)
     turn = segments[0].turn
     joints = follow(robot, chain, path.path, start, problem.following, None if turn is None else turn.guide)
+    if stop is not None and stop.s < joints.reached:
+        joints = joints.until(stop)
     part = _TipPart(chain, problem.following, segments, first, path, joints)
     if joints.reached <= 0.0:
         return PlannedPart(standing(start), (), Demands(), *part.failure())

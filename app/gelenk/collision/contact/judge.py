@@ -182,6 +182,18 @@ def _slopes(judge: ContactJudge, q: Array, k: int, shift: Array) -> tuple[Array,
     return np.minimum(ahead, behind), np.maximum(ahead, behind)
 
 
+def certify_free(world: World, qs: Array, least: float) -> ContactCertificate:
+    """Check at each configuration, (N, n), that no distance less its margin is below `least`, [m] ≥ 0, by Coal.
+
+    Raises CertificationFailed.
+    """
+    comparison = _Comparison(_judge(world))
+    for q in qs:
+        slack = comparison.count(comparison.judge.poses(q), False, least + 2.0 * TOLERANCE)
+        comparison.add(min(slack - least, 0.0))
+    return comparison.certificate(len(qs), 0)
+
+
 class _Comparison:
     """What a certificate says, so far."""
 

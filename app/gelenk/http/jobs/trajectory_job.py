@@ -16,6 +16,7 @@ from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
+from gelenk.operations.cells import cell_bodies, read_cell_bodies
 from gelenk.operations.outcome import Limits, PictureFormat
 from gelenk.operations.rows import csv_head, csv_rows
 from gelenk.operations.trajectory_planned import SAMPLED, PlannedTrajectory, TrajectorySizeLimits, checked
@@ -26,7 +27,7 @@ from gelenk.trajectory.plan import plan
 
 KIND = "trajectory"
 
-_CALL = "call.json"
+_CALL, _CELL = "call.json", "cell.json"
 _PART = 8192
 """Samples per part."""
 _PLAN, _STAGE, _DRAWING = "plan", "samples", "picture"
@@ -35,8 +36,8 @@ _PICTURES: tuple[PictureFormat, ...] = ("svg", "png")
 _GAP = b"\0"
 """Encloses the name of a field whose entries come from the parts; no JSON contains it."""
 
-_Plan: TypeAlias = tuple[RobotText, bytes, int]
-"""The robot, the call, and how many numbers its polynomials may hold."""
+_Plan: TypeAlias = tuple[RobotText, bytes, int, bytes | None]
+"""The robot, the call, how many numbers its polynomials may hold, and the bodies of its cell."""
 
 
 def _request(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> dict[str, bytes]:
@@ -45,7 +46,12 @@ def _request(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> di
     if bounds.may_be_exceeded(call, chain, shortest_duration(question.problem)):
         bounds.check(call, chain, plan(loaded.robot, chain, question.problem).motion.duration)
     whole = call.model_copy(update={"base_frame": chain.base_frame, "tip_frame": chain.tip_frame})
-    return {_CALL: whole.model_dump_json(exclude_unset=True).encode()}
+    files = {_CALL: whole.model_dump_json(exclude_unset=True, exclude={"scene"}).encode()}
+    bodies = cell_bodies(loaded, call)
+    if bodies is None:
+        return files
+    bodies.cell(loaded.robot, chain, call.min_clearance)  # Refused here, and not later, if it is none.
+    return {**files, _CELL: bodies.to_bytes()}
 
 
 def _bounds(max_answer_numbers: int) -> TrajectorySizeLimits:
@@ -54,7 +60,8 @@ def _bounds(max_answer_numbers: int) -> TrajectorySizeLimits:
 
 
 def _work(limits: Limits, folder: Path) -> Work:
-    job = (robot_text(folder), read_plain(folder / _CALL), limits.answer_numbers)
+    cell = read_plain(folder / _CELL) if (folder / _CELL).exists() else None
+    job = (robot_text(folder), read_plain(folder / _CALL), limits.answer_numbers, cell)
 
     def work(run: Run) -> Files:
         run.map(_PLAN, planned_part, lambda _: job, 1, (0.0, _PLANNED))
@@ -106,8 +113,9 @@ def _write_list(target: IO[bytes], lists: Iterator[bytes]) -> None:
 @lru_cache(maxsize=1)
 def _planned(job: _Plan) -> PlannedTrajectory:
     """Plan the motion, once in each process that computes parts of the job; the result is the same in all of them."""
-    text, content, numbers = job
-    return PlannedTrajectory.of(robot_of(text), read_json(TrajectoryRequest, content), _bounds(numbers))
+    text, content, numbers, cell = job
+    bodies = None if cell is None else read_cell_bodies(cell)
+    return PlannedTrajectory.of(robot_of(text), read_json(TrajectoryRequest, content), _bounds(numbers), bodies)
 
 
 def planned_part(job: _Plan) -> bytes:

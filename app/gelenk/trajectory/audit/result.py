@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
+from gelenk.collision.contact.words import ContactCertificate
 from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.robot.result import Result
 from gelenk.trajectory.audit.words import Check
@@ -92,6 +93,62 @@ class SmallestSingularValue(Result):
 
 
 @dataclass(frozen=True, slots=True)
+class ClosestPair(Result):
+    """Two links, or a link or attached object and an object, of which no two others are nearer to each other.
+
+    Attributes:
+        a: Name of the one.
+        b: Name of the other.
+        distance: Between the two, [m]; where they overlap negative, by how far.
+        point_a: Of `a`, in contact its deepest point, in the root frame, [m].
+        point_b: Of `b`, likewise.
+    """
+
+    a: str
+    b: str
+    distance: float
+    point_a: tuple[float, ...]
+    point_b: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Moment(Result):
+    """A moment of a motion, and what is nearest to each other then.
+
+    Attributes:
+        value: Distance of the pair less the clearance that an object of the scene demands, [m]; null if nothing can
+            touch anything.
+        time: When it is, [s].
+        joint_positions: The configuration, [rad or m].
+        pair: The two; null if nothing can touch anything.
+    """
+
+    value: float | None
+    time: float
+    joint_positions: tuple[float, ...]
+    pair: ClosestPair | None
+
+
+@dataclass(frozen=True, slots=True)
+class MotionClearance(Moment):
+    """The clearance of the whole motion: its nearest moment, and a bound that holds at all times.
+
+    Attributes:
+        lower_bound: Proved to be exceeded, or reached, at all times, also between samples, [m]: from one place to the
+            next no body moves further than the distances there allow. Not less than `min_clearance`, unless the start
+            itself is too near. Null if nothing can touch anything.
+        resolution: Largest difference of the two, [m].
+        certificate: Of that moment, and of even samples of the motion, through Pinocchio and Coal.
+        continuous: That the bound holds between samples.
+    """
+
+    lower_bound: float | None
+    resolution: float
+    certificate: ContactCertificate
+    continuous: Literal[True] = True
+
+
+@dataclass(frozen=True, slots=True)
 class Reason(Result):
     """Why a motion fails.
 
@@ -149,6 +206,8 @@ class Audit(Result):
         certificate: Of poses along the motion, recomputed through Pinocchio.
         way_error: Difference of these three from those of the exact tip path; null without one.
         reasons: Why the motion fails the audit.
+        clearance: Of all links, and of what is around and attached; only if the request has `scene` or
+            `min_clearance`.
     """
 
     passed: bool
@@ -166,3 +225,4 @@ class Audit(Result):
     certificate: PoseCertificate
     way_error: PathError | None
     reasons: tuple[Reason, ...]
+    clearance: MotionClearance | None = None

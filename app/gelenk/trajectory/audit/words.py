@@ -10,4 +10,4 @@ Law: TypeAlias = Literal[PolynomialLaw, "trapezoidal", "jerk_limited", "time_opt
 SegmentType: TypeAlias = Literal["joint", "line", "circle", "spline"]
 OrientationLaw: TypeAlias = Literal["axis_angle", "zyz", "zyz_other"]
 NearSingularity: TypeAlias = Literal["stop", "damp", "slow_down"]
-StopReason: TypeAlias = Literal["out_of_reach", "joint_limit", "singularity", "branch_change"]
+StopReason: TypeAlias = Literal["out_of_reach", "joint_limit", "singularity", "branch_change", "collision"]

@@ -55,6 +55,16 @@ class FollowedPath:
     orientation_deviation: float = 0.0
     bend_errors: Array | None = None
 
+    def until(self, stop: Stop) -> "FollowedPath":
+        """Return the path up to an earlier stop."""
+        q = self.positions
+        count = int(np.searchsorted(q.breaks[:-1], stop.s))
+        if count == 0:
+            return _motionless(q.coefficients[0, 0], stop)
+        positions = PiecewisePolynomial(np.append(q.breaks[:count], stop.s), q.coefficients[:count])
+        errors = None if self.bend_errors is None else self.bend_errors[:count]
+        return replace(self, positions=positions, reached=stop.s, stop=stop, bend_errors=errors)
+
 
 def follow(
     robot: RobotModel,

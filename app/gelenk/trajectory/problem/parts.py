@@ -13,6 +13,9 @@ from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.problem.problem import SegmentReport
 from gelenk.trajectory.problem.result import PlanningFailure, TimingComparison
 
+_MOMENT = 1e-9
+"""Duration that stands for zero in an audit, [s]."""
+
 
 @dataclass(frozen=True, slots=True)
 class PlannedPart:
@@ -65,6 +68,11 @@ class PlannedPart:
 def standing(configuration: Array, duration: float = 0.0) -> PiecewisePolynomial:
     """Return joints that stand still at a configuration of shape (n,) for a duration, [s]."""
     return PiecewisePolynomial(np.array([0.0, duration]), configuration[None, None].copy())
+
+
+def lasting(motion: PiecewisePolynomial) -> PiecewisePolynomial:
+    """Return a motion that takes time, as an audit needs it: one that does not as a moment of rest."""
+    return motion if motion.duration > 0.0 else standing(motion.coefficients[0, 0], _MOMENT)
 
 
 @contextmanager

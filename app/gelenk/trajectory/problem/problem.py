@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from gelenk.collision.cell import Cell
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
@@ -157,6 +158,7 @@ class TrajectoryProblem:
         compares_timing: Whether to compare uniform and time-optimal timing of each segment.
         tool: Of a path that leaves a turn of the tip open. The last segment is then a spline of all of its poses. If
             there is one before, the joints move to the first pose; else the motion begins there, wherever the start is.
+        cell: What nothing of the robot may come near to; contacts do not count if None.
     """
 
     start: Array
@@ -165,6 +167,7 @@ class TrajectoryProblem:
     duration: float | None = None
     compares_timing: bool = False
     tool: FreeTool | None = None
+    cell: Cell | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from gelenk.robot.result import Result
+from gelenk.trajectory.audit.result import Moment
 from gelenk.trajectory.audit.words import Law, StopReason
 
 
@@ -48,6 +49,9 @@ class PlanningFailure(Result):
         position: Tip position in the base frame where it could not go on, [m].
         joint: The joint at its limit.
         detail: An explanation in one sentence, with numbers.
+        first_contact: With `collision`, the moment at which the motion as requested would first come nearer than it
+            may; the motion ends before.
+        nearest: With `collision`, the moment at which the motion as requested would come nearest, or deepest.
     """
 
     reason: StopReason
@@ -56,6 +60,8 @@ class PlanningFailure(Result):
     position: tuple[float, ...]
     joint: str | None
     detail: str
+    first_contact: Moment | None = None
+    nearest: Moment | None = None
 
 
 @dataclass(frozen=True, slots=True)

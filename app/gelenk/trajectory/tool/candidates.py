@@ -1,9 +1,10 @@
-"""All configurations with the tip at poses turned about an axis of its own, clear of limits and singularities."""
+"""All configurations with the tip at poses turned about an axis of its own: in limits, regular, touching nothing."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from gelenk.collision.cell import Cell
 from gelenk.ik.closed.branch_kernels import BranchTable
 from gelenk.ik.closed.closed_form import ClosedForm
 from gelenk.ik.search.bounds import mid_range
@@ -28,8 +29,24 @@ class TurnedCandidates:
     codes: Indices
 
 
-def candidates(form: ClosedForm, poses: Poses, axis: Array, turns: Array, least: float) -> TurnedCandidates:
-    """Return the configurations within the limits whose smallest singular value is at least `least`.
+@dataclass(frozen=True, slots=True)
+class Clear:
+    """What configurations are clear of: singularities, by the least σ of all joints of the arm, and contacts."""
+
+    least: float
+    cell: Cell | None = None
+
+    def flags(self, form: ClosedForm, qs: Array) -> Flags:
+        """Flag the clear ones of the configurations of a form; shape (N,)."""
+        whole, qs = widened(form.chain, qs)
+        clear = regular(whole.flat, qs, self.least)
+        if self.cell is not None:
+            clear[clear] = ~self.cell.touching(qs[clear])
+        return clear
+
+
+def candidates(form: ClosedForm, poses: Poses, axis: Array, turns: Array, clear: Clear) -> TurnedCandidates:
+    """Return the configurations within the limits that are clear.
 
     Args:
         poses: One of each rung.
@@ -44,9 +61,9 @@ def candidates(form: ClosedForm, poses: Poses, axis: Array, turns: Array, least:
     def solve(part: slice) -> None:
         each = Poses(targets.positions[part], targets.rotations[part])
         table = form.solve(each, mid_range(form.chain)[None])
-        clear = clear_of_singularities(form, table.qs, least)
+        kept = clear.flags(form, table.qs)
         owners = np.repeat(rows[part], np.diff(table.firsts))
-        found[part.start] = table.qs[clear], table.codes[clear], owners[clear]
+        found[part.start] = table.qs[kept], table.codes[kept], owners[kept]
 
     in_pieces(solve, len(rows), _PIECE, small=False)
     qs, codes, owners = (np.concatenate(each) for each in zip(*(found[k] for k in sorted(found)), strict=True))
@@ -58,9 +75,3 @@ def solved_near(form: ClosedForm, targets: Poses, qs: Array) -> tuple[BranchTabl
     """Return the solution of each target nearest to a configuration, and which targets have one."""
     table = form.solve(targets, qs, most=1)
     return table, np.diff(table.firsts) > 0
-
-
-def clear_of_singularities(form: ClosedForm, qs: Array, least: float) -> Flags:
-    """Flag configurations at which all joints of the arm, also a held one, leave σ at least at `least`; shape (N,)."""
-    whole, qs = widened(form.chain, qs)
-    return regular(whole.flat, qs, least)

@@ -22,7 +22,7 @@ def placed_tool(chain: Chain, problem: TrajectoryProblem, tool: FreeTool) -> tup
     (*there, along), following = problem.segments, problem.following
     start = problem.start if there else None
     least = 0.0 if following.near_singularity == "slow_down" else following.min_singular_value
-    sequence = tool_sequence(chain, cast(Poses, along.poses), tool, along.limits.velocity, least, start)
+    sequence = tool_sequence(chain, cast(Poses, along.poses), tool, along.limits.velocity, least, start, problem.cell)
     first = sequence.start
     if first is None:
         if start is None:
@@ -38,6 +38,8 @@ def stopped(parts: list[PlannedPart], problem: TrajectoryProblem, sequence: Tool
     if sequence.failure is None:
         return parts
     path = len(problem.segments) - 1
+    if parts and parts[-1].failure is not None and parts[-1].failure.reason == "collision":
+        return parts
     if cast(ToolTurn, problem.segments[path].turn).is_blocked:
         index = 0 if sequence.start is None else path
         failure = replace(sequence.failure, segment=index)

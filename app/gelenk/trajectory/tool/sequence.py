@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gelenk.collision.cell import Cell, cell_in
 from gelenk.errors import InvalidField
 from gelenk.ik.closed.closed_form import ClosedForm
 from gelenk.ik.search.bounds import free_variables, mid_range
@@ -25,13 +26,15 @@ from gelenk.trajectory.paths.spline_paths import PolynomialPath, spline
 from gelenk.trajectory.problem.problem import FreeTool, ToolTurn
 from gelenk.trajectory.problem.result import PlanningFailure, ToolChoice
 from gelenk.trajectory.tool.blocked import blocked
-from gelenk.trajectory.tool.candidates import TurnedCandidates, candidates, solved_near
+from gelenk.trajectory.tool.candidates import Clear, TurnedCandidates, candidates, solved_near
 from gelenk.trajectory.tool.forms import forms_of
 from gelenk.trajectory.tool.smoothing import TurnedRungs, smoothed
 
 _TURN = 2.0 * np.pi
 _RUNGS = 200
 """Least number of steps from the first pose to the last."""
+_AWAY = 1e-3
+"""Distance beyond the one that is asked for from all that might be touched, [m]: the arm moves on between two rungs."""
 _LONGEST = 0.5
 """Longest step of a joint between two rungs, [rad or m]; a change of branch takes more."""
 
@@ -63,7 +66,13 @@ class _Way(NamedTuple):
 
 
 def tool_sequence(
-    chain: Chain, poses: Poses, tool: FreeTool, velocity: Array, least: float, start: Array | None = None
+    chain: Chain,
+    poses: Poses,
+    tool: FreeTool,
+    velocity: Array,
+    least: float,
+    start: Array | None = None,
+    cell: Cell | None = None,
 ) -> ToolSequence:
     """Find the sequence with the least joint travel, each joint's in units of its velocity limit, [s].
 
@@ -72,21 +81,22 @@ def tool_sequence(
         velocity: Limit of each joint; shape (n,), [rad/s or m/s].
         least: Smallest singular value of J from which on a configuration is clear of singularities.
         start: Where the joints come from, which counts as travel; shape (n,), [rad or m].
+        cell: What no configuration may touch.
 
     Raises:
         InvalidField: The arm has no closed form, or there is no path through the poses.
     """
-    path = _path(poses)
+    path, clear = _path(poses), Clear(least, None if cell is None else cell_in(cell.world, _AWAY))
     places, own = _rungs(path.knots)
     along = path.at(places).poses
     turns: Array = np.linspace(0.0, _TURN, tool.steps if tool.axis.any() else 1, endpoint=False)
     forms = forms_of(chain, tool.axis, start)
-    ways = (_best(form, candidates(form, along, tool.axis, turns, least), 1.0 / velocity, start) for form in forms)
+    ways = (_best(form, candidates(form, along, tool.axis, turns, clear), 1.0 / velocity, start) for form in forms)
     best = max(ways, key=lambda way: (len(way.qs), -way.cost))
     form, count, weights = best.form, len(best.qs), narrowed(best.form.chain, 1.0 / velocity[None])[0]
     rungs = TurnedRungs(_first(along, count), places[:count], best.turns, best.qs)
     if count > 1 and tool.axis.any():
-        rungs = smoothed(form, rungs, tool.axis, weights, least)
+        rungs = smoothed(form, rungs, tool.axis, weights, clear)
     qs = widened(form.chain, rungs.qs)[1]
     guide = cubic_spline(rungs.places, qs, "natural").motion if count > 1 and len(chain) > 6 else None
     turn = ToolTurn(tool.axis, rungs.places, rungs.turns, guide)
@@ -95,7 +105,7 @@ def tool_sequence(
     if count == len(places):
         return ToolSequence(first, turn, choice)
     near = int(np.searchsorted(own, count, side="right")) - 1
-    failure = blocked(forms, _one(along, count), tool.axis, turns, least, (near, bool(own[near] == count)))
+    failure = blocked(forms, _one(along, count), tool.axis, turns, clear, (near, bool(own[near] == count)))
     return ToolSequence(first, turn, choice, failure, float(places[max(count - 1, 0)] / places[-1]))
 
 

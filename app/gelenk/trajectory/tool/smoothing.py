@@ -14,7 +14,7 @@ from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.notations import rotations_from_vectors
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.motion.tridiagonal import Tridiagonal, solution
-from gelenk.trajectory.tool.candidates import clear_of_singularities, solved_near
+from gelenk.trajectory.tool.candidates import Clear, solved_near
 
 _ROUNDS = 20
 _FARTHEST = 0.3
@@ -48,16 +48,16 @@ class TurnedRungs:
         return float((np.square(rates).sum(axis=1) / np.diff(self.places)).sum())
 
 
-def smoothed(form: ClosedForm, rungs: TurnedRungs, axis: Array, weights: Array, least: float) -> TurnedRungs:
+def smoothed(form: ClosedForm, rungs: TurnedRungs, axis: Array, weights: Array, clear: Clear) -> TurnedRungs:
     """Return the rungs with the turns of the most even joint motion next to theirs.
 
-    Turns that would lead beyond a limit, or where the smallest singular value is below `least`, stay.
+    Turns that would lead beyond a limit, or where the arm is not clear, stay.
     """
     free, before = np.ones(len(rungs.turns), dtype=bool), rungs.effort(weights)
     for _ in range(_ROUNDS):
         change = _changes(form, rungs, axis, weights, free)
         change *= min(1.0, _FARTHEST / max(float(np.abs(change).max()), 1e-300))
-        tried, solved = _turned(form, rungs, axis, change, least)
+        tried, solved = _turned(form, rungs, axis, change, clear)
         free &= solved
         after = tried.effort(weights)
         if not after < before:
@@ -86,7 +86,7 @@ def _changes(form: ClosedForm, rungs: TurnedRungs, axis: Array, weights: Array, 
 
 
 def _turned(
-    form: ClosedForm, rungs: TurnedRungs, axis: Array, change: Array, least: float
+    form: ClosedForm, rungs: TurnedRungs, axis: Array, change: Array, clear: Clear
 ) -> tuple[TurnedRungs, Flags]:
     """Return the rungs with changed turns where there is a configuration on the same branch, and where there is."""
     turns = rungs.turns + change
@@ -95,6 +95,6 @@ def _turned(
     qs = rungs.qs.copy()
     qs[solved] = table.qs
     predicted = np.abs(qs - rungs.qs).max(axis=1) <= _LARGEST
-    solved &= predicted & clear_of_singularities(form, qs, least)
+    solved &= predicted & clear.flags(form, qs)
     keep = solved[:, None]
     return replace(rungs, turns=np.where(solved, turns, rungs.turns), qs=np.where(keep, qs, rungs.qs)), solved
