@@ -8,6 +8,7 @@ few kilograms do.
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -31,6 +32,9 @@ PLACEHOLDER = 100.0
 ACCELERATION_RATE = 2.0
 JERK_RATE = 10.0
 """Assumed limit divided by that of the derivative before it, [1/s]."""
+
+_KEPT = 64
+"""Chains whose own limits are remembered."""
 
 _ASSUMED = {
     "joint_velocity": marked(
@@ -68,6 +72,7 @@ class OwnVelocities:
     known: Flags
 
 
+@lru_cache(_KEPT)
 def own_velocities(robot: RobotModel, chain: Chain) -> OwnVelocities:
     """Return the velocity limits of a chain's variables."""
     joints = [robot.description.joint[name] for name in chain.joint_names]
