@@ -28,6 +28,8 @@ from gelenk.trajectory.audit.pieces import Pieces
 _SWEEPS = 12
 _ORTHOGONAL = 1e-12
 """Cosine of two vectors that count as orthogonal."""
+_NEARLY = 1e-7
+"""Cosine whose square is less than that: where no larger one was left, a sweep has made all vectors orthogonal."""
 _TINY = 1e-150
 """Keeps two zero vectors as they are; its square is still a double."""
 
@@ -177,13 +179,12 @@ def _shortest_orthogonal(vectors: Array, count: int, length: int) -> Lanes:
 
 @inlined
 def _make_orthogonal(vectors: Array, a: int, b: int, length: int) -> int:
-    """Rotate two vectors in their plane; return in which lanes they were not orthogonal."""
+    """Rotate two vectors in their plane; return in which lanes they were not nearly orthogonal."""
     aa, ab, bb = lanes(0.0), lanes(0.0), lanes(0.0)
     for k in range(length):
         x, y = load(vectors, a + k), load(vectors, b + k)
         aa, ab, bb = aa + x * x, ab + x * y, bb + y * y
-    askew: int = bits(ab * ab > (_ORTHOGONAL * _ORTHOGONAL) * (aa * bb))
-    if askew:
+    if bits(ab * ab > (_ORTHOGONAL * _ORTHOGONAL) * (aa * bb)):
         half = 0.5 * (bb - aa)
         size = abs_lanes(half) + sqrt_lanes(half * half + ab * ab) + _TINY
         per_length = 1.0 / sqrt_lanes(size * size + ab * ab)
@@ -192,4 +193,5 @@ def _make_orthogonal(vectors: Array, a: int, b: int, length: int) -> int:
             x, y = load(vectors, a + k), load(vectors, b + k)
             store(vectors, a + k, c * x - s * y)
             store(vectors, b + k, s * x + c * y)
+    askew: int = bits(ab * ab > (_NEARLY * _NEARLY) * (aa * bb))
     return askew

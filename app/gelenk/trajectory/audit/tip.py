@@ -105,14 +105,13 @@ def path_peaks(pieces: Pieces, chain: Chain, path: PathOfTime, task: Task = FULL
     """Find the largest deviations from a path, `position` [m] and `orientation` [rad], in the task's directions."""
 
     def off(piece: Indices, tau: Array) -> Array:
-        poses = Poses(*chain_poses(chain.flat, values_at(pieces, piece, tau, 0)))
         wanted = path(pieces.times(piece, tau))
         if task != FULL_POSE:
+            poses = Poses(*chain_poses(chain.flat, values_at(pieces, piece, tau, 0)))
             errors = task.errors(wanted, poses).T
             return np.ascontiguousarray(np.where(np.isnan(errors), np.inf, errors))
         goals = np.ascontiguousarray(wanted.positions), np.ascontiguousarray(wanted.rotations)
-        found: Array = deviations(poses.positions, poses.rotations, *goals)
-        return found
+        return _off_path(chain.flat, pieces, piece, tau, *goals)
 
     piece, tau, inner = grid(pieces, MIN_SAMPLES, 2)
     found = between(tau, piece, inner, off, np.full(2, _ROUNDING))
@@ -120,6 +119,14 @@ def path_peaks(pieces: Pieces, chain: Chain, path: PathOfTime, task: Task = FULL
         name: Largest(value, float(pieces.starts[piece[row]] + at * pieces.widths[piece[row]]))
         for name, (value, row, at) in zip(("position", "orientation"), found, strict=True)
     }
+
+
+@compiled
+def _off_path(flat: FlatChain, pieces: Pieces, piece: Indices, tau: Array, positions: Array, rotations: Array) -> Array:
+    """Return distance [m] and angle [rad] of the tip from wanted poses; shape (N, 2)."""
+    tips, turned = chain_poses(flat, values_at(pieces, piece, tau, 0))
+    found: Array = deviations(tips, turned, positions, rotations)
+    return found
 
 
 def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE) -> SmallestSingularValue:

@@ -6,6 +6,7 @@ import numpy as np
 
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
+from gelenk.robot.compilation import compiled
 from gelenk.trajectory.joints.waypoints import WITHIN
 from gelenk.trajectory.motion.extremes import candidates
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
@@ -47,10 +48,22 @@ def first_limit_excess(chain: Chain, motion: PiecewisePolynomial) -> LimitExcess
 
 def _is_surely_within(chain: Chain, motion: PiecewisePolynomial) -> bool:
     """Check by a rough bound that all is within: no piece goes further from its start than Σ |c_k| hᵏ."""
-    c = motion.coefficients
-    powers = np.diff(motion.breaks)[:, None] ** np.arange(1, c.shape[1])
-    swings = np.einsum("mk,mkj->mj", powers, np.abs(c[:, 1:]))
-    return bool((c[:, 0] + swings <= chain.upper).all() and (c[:, 0] - swings >= chain.lower).all())
+    found: bool = _swings_within(
+        np.diff(motion.breaks), np.ascontiguousarray(motion.coefficients), chain.lower, chain.upper
+    )
+    return found
+
+
+@compiled
+def _swings_within(widths: Array, c: Array, lower: Array, upper: Array) -> bool:
+    for i in range(len(c)):
+        for j in range(len(lower)):
+            swing = 0.0
+            for k in range(c.shape[1] - 1, 0, -1):
+                swing = (swing + abs(c[i, k, j])) * widths[i]
+            if not (c[i, 0, j] + swing <= upper[j] and c[i, 0, j] - swing >= lower[j]):
+                return False
+    return True
 
 
 def _first_above(

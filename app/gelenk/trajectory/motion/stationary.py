@@ -99,7 +99,9 @@ def largest(c: Array, durations: Array, order: int, limits: Array) -> tuple[floa
             best, column = (at_ends, j) if at_ends > best else (best, column)
     for i in range(pieces):
         for j in range(n):
-            if _hull(rates[i, j], work) > best * (1.0 + _SAME):
+            # The sum of magnitudes is a quick bound, larger than that of the hull.
+            most = best * (1.0 + _SAME)
+            if np.abs(rates[i, j]).sum() > most and _hull(rates[i, j], work) > most:
                 value = _highest(rates[i, j])
                 best, column = (value, j) if value > best else (best, column)
     return best, column

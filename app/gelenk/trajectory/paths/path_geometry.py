@@ -14,6 +14,7 @@ import numpy as np
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
+from gelenk.robot.compilation import compiled
 from gelenk.trajectory.audit.demands import TipLimits, Zone
 from gelenk.trajectory.audit.torques import TorqueLimits
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut, derivatives
@@ -113,8 +114,11 @@ class LimitedPath:
     @property
     def limits_tip(self) -> bool:
         """Whether the tip has a limit."""
+        tips = [self.limits.tip, *(zone.tip for zone in self.zones)]
+        if self.tip_motion is None or all(tip == TipLimits() for tip in tips):
+            return False
         bounds = self.tip_bounds(np.arange(len(self.joints.breaks) - 1))
-        return self.tip_motion is not None and bool(np.isfinite(bounds).any())
+        return bool(np.isfinite(bounds).any())
 
     @property
     def limits_torque(self) -> bool:
@@ -257,7 +261,25 @@ def _of_tip(limits: TipLimits) -> Array:
 
 def _jumps(joints: PiecewisePolynomial, order: int) -> tuple[Array, float]:
     """Return the largest jump of a derivative at each inner break, shape (M - 1,), and its largest magnitude."""
-    c, lengths = joints.coefficients, np.diff(joints.breaks)[:, None]
-    before, after = (derivatives(c, local, order)[order] for local in (lengths, np.zeros_like(lengths)))
-    scale = max(float(np.abs(values).max(initial=0.0)) for values in (before, after))
-    return np.abs(before[:-1] - after[1:]).max(axis=1, initial=0.0), scale
+    found: tuple[Array, float] = _jumps_of(np.diff(joints.breaks), np.ascontiguousarray(joints.coefficients), order)
+    return found
+
+
+@compiled
+def _jumps_of(widths: Array, c: Array, order: int) -> tuple[Array, float]:
+    """Return what `_jumps` does, of pieces of shape (M, d + 1, n)."""
+    count, size, n = c.shape
+    jumps, scale, last = np.zeros(count - 1), 0.0, np.zeros(n)
+    for i in range(count):
+        for j in range(n):
+            start, end = 0.0, 0.0
+            for k in range(size - 1, order - 1, -1):
+                factor = 1.0
+                for m in range(order):
+                    factor *= k - m
+                start = factor * c[i, k, j]
+                end = end * widths[i] + start
+            if i > 0:
+                jumps[i - 1] = max(jumps[i - 1], abs(last[j] - start))
+            scale, last[j] = max(scale, abs(start), abs(end)), end
+    return jumps, scale

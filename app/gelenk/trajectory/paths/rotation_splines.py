@@ -116,15 +116,20 @@ def _turned(matrices: Array, vectors: Array) -> Array:
     return cast(Array, np.einsum("nij,nj->ni", matrices, vectors))
 
 
+@compiled
 def vector_motion(rotations: Array, omegas: Array, alphas: Array) -> tuple[Array, Array, Array]:
     """Return θ, θ̇ and θ̈ of R = Exp(θ), ‖θ‖ ≤ π; the inverse of `angular_motion`.
 
     Shapes (N, 3, 3), and (N, 3) of the others, [rad], [rad/s] and [rad/s²].
     """
     thetas = vectors_from_rotations(rotations)
-    inverses = cast(Array, np.linalg.inv(rate_matrices(thetas)))
-    rates = _turned(inverses, omegas)
-    return thetas, rates, _turned(inverses, alphas - quadratic_parts(thetas, rates))
+    matrices, rates, bends = rate_matrices(thetas), np.empty(thetas.shape), np.empty(thetas.shape)
+    for i in range(len(thetas)):
+        rates[i] = np.linalg.solve(matrices[i], omegas[i])
+    rest = alphas - quadratic_parts(thetas, rates)
+    for i in range(len(thetas)):
+        bends[i] = np.linalg.solve(matrices[i], rest[i])
+    return thetas, rates, bends
 
 
 def sizes(vectors: Array) -> Array:

@@ -5,11 +5,13 @@ under the limits on this path is searched for: where the joints' path bends stro
 for the acceleration.
 """
 
+import math
 from collections.abc import Callable
 
 import numpy as np
 
 from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.compilation import compiled
 from gelenk.trajectory.laws.s_curves import lasting, planned, profiles
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.paths.path_geometry import ORDERS, LimitedPath, Slopes, of_order, ratios
@@ -65,15 +67,31 @@ def least_trapezoidal(fastest: PiecewisePolynomial) -> float:
     No law is faster at any place than the fastest one. With ramps of length d, between two of its breaks, this bounds
     v² at the breaks of the coast, and v² m/d at those of the ramps.
     """
-    s, speeds, _ = fastest.coefficients[:, :3, 0].T
-    length = float(fastest.at(fastest.breaks[-1:])[0, 0] - s[0])
-    distance = np.minimum(s[1:] - s[0], s[0] + length - s[1:])
-    order = np.argsort(distance)
-    d, squares = distance[order], speeds[1:][order] ** 2
-    on_coast = np.append(np.minimum.accumulate(squares[::-1])[::-1], np.inf)
-    on_ramp = np.append(np.inf, np.minimum.accumulate(squares / d)) * np.append(d, 0.5 * length)
-    durations = (length + 2.0 * np.append(0.0, d)) / np.sqrt(np.minimum(on_coast, on_ramp))
-    return float(durations.min())
+    states = fastest.coefficients[:, :2, 0] - [fastest.coefficients[0, 0, 0], 0.0]
+    length = float(fastest.at(fastest.breaks[-1:])[0, 0] - fastest.coefficients[0, 0, 0])
+    least: float = _least_trapezoidal(states, length)
+    return least
+
+
+@compiled
+def _least_trapezoidal(states: Array, length: float) -> float:
+    """Return what `least_trapezoidal` does, from the way since the start and the speed at the breaks; shape (M, 2)."""
+    count, low, high = len(states) - 1, 1, len(states) - 1
+    d, squares, on_coast = np.empty(count + 1), np.empty(count), np.full(count + 1, np.inf)
+    for k in range(count):  # From both ends inwards.
+        is_near = states[low, 0] <= length - states[high, 0]
+        i = low if is_near else high
+        low, high = (low + 1, high) if is_near else (low, high - 1)
+        d[k], squares[k] = min(states[i, 0], length - states[i, 0]), states[i, 1] ** 2
+    d[count] = 0.5 * length
+    for k in range(count - 1, -1, -1):
+        on_coast[k] = min(on_coast[k + 1], squares[k])
+    least, on_ramp, ramp = np.inf, np.inf, 0.0
+    for k in range(count + 1):
+        least = min(least, (length + 2.0 * ramp) / math.sqrt(min(on_coast[k], on_ramp * d[k])))
+        if k < count:
+            on_ramp, ramp = min(on_ramp, squares[k] / d[k]), d[k]
+    return least
 
 
 def bang_coast_bang(geometry: LimitedPath, ramp: float, speed: float) -> PiecewisePolynomial:
