@@ -1,6 +1,5 @@
 """Links in contact wherever the joints stand are left out; links apart somewhere, or everywhere, are not."""
 
-import gzip
 from itertools import product
 
 import coal
@@ -13,13 +12,12 @@ from gelenk.collision.contact.kernels import all_contacts, first_contacts
 from gelenk.collision.contact.world import build_world
 from gelenk.collision.pairs import LinkPair
 from gelenk.collision.robot_bodies import RobotBodies, find_bodies
-from gelenk.collision.shapes.meshes import read_triangles
 from gelenk.operations.robot_bodies import bodies_of
 from gelenk.package_data import catalogue
-from gelenk.robot.description import Shape
 from gelenk.robot.notations import placement
 from gelenk.robot.urdf import read_urdf
-from gelenk.store.records import LoadedRobot, load, mesh_file, read_record
+from gelenk.store.records import LoadedRobot, load, read_record
+from tests.collision.coal_peer import drawn_shape
 
 BALL = '<link name="l{i}"><collision><geometry><sphere radius="{radius}"/></geometry></collision></link>'
 JOINT = """<joint name="j{i}" type="{type}"><parent link="l{before}"/><child link="l{i}"/><origin xyz="{x} 0 0"/>
@@ -53,27 +51,9 @@ def drawn(loaded: LoadedRobot, link: str) -> list[tuple[coal.CollisionGeometry, 
     meant = [shape for shape in shapes if shape.role == "collision"] or shapes
     poses = [place * pin.SE3(placement(shape.origin.xyz, shape.origin.rpy)) for shape in meant]
     return [
-        (geometry(loaded, shape), coal.Transform3s(pose.rotation, pose.translation))
+        (drawn_shape(loaded, shape), coal.Transform3s(pose.rotation, pose.translation))
         for shape, pose in zip(meant, poses, strict=True)
     ]
-
-
-def geometry(loaded: LoadedRobot, shape: Shape) -> coal.CollisionGeometry:
-    if shape.mesh is None:
-        return {"sphere": coal.Sphere, "cylinder": coal.Cylinder, "box": coal.Box}[shape.kind](*shape.size)
-    file = mesh_file(loaded, loaded.meshes[shape.mesh] or "")
-    assert file is not None
-    content = gzip.decompress(file.read_bytes()) if file.suffix == ".gz" else file.read_bytes()
-    corners = read_triangles(shape.mesh, content).reshape(-1, 3) * np.array(shape.size)
-    vertices, faces = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
-    vertices.extend(list(corners))
-    for i in range(0, len(corners), 3):
-        faces.append(coal.Triangle(i, i + 1, i + 2))
-    mesh = coal.BVHModelOBBRSS()
-    mesh.beginModel(len(faces), len(vertices))
-    mesh.addSubModel(vertices, faces)
-    mesh.endModel()
-    return mesh
 
 
 def touch(loaded: LoadedRobot, a: str, b: str) -> bool:
