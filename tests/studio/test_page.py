@@ -17,7 +17,7 @@ from tests.studio.proxy import stripping_proxy
 from tests.test_serve import service
 
 AXE = Path(__file__).parents[2] / "app" / "studio" / "node_modules" / "axe-core" / "axe.min.js"
-PANELS = ["robot", "pose", "ik", "jacobian", "trajectory", "workspace", "worked", "exercises"]
+PANELS = ["robot", "pose", "ik", "jacobian", "trajectory", "workspace", "cell", "worked", "exercises"]
 
 
 @pytest.mark.slow

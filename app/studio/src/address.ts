@@ -2,6 +2,7 @@
 
 import { asMotion } from "./panels/trajectory/link.ts";
 import { FIRST, type Linked, type State, type Writing } from "./state.ts";
+import { asObjects } from "./scene/objects.ts";
 import type { Store } from "./store.ts";
 import { isPose } from "./robot/pose.ts";
 import { type DhTable, DIRECTIONS, type InverseOptions } from "./types.ts";
@@ -30,6 +31,7 @@ export function read(hash: string): Address {
   linked.inverse = inverseOptions(json<unknown>(given.get("ik")));
   linked.writing = writing(given.get("worked")?.split(",") ?? []);
   linked.motion = asMotion(json(given.get("motion")));
+  linked.scene = { name: given.get("scene"), objects: asObjects(json(given.get("objects"))) };
   const shown = new Set((given.get("show") ?? "").split(","));
   for (const flag of FLAGS) linked[flag] = shown.has(flag);
   linked.options = Object.fromEntries([...given].filter(([key]) => OPTION.test(key)));
@@ -50,6 +52,8 @@ export function write(state: Readonly<State>): string {
   const worked = writtenAs(state.writing);
   if (worked !== writtenAs(FIRST.writing)) parts.push(["worked", worked]);
   if (state.motion) parts.push(["motion", JSON.stringify(state.motion)]);
+  if (state.scene.name) parts.push(["scene", state.scene.name]);
+  else if (state.scene.objects.length) parts.push(["objects", JSON.stringify(state.scene.objects)]);
   const shown = FLAGS.filter((flag) => state[flag]);
   if (shown.length) parts.push(["show", shown.join(",")]);
   parts.push(...Object.entries(state.options).sort());
@@ -83,6 +87,7 @@ export function mirror(store: Store<State>, restore: (address: Address) => void)
       "inverse",
       "writing",
       "motion",
+      "scene",
       "positions",
       "model",
       "loading",

@@ -12,6 +12,9 @@ import { followTheme, furnish, keySwitch } from "./page.ts";
 import type { Studio } from "./panels/panel.ts";
 import { showPart } from "./panels/robot/index.ts";
 import { Loader } from "./robot/load.ts";
+import { followContacts } from "./scene/contacts.ts";
+import { showScene } from "./scene/layer.ts";
+import { followStored } from "./scene/stored.ts";
 import { initial } from "./state.ts";
 import { Store } from "./store.ts";
 import { askForKey, listenForHelp } from "./ui/dialogs.ts";
@@ -45,7 +48,10 @@ function start(): void {
   if (view) {
     store.watch(["dark"], () => view.dress());
     mark(view, store);
+    showScene(view, store);
   }
+  followContacts(store, api);
+  followStored(store, api);
   furnish(
     {
       tabs: place("tabs"),

@@ -5,6 +5,8 @@ import type { Plan } from "./panels/trajectory/answer.ts";
 import type { Motion } from "./panels/trajectory/motion.ts";
 import type { RobotModel } from "./robot/model.ts";
 import type { ChainTable } from "./robot/table.ts";
+import type { Contacts } from "./scene/contacts.ts";
+import { EMPTY, type Scene } from "./scene/objects.ts";
 import type { DhTable, InverseOptions, Pose } from "./types.ts";
 
 export type Positions = Readonly<Record<string, number>>;
@@ -34,6 +36,8 @@ export interface Linked {
   writing: Writing;
   /** The motion that is being built. */
   motion: Motion | null;
+  /** What stands around the robot. */
+  scene: Scene;
   /** Whether angles are shown and typed in degrees; calls are always in radians. */
   degrees: boolean;
   frames: boolean;
@@ -58,6 +62,12 @@ export interface State extends Linked {
   table: ChainTable | null;
   /** What the service made of a motion. */
   plan: Plan | null;
+  /** What the robot touches, or comes nearest to; null where nobody asks. */
+  contacts: Contacts | null;
+  /** Why that is not known. */
+  refusal: Problem | null;
+  /** Name of the object of the scene that is being edited. */
+  chosen: string | null;
   /** The joint that the pointer or the focus is on, in whatever list of joints. */
   joint: string | null;
   /** Length that suits marks on the robot on the screen, [m]. */
@@ -77,6 +87,7 @@ export const FIRST: Linked = {
   inverse: null,
   writing: { part: "transforms", notation: "short", symbolic: true },
   motion: null,
+  scene: EMPTY,
   degrees: false,
   frames: false,
   axes: false,
@@ -95,6 +106,9 @@ export function initial(linked: Linked): State {
     failure: null,
     table: null,
     plan: null,
+    contacts: null,
+    refusal: null,
+    chosen: null,
     joint: null,
     unit: 0.1,
     theme: "auto",

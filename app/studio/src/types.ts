@@ -3,6 +3,8 @@
 import type * as api from "./schema.ts";
 
 export type ChainEnds = api.ChainEnds;
+export type CollisionAnswer = api.CollisionAnswer;
+export type CollisionResult = CollisionAnswer["results"][number];
 export type CoursePictures = api.CoursePictures;
 export type DeriveAnswer = api.DeriveAnswer;
 export type ExerciseGrade = api.ExerciseGrade;
@@ -19,6 +21,10 @@ export type ManipulabilityAnswer = api.ManipulabilityAnswer;
 export type Pose = api.Pose;
 export type RobotInfo = api.RobotInfo;
 export type RobotSummary = api.RobotSummary;
+export type Scene = api.Scene;
+export type SceneInfo = api.SceneInfo;
+export type SceneList = api.SceneList;
+export type SceneObject = api.SceneObject;
 export type SingularityAnswer = api.SingularityAnswer;
 export type ToUrdfAnswer = api.ToUrdfAnswer;
 

@@ -1,5 +1,6 @@
 /** The panels, in the order of their tabs. */
 
+import { cellPanel } from "./cell/index.ts";
 import { exercisesPanel } from "./exercises/index.ts";
 import { inversePanel } from "./ik/index.ts";
 import { jacobianPanel } from "./jacobian/index.ts";
@@ -17,6 +18,7 @@ export const PANELS: readonly Panel[] = [
   jacobianPanel,
   trajectoryPanel,
   workspacePanel,
+  cellPanel,
   workedPanel,
   exercisesPanel,
 ];

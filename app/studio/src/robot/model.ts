@@ -79,6 +79,17 @@ export class RobotModel {
     return this.link(base).matrixWorld.clone().invert().multiply(this.link(tip).matrixWorld);
   }
 
+  /** What is drawn of one link. */
+  parts(name: string): Mesh[] {
+    const found: Mesh[] = [];
+    const waiting: Object3D[] = [this.link(name)];
+    for (let node = waiting.pop(); node; node = waiting.pop()) {
+      if (node instanceof Mesh) found.push(node);
+      waiting.push(...node.children.filter((child) => !(child instanceof URDFJoint)));
+    }
+    return found;
+  }
+
   /** What is drawn of the links that move with these joints. */
   moving(joints: readonly Joint[]): Mesh[] {
     const names = new Set(joints.map((joint) => joint.name));

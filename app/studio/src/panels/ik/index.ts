@@ -53,7 +53,7 @@ function solutionsPart({ store, view }: Studio, solver: Solver): Part {
   const families = new FamilyList(store, outcome);
   const picture = view && new Picture(view, store, outcome);
   const stops = [
-    store.watch(["model", "base", "tip", "target", "inverse"], ({ target }) => {
+    store.watch(["model", "base", "tip", "target", "inverse", "scene"], ({ target }) => {
       if (target && !outcome.value.isFollowing) void solver.solve();
     }),
     store.watch(["model", "base", "tip", "inverse", "degrees"], (state) => options.show(state)),

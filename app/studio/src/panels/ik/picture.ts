@@ -128,7 +128,10 @@ export class Picture {
       const isShown = !isFollowing && !isWalking && !this.#sweep.length;
       for (const [index, ghost] of this.#ghosts) {
         const isPointed = index === pointed;
-        ghost.paint("accent", isPointed ? POINTED : pointed === null ? USUAL : FAINT);
+        ghost.paint(
+          result.solutions[index]!.in_collision ? "bad" : "accent",
+          isPointed ? POINTED : pointed === null ? USUAL : FAINT,
+        );
         const isHere = distance(chain, result.solutions[index]!.joint_positions) < SAME;
         ghost.group.visible = !isHere && (isPointed || (isShown && index < MOST_GHOSTS));
       }

@@ -54,6 +54,7 @@ export class SolutionList {
         type: "button",
         class: "solution",
         title: "Move the robot here",
+        "data-tone": solution.in_collision ? "bad" : null,
         onclick: () => this.#choose(solution),
         onpointerenter: point(index),
         onpointerleave: point(null),
@@ -98,8 +99,17 @@ function nameOf({ branch, free_joints }: InverseSolution, index: number): string
 
 function facts(solution: InverseSolution, task: readonly Direction[]): string {
   const { method, iterations, restarts, position_error, orientation_error } = solution;
+  const contact = contactOf(solution);
   const way = [method.replaceAll("_", " ")];
   if (iterations) way.push(`${iterations} ${iterations === 1 ? "iteration" : "iterations"}`);
   if (restarts) way.push(`${restarts} ${restarts === 1 ? "start" : "starts"} before`);
-  return `${way.join(", ")} · ${errors({ position_error, orientation_error }, task)} off`;
+  return `${way.join(", ")} · ${errors({ position_error, orientation_error }, task)} off${contact && ` · ${contact}`}`;
+}
+
+/** How far the nearest pair is apart, or how deep it overlaps; nothing where there is no scene. */
+function contactOf({ in_collision: isTouching, pair }: InverseSolution): string {
+  if (!pair) return "";
+  const distance = `${fixed(1000 * Math.abs(pair.distance), 1)} mm`;
+  const names = `${pair.a} and ${pair.b}`;
+  return isTouching ? `in contact: ${names}, by ${distance}` : `${distance} between ${names}`;
 }

@@ -2,6 +2,7 @@
 
 import { type Api, asProblem, Latest, type Problem } from "../../api.ts";
 import { type ShownChain, shownChain } from "../../robot/chain.ts";
+import { sceneField } from "../../scene/objects.ts";
 import type { State } from "../../state.ts";
 import { Store } from "../../store.ts";
 import type { InverseAnswer, InverseResult, Pose } from "../../types.ts";
@@ -118,7 +119,8 @@ export class Solver {
     const state = this.store.value;
     const chain = shownChain(state);
     if (!chain?.path || !state.target) return;
-    const call = inverseCall(chain, state.target, change(fullOptions(state.inverse, chain.joints.length)));
+    const options = change(fullOptions(state.inverse, chain.joints.length));
+    const call = { ...inverseCall(chain, state.target, options), ...sceneField(state.scene) };
     this.outcome.set({ isBusy: true, isCancelled: false });
     try {
       const answer = await this.#latest.run((signal) => this.#post(chain, call, signal));

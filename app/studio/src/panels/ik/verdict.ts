@@ -13,6 +13,7 @@ const TITLES: Record<Exclude<InverseResult["status"], "solved">, string> = {
   outside_limits: "Only outside the limits of the joints",
   singular: "Stuck at a singularity",
   not_converged: "Not converged",
+  in_collision: "Only in contact",
 };
 const BUSY_AFTER = 200; // ms; what is quicker needs no word
 
@@ -93,6 +94,8 @@ function summary({ result, answer, isCancelled, isFollowing }: Outcome): string 
   else if (result.families?.length) parts.push(`Infinitely many solutions, of which ${count} are listed.`);
   else if (result.complete === false) parts.push(`${count} solutions; there may be more.`);
   else parts.push("Solved.");
+  const touching = result.solutions.filter(({ in_collision: isTouching }) => isTouching).length;
+  if (touching) parts.push(`In contact: ${touching} of them.`);
   if (count > MOST_GHOSTS) parts.push(`The first ${MOST_GHOSTS} are in the picture, and any that you point at.`);
   if (answer?.closed_form && !isFollowing) parts.push(`Closed form: ${answer.closed_form}.`);
   return parts.join(" ");

@@ -1,0 +1,177 @@
+/** Cell: what stands around the robot, and what of it the robot touches. */
+
+import "../../styles/cell.css";
+
+import { asProblem } from "../../api.ts";
+import { shownChain } from "../../robot/chain.ts";
+import { call } from "../../scene/contacts.ts";
+import { ADDED, EMPTY, freeName } from "../../scene/objects.ts";
+import { keepScene, sceneNames, storedScene } from "../../scene/stored.ts";
+import { button, Choice, element, section, titled } from "../../ui/dom.ts";
+import { ProblemView } from "../../ui/problem.ts";
+import { fixed } from "../../ui/quantity.ts";
+import { RequestView } from "../../ui/request.ts";
+import { whileKept } from "../kept.ts";
+import type { Panel, Studio } from "../panel.ts";
+import { ObjectFields } from "./fields.ts";
+import { chosenObject, Handles } from "./handles.ts";
+
+export const cellPanel: Panel = {
+  id: "cell",
+  title: "Cell",
+  open: (host, studio) => whileKept(host, studio, () => open(host, studio)),
+};
+
+function open(host: HTMLElement, studio: Studio): () => void {
+  const { store, api, view } = studio;
+  const request = new RequestView(api);
+  const fields = new ObjectFields(store);
+  const handles = view && new Handles(view, store);
+  const modes = handles && dragModes(handles);
+  const list = element("ul", { class: "objects" });
+  const verdict = element("div", { class: "contacts", role: "status" });
+  const problem = new ProblemView();
+  const edited = titled("Object", modes ? [modes] : [], fields.host);
+  host.append(
+    section("Scene", element("div", { class: "bar" }, ...adders(studio)), list, kept(studio, problem)),
+    edited,
+    section("Contact", verdict, problem.host),
+    request.host,
+  );
+  const stops = [
+    store.watch(["scene", "chosen", "contacts"], () => list.replaceChildren(...entries(studio))),
+    store.watch(["scene", "chosen", "model", "degrees"], (state) => {
+      edited.hidden = chosenObject(state) === null;
+      fields.show();
+    }),
+    store.watch(["contacts"], () => verdict.replaceChildren(...told(studio))),
+    store.watch(["refusal"], ({ refusal }) => problem.show(refusal)),
+    store.watch(["scene", "positions", "model", "base", "tip"], (state) => {
+      const chain = shownChain(state);
+      if (chain?.path)
+        request.show({ method: "POST", path: `${chain.path}/collisions`, body: call(chain, state.scene) });
+    }),
+    () => handles?.close(),
+    () => store.set({ chosen: null }),
+  ];
+  return () => stops.forEach((stop) => stop());
+}
+
+/** Buttons that add an object in front of the robot, and edit it. */
+function adders({ store }: Studio): HTMLElement[] {
+  return ADDED.map(({ kind, text, shape }) =>
+    button(text, () => {
+      const { scene, unit, model } = store.value;
+      const taken = new Set([...scene.objects.map(({ name }) => name), ...(model?.links ?? [])]);
+      const name = freeName(text.toLowerCase(), taken);
+      const at = [5, 0, 1].map((steps) => Number((steps * unit).toFixed(2)));
+      const pose = kind === "half_space" ? {} : { pose: { position: at, rpy: [0, 0, 0] } };
+      const added = { name, shape: shape(unit), ...pose };
+      store.set({ scene: { name: null, objects: [...scene.objects, added] }, chosen: name });
+    }),
+  );
+}
+
+/** A line for each object; pressed it is edited, pressed again no longer. */
+function entries({ store }: Studio): HTMLElement[] {
+  const { scene, chosen, contacts } = store.value;
+  const touched = new Set(contacts?.inCollision ? contacts.pairs.flatMap(({ a, b }) => [a, b]) : []);
+  return scene.objects.map(({ name, shape, attached_to: frame }) => {
+    const isChosen = name === chosen;
+    const entry = button("", () => store.set({ chosen: isChosen ? null : name }), {
+      class: "object",
+      "aria-pressed": String(isChosen),
+      "data-tone": touched.has(name) ? "bad" : null,
+    });
+    const about = shape.type.replace("_", " ") + (frame ? `, on ${frame}` : "");
+    entry.append(element("span", {}, name), element("span", { class: "muted small" }, about));
+    return element("li", {}, entry);
+  });
+}
+
+/** Choosing a scene that the service keeps, and keeping this one. */
+function kept({ store, api }: Studio, problem: ProblemView): HTMLElement {
+  const guarded = async (work: () => Promise<void>) => {
+    try {
+      await work();
+      problem.show(null);
+    } catch (error) {
+      problem.show(asProblem(error));
+    }
+  };
+  const chosen = element("select", {
+    class: "select",
+    "aria-label": "Stored scenes",
+    onchange: () => void guarded(async () => store.set({ scene: await storedScene(api, chosen.value), chosen: null })),
+  });
+  const name = element("input", { class: "search", "aria-label": "Name of the scene", placeholder: "Name" });
+  const list = async () => {
+    const names = await sceneNames(api);
+    const none = element("option", { value: "", disabled: true, selected: true }, "Stored scenes");
+    chosen.replaceChildren(none, ...names.map((each) => element("option", { value: each }, each)));
+    const now = store.value.scene.name;
+    if (now !== null && names.includes(now)) chosen.value = name.value = now;
+  };
+  const keep = async () => {
+    store.set({ scene: await keepScene(api, name.value.trim(), store.value.scene) });
+    await list();
+  };
+  void guarded(list);
+  return element(
+    "div",
+    { class: "bar stored" },
+    chosen,
+    name,
+    button("Store", () => void guarded(keep), { title: "Keep the scene under this name" }),
+    button("Clear", () => store.set({ scene: EMPTY, chosen: null }), { title: "Begin with an empty scene" }),
+  );
+}
+
+function dragModes(handles: Handles): HTMLElement {
+  const options = [
+    { value: "translate", text: "Move" },
+    { value: "rotate", text: "Turn" },
+  ] as const;
+  const choice = new Choice<"translate" | "rotate">("Dragging in the picture", options, (mode) => {
+    handles.turnTo(mode);
+    choice.show(mode);
+  });
+  choice.show("translate");
+  return choice.host;
+}
+
+/** What is in contact, or nearest to it. */
+function told({ store }: Studio): HTMLElement[] {
+  const { contacts } = store.value;
+  if (!contacts) return [];
+  const { pairs, inCollision, clearance, warnings } = contacts;
+  const text = inCollision
+    ? "In contact"
+    : clearance === null
+      ? "Nothing can touch anything"
+      : `Free: ${fixed(1000 * clearance, 1)} mm to the nearest`;
+  const rows = pairs.map(({ a, b, distance }) =>
+    element(
+      "tr",
+      {},
+      element("td", {}, a),
+      element("td", {}, b),
+      element("td", { class: "value" }, `${fixed(1000 * distance, 1)} mm`),
+    ),
+  );
+  const titles = ["Of", "To", "Distance"].map((title) => element("th", { scope: "col" }, title));
+  return [
+    element("p", { class: "verdict-text", "data-tone": inCollision ? "bad" : "good" }, text),
+    ...(rows.length
+      ? [
+          element(
+            "table",
+            { class: "findings pairs" },
+            element("thead", {}, element("tr", {}, ...titles)),
+            element("tbody", {}, ...rows),
+          ),
+        ]
+      : []),
+    ...warnings.map((warning) => element("p", { class: "muted small" }, warning)),
+  ];
+}

@@ -1,0 +1,68 @@
+"""The Cell panel: objects around the arm, what they touch, and scenes that the service keeps."""
+
+import json
+from typing import Any
+
+import pytest
+
+from tests.studio.browser import Studio
+from tests.studio.inverse import SOLVED
+from tests.test_serve import get
+
+READY = "0,-0.785,0,-2.356,0,1.571,0.785,0"
+LINES = """(() => { const found = []; studio.view.scene.traverse((node) => {
+  if (node.name === "nearest points") found.push(node.position.toArray()); }); return found; })()"""
+KNOWN = "studio.store.value.contacts"
+
+
+def said(studio: Studio) -> dict[str, Any]:
+    """What the service says of the configuration and the scene on the screen."""
+    call = {"joint_positions": [[float(value) for value in READY.split(",")[:7]]], "clearance": True}
+    scene = {"objects": studio.state("scene")["objects"]}
+    status, answer = get(f"{studio.url}/v1/robots/panda/collisions", "POST", {**call, "scene": scene})
+    assert status == 200, answer
+    return dict(answer["results"][0])
+
+
+@pytest.mark.slow
+def test_an_object_is_added_moved_into_the_arm_and_stored(studio: Studio) -> None:
+    studio.open("cell", q=READY)
+    studio.until(KNOWN)
+    assert not studio.state("contacts")["inCollision"]
+    studio.button("Box").click()
+    studio.type("Size x", "0.3")
+    for axis, value in zip("xyz", (0.5, 0.1, 0.6), strict=True):
+        studio.type(f"Position {axis}", str(value))
+    studio.until(f"{KNOWN}?.inCollision && studio.store.value.scene.objects[0].pose.position[2] === 0.6")
+    result = said(studio)
+    studio.until(f"{KNOWN}.clearance === {json.dumps(result['clearance'])}")
+    assert result["in_collision"]
+    pairs = studio.state("contacts")["pairs"]
+    assert "box 1" in {pairs[0]["a"], pairs[0]["b"]}
+    assert pairs[0]["distance"] == pytest.approx(result["clearance"])
+    assert studio.run(LINES)[0] == pytest.approx(pairs[0]["point_a"])
+    assert studio.page.locator(".verdict-text").text_content() == "In contact"
+    assert studio.page.locator(".pairs tbody tr").count() == len(pairs)
+    studio.field("Name of the scene").fill("my_box")
+    studio.button("Store").click()
+    studio.until("studio.store.value.scene.name === 'my_box'")
+    kept = get(f"{studio.url}/v1/scenes/my_box")[1]["objects"]
+    assert [one["pose"]["position"] for one in kept] == [[0.5, 0.1, 0.6]]
+    studio.until("location.hash.includes('scene=my_box')")
+    studio.page.reload()
+    studio.wait_for_robot("panda")
+    studio.until(f"{KNOWN}?.inCollision")
+    studio.button("Clear").click()
+    studio.until(f"{KNOWN} && !{KNOWN}.inCollision")
+
+
+@pytest.mark.slow
+def test_solutions_in_contact_are_told_apart(studio: Studio) -> None:
+    target = {"position": [0.4, 0.25, 0.3], "rpy": [3.14, 0, 0]}
+    wall = {"name": "wall", "shape": {"type": "box", "size": [0.6, 0.1, 0.8]}, "pose": {"position": [0.4, 0.45, 0.3]}}
+    studio.open("ik", robot="ur5", target=json.dumps(target), objects=json.dumps([wall]))
+    studio.until(SOLVED)
+    found = studio.page.locator(".solution[data-tone=bad]")
+    assert 0 < found.count() < studio.page.locator(".solution").count()
+    assert "in contact: " in (found.first.text_content() or "")
+    assert f"In contact: {found.count()} of them." in (studio.page.locator(".verdict-summary").text_content() or "")
