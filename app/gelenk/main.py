@@ -17,22 +17,18 @@ from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.endpoints import ENDPOINTS
 from gelenk.http import dispatch, pages
 from gelenk.http.access.audit_log import AuditLog
-from gelenk.http.access.hosts import TrustedHosts, repeated
-from gelenk.http.access.keyring import Keyring
-from gelenk.http.access.keys import KeyCheck
+from gelenk.http.access.keyring import KeyCheck, Keyring
 from gelenk.http.access.metrics import Metrics
-from gelenk.http.access.middleware import AccessRule, Middleware
-from gelenk.http.access.origins import Origins
+from gelenk.http.access.middleware import AccessRule, Middleware, TracedId, exporter_variables, telemetry
+from gelenk.http.access.origins import Origins, TrustedHosts, repeated
 from gelenk.http.access.route_table import RouteTable
-from gelenk.http.access.tracing import TracedId, exporter_variables, telemetry
-from gelenk.http.dh_picture import picture_route
 from gelenk.http.exercises import exercise_routes, exercises_router
 from gelenk.http.jobs.jobs import jobs_router
 from gelenk.http.jobs.long_works import LONG_WORK
 from gelenk.http.messages import openapi, problems
 from gelenk.http.messages.payloads import Bodies
 from gelenk.http.messages.routes import Application
-from gelenk.http.pictures import pictures_router
+from gelenk.http.pictures import picture_route, pictures_router
 from gelenk.http.robots.pairs import pair_routes
 from gelenk.http.robots.robots import documented_routes, robots_router
 from gelenk.http.scenes import scene_routes, scenes_router

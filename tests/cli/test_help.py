@@ -11,7 +11,7 @@ import pytest
 
 from gelenk.cli import completion
 from gelenk.cli.completion import one_of
-from gelenk.cli.examples import EXAMPLES
+from gelenk.cli.session import EXAMPLES
 from gelenk.contract.ik import InverseOptions
 from gelenk.contract.jacobian import JacobianOptions
 from gelenk.trajectory.audit.words import Law

@@ -3,8 +3,8 @@
 import zipfile
 from pathlib import Path
 
+from gelenk.sheets.document import booklet_page, sheets_page
 from gelenk.sheets.key import key_table
-from gelenk.sheets.pages import booklet_page, sheets_page
 from tests.cli.conftest import Shell
 from tests.sheets.examples import SECRET, homework
 

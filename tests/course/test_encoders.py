@@ -6,7 +6,7 @@ from typing import cast
 import numpy as np
 import pytest
 
-from gelenk.course.actuators import gray
+from gelenk.course.actuators import encoders
 from gelenk.course.actuators.encoders import (
     COUNTS_A_LINE,
     Decoding,
@@ -194,37 +194,37 @@ def test_what_are_no_samples(text: str) -> None:
 
 
 def test_the_gray_code_of_the_lecture() -> None:
-    assert [row.gray for row in gray.table(3)] == ["000", "001", "011", "010", "110", "111", "101", "100"]
+    assert [row.gray for row in encoders.table(3)] == ["000", "001", "011", "010", "110", "111", "101", "100"]
 
 
 @pytest.mark.parametrize("bits", range(1, 13))
 def test_neighbours_differ_in_one_track_and_no_code_comes_twice(bits: int) -> None:
-    codes = [gray.gray(value) for value in range(2**bits)]
+    codes = [encoders.gray(value) for value in range(2**bits)]
     assert sorted(codes) == list(range(2**bits))
     for code, following in zip(codes, codes[1:] + codes[:1], strict=True):
         assert (code ^ following).bit_count() == 1
-    assert [gray.binary(code) for code in codes] == list(range(2**bits))
+    assert [encoders.binary(code) for code in codes] == list(range(2**bits))
 
 
 def test_there_and_back_for_wide_discs() -> None:
     for value in np.random.default_rng(0).integers(0, 2**32, 500).tolist():
-        assert gray.binary(gray.gray(value)) == value
-        place = gray.position(value, 32)
+        assert encoders.binary(encoders.gray(value)) == value
+        place = encoders.position(value, 32)
         assert int(place.binary, 2) == value
         assert place.angle == pytest.approx(2.0 * pi * value / 2**32)
 
 
 @pytest.mark.parametrize("code", ["gray", "binary"])
-def test_readings_of_either_code(code: gray.Code) -> None:
-    rows = gray.table(5)
+def test_readings_of_either_code(code: encoders.Code) -> None:
+    rows = encoders.table(5)
     texts = [cast(str, getattr(row, code)) for row in rows]
-    assert gray.read_codes(texts, code, 5, "readings") == rows
+    assert encoders.read_codes(texts, code, 5, "readings") == rows
 
 
 @pytest.mark.parametrize("text", ["", "0", "0000", "00a", "0 1", "-01", "0٠1", "0b1", "1_1"])
 def test_what_are_no_codes(text: str) -> None:
     with pytest.raises(InvalidField, match="readings/1"):
-        gray.read_codes(["010", text], "gray", 3, "readings")
+        encoders.read_codes(["010", text], "gray", 3, "readings")
 
 
 def test_a_turn_ends_and_the_count_goes_on() -> None:
@@ -232,23 +232,23 @@ def test_a_turn_ends_and_the_count_goes_on() -> None:
     bits = 6
     steps = rng.integers(-31, 32, 500)
     true = 17 + np.concatenate(([0], np.cumsum(steps)))
-    found = gray.unwrapped((true % 2**bits).tolist(), bits)
+    found = encoders.unwrapped((true % 2**bits).tolist(), bits)
     assert (np.array(found) - found[0]).tolist() == (true - true[0]).tolist()
-    assert gray.unwrapped([], 4) == []
-    assert gray.unwrapped([15, 0, 1, 0, 15], 4) == [15, 16, 17, 16, 15]
-    assert gray.unwrapped([0, 1, 0], 1) == [0, -1, -2]
+    assert encoders.unwrapped([], 4) == []
+    assert encoders.unwrapped([15, 0, 1, 0, 15], 4) == [15, 16, 17, 16, 15]
+    assert encoders.unwrapped([0, 1, 0], 1) == [0, -1, -2]
 
 
 def test_the_worked_code() -> None:
-    steps = gray.code_step([gray.position(4, 3)])
+    steps = encoders.code_step([encoders.position(4, 3)])
     assert steps.latex[1:] == (r"b = 100_2 = 4,\quad g = 110",)
 
 
 @pytest.mark.parametrize("code", ["gray", "binary"])
-def test_every_reading_is_decoded(code: gray.Code) -> None:
+def test_every_reading_is_decoded(code: encoders.Code) -> None:
     """Up to a hundred; the text says where there are more. Each binary digit is a parity of Gray digits."""
-    rows = [gray.position(value % 64, 6) for value in range(130)]
-    found = gray.reading_step(rows, code, 6)
+    rows = [encoders.position(value % 64, 6) for value in range(130)]
+    found = encoders.reading_step(rows, code, 6)
     lines = found.latex[code == "gray" :]
     assert len(lines) == 100
     assert found.text.endswith("Shown are the first 100 of 130.")

@@ -11,10 +11,9 @@ from scipy.linalg import polar
 from scipy.spatial.transform import Rotation
 
 from gelenk.contract.orientation import OrientationRequest
-from gelenk.course.orientation.composition import About, composed
 from gelenk.course.orientation.orientation import Notations, notations, wrapped
-from gelenk.course.orientation.rotations import DEGENERATE, AxisName, about_axis, elementary, validated
-from gelenk.course.orientation.symbols import product
+from gelenk.course.orientation.orientation_steps import product
+from gelenk.course.orientation.rotations import DEGENERATE, About, AxisName, about_axis, composed, elementary, validated
 from gelenk.errors import CertificationFailed
 from gelenk.operations.orientation import run
 from gelenk.robot.arrays import Array

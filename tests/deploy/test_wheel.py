@@ -87,7 +87,7 @@ def test_a_client_loads_and_converts_poses_without_what_computes(client_alone: s
 import numpy as np
 from gelenk.client import AsyncClient, Client
 from gelenk.contract.pose import Pose
-import gelenk.cli.main, gelenk.cli.files.xacro, xacro
+import gelenk.cli.main, gelenk.cli.files.inputs, xacro
 turns = dict(quaternion_xyzw=[0, 0, 0, 1], quaternion_wxyz=[1, 0, 0, 0], rpy=[0, 0, 0], zyz=[0, 0, 0],
              rotation_vector=[0, 0, 0], rotation=np.eye(3).tolist())
 for name, value in turns.items():

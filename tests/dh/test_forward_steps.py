@@ -4,7 +4,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from gelenk.dh.forward_steps import forward_steps, placement_steps
+from gelenk.dh.table_steps import forward_steps, placement_steps
 from gelenk.dh.tables.from_chain import dh_from_chain
 from gelenk.robot.arrays import Array
 from gelenk.robot.robot import RobotModel

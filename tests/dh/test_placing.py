@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gelenk.dh.compare.of_chain import dh_of_chain
-from gelenk.dh.derive.columns import Column
+from gelenk.dh.derive.texts import Column
 from gelenk.dh.placing import PairKind, axis_pairs, placing_steps
 from gelenk.dh.table_steps import conversion_steps, table_array
 from gelenk.dh.tables.convert import converted

@@ -17,8 +17,8 @@ from gelenk.errors import NotPrinted, StorageFailed
 from gelenk.exercises.mistakes.catalogue import mistake
 from gelenk.language import language
 from gelenk.sheets import pdf
+from gelenk.sheets.document import booklet_page, sheets_page
 from gelenk.sheets.key import key_table
-from gelenk.sheets.pages import booklet_page, sheets_page
 from gelenk.store.course_secret import kept_secret
 from tests.http.access.asking import HOST, application, ask, bearer, keys_for
 from tests.sheets.examples import SECRET, homework

@@ -13,8 +13,7 @@ from gelenk.kinematics.dynamics.bodies import Load
 from gelenk.kinematics.dynamics.dynamics import Dynamics, dynamics
 from gelenk.kinematics.dynamics.lagrangian import State
 from gelenk.kinematics.dynamics.mechanism import PinocchioDynamics, known_mechanism, mechanism
-from gelenk.kinematics.force.statics import statics
-from gelenk.kinematics.force.wrenches import WrenchFrame
+from gelenk.kinematics.force.statics import WrenchFrame, statics
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel

@@ -11,8 +11,15 @@ import gelenk.kinematics.force.statics as module
 from gelenk.errors import CertificationFailed, InvalidField, UnknownFrame
 from gelenk.kinematics.dynamics.bodies import Load
 from gelenk.kinematics.dynamics.mechanism import mechanism
-from gelenk.kinematics.force.statics import Statics, balance, certify_statics, components, overloaded_joints, statics
-from gelenk.kinematics.force.wrenches import WrenchFrame
+from gelenk.kinematics.force.statics import (
+    Statics,
+    WrenchFrame,
+    balance,
+    certify_statics,
+    components,
+    overloaded_joints,
+    statics,
+)
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel

@@ -9,7 +9,7 @@ PROGRAM = """
 import numpy as np
 import numba
 from pathlib import Path
-from gelenk.processes.pages import release_code
+from gelenk.processes.fork_server import release_code
 
 def of_files():
     lines = Path("/proc/self/status").read_text().splitlines()

@@ -11,8 +11,7 @@ from gelenk.exercises.grading import graded
 from gelenk.exercises.mistakes.catalogue import mistake
 from gelenk.language import language
 from gelenk.sheets.grades import grades_table
-from gelenk.sheets.key import key_table
-from gelenk.sheets.table import written
+from gelenk.sheets.key import key_table, written
 from tests.exercises.forms import sent
 from tests.sheets.examples import SECRET, homework
 

@@ -7,8 +7,7 @@ from html.parser import HTMLParser
 import pytest
 
 from gelenk.language import language
-from gelenk.sheets.document import formula, marked_up
-from gelenk.sheets.pages import booklet_page, sheets_page
+from gelenk.sheets.document import booklet_page, formula, marked_up, sheets_page
 from tests.sheets.examples import SIGNS, homework, odd
 
 MARKS = dict.fromkeys(map(ord, "^_()"))

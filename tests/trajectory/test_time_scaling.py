@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gelenk.course.motion.time_scaling_steps import scaling_steps
+from gelenk.course.motion.time_law_steps import scaling_steps
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.laws.time_scaling import ScalingLimits, uniform_scaling
 from gelenk.trajectory.motion.extremes import peaks

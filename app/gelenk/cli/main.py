@@ -12,9 +12,8 @@ from rich.console import Console
 
 import gelenk
 from gelenk.cli import arms, ask, bench, homework, jobs, motions, robots, tables
-from gelenk.cli.examples import example_of
 from gelenk.cli.files.outputs import Format, Output, check_place
-from gelenk.cli.session import Session
+from gelenk.cli.session import Session, example_of
 from gelenk.client.refusals import NotAnswering, Refused
 from gelenk.errors import InvalidInput, KinematicsError, NotFound
 

@@ -6,10 +6,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gelenk.cli.completion import CONVENTIONS, one_of
-from gelenk.cli.examples import example_of
 from gelenk.cli.files.inputs import fields_of, is_file, table_from
 from gelenk.cli.files.outputs import AnswerRows, Format, largest
-from gelenk.cli.session import BaseOption, FieldsOption, RobotArgument, TipOption, draw, plot_option, session
+from gelenk.cli.session import (
+    BaseOption,
+    FieldsOption,
+    RobotArgument,
+    TipOption,
+    draw,
+    example_of,
+    plot_option,
+    session,
+)
 from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:

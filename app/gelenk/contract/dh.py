@@ -10,7 +10,7 @@ from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.options import WithSteps
 from gelenk.contract.pose import Pose
 from gelenk.course.steps import Step
-from gelenk.dh.derive.columns import COLUMNS, Column
+from gelenk.dh.derive.texts import COLUMNS, Column
 from gelenk.errors import InvalidField, InvalidPose
 from gelenk.robot.arrays import Array
 from gelenk.robot.description import Mimic

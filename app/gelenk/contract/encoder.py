@@ -8,8 +8,7 @@ from gelenk.contract.common import Answer, optional
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.options import InLanguage
 from gelenk.contract.quantities import Ratio, Steps
-from gelenk.course.actuators.encoders import TURN, Decoding, EncoderResolution, RequiredEncoder
-from gelenk.course.actuators.gray import Code, DiscPosition
+from gelenk.course.actuators.encoders import TURN, Code, Decoding, DiscPosition, EncoderResolution, RequiredEncoder
 from gelenk.course.actuators.quadrature import Quadrature
 
 MAX_READINGS = 10_000

@@ -10,7 +10,7 @@ from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.orientation import OrientationPayload
 from gelenk.contract.quantities import Steps, Warnings
 from gelenk.contract.time_law import ProfileInfo
-from gelenk.course.cartesian.axes import AxesComparison
+from gelenk.course.cartesian.line import AxesComparison
 from gelenk.course.motion.check import MotionCertificate
 from gelenk.trajectory.audit.words import PolynomialLaw
 

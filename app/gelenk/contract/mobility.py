@@ -9,7 +9,7 @@ from gelenk.course.mobility.mechanism import IdleSpin, JointSplit, Pair
 from gelenk.course.mobility.mobility import PairCount, Verdict
 from gelenk.course.mobility.pairs import Space
 from gelenk.course.mobility.screws import PostureMobility
-from gelenk.course.mobility.spaces import TaskKind
+from gelenk.course.mobility.steps import TaskKind
 from gelenk.course.mobility.topology import ChainKind
 from gelenk.course.steps import Step
 

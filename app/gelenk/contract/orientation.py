@@ -10,9 +10,16 @@ from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.options import InLanguage
 from gelenk.contract.pose import MAX_MAGNITUDE, ORIENTATIONS, Matrix3, Pose, Vector3, Vector4
 from gelenk.contract.quantities import Steps
-from gelenk.course.orientation.composition import FrameMotion
 from gelenk.course.orientation.orientation import Degeneracy
-from gelenk.course.orientation.rotations import DEGENERATE, Validation, about_axis, elementary, unit_axis, validated
+from gelenk.course.orientation.rotations import (
+    DEGENERATE,
+    FrameMotion,
+    Validation,
+    about_axis,
+    elementary,
+    unit_axis,
+    validated,
+)
 from gelenk.errors import InvalidPose
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import ROTATION_TOLERANCE, transform

@@ -15,7 +15,7 @@ import numpy as np
 
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import decimal, rounded, vector
-from gelenk.dh.derive.columns import COLUMNS, Column
+from gelenk.dh.derive.texts import COLUMNS, Column
 from gelenk.dh.table_steps import angle_text, table_array, with_variable
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array

@@ -16,12 +16,19 @@ import numpy as np
 
 from gelenk.course.steps import Step
 from gelenk.dh.derive.check import SEED, Checks, checked_formulas, checked_singularities
-from gelenk.dh.derive.columns import COLUMNS, Column
 from gelenk.dh.derive.numeric import NumericSolution, numeric_solution
 from gelenk.dh.derive.steps import Layout, numbers_step, steps
 from gelenk.dh.derive.symbolic import formulas, singularities
 from gelenk.dh.derive.table import Numbers4, RowNumbers, TableNumbers
-from gelenk.dh.derive.texts import FormulaCertificate, Formulas, NumericCertificate, Singularities, SymbolicRequest
+from gelenk.dh.derive.texts import (
+    COLUMNS,
+    Column,
+    FormulaCertificate,
+    Formulas,
+    NumericCertificate,
+    Singularities,
+    SymbolicRequest,
+)
 from gelenk.dh.derive.transforms import MAX_ENTRY_TERMS
 from gelenk.dh.derive.typeset import Style
 from gelenk.dh.lagrangian.bodies import MassProperties

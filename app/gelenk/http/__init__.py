@@ -3,6 +3,6 @@
 - `dispatch`: routes and responses of all operations, built from the table of endpoints.
 - `messages`: bodies, answers, errors and the OpenAPI document. `access`: checks of every request.
 - `workers`: requests that a worker process answers. `jobs`: long work. `robots`: the robots as resources.
-- `dh_picture`: the picture of the DH parameters. `scenes`: the scenes as resources. `sheets`: homework.
+- `pictures`: those of the course. `scenes`: the scenes as resources. `sheets`: homework.
 - `service`: health and readiness. `pages`: the studio and the documentation.
 """

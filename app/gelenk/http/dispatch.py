@@ -44,8 +44,7 @@ from gelenk.http.workers.pool_client import INLINE_BYTES, PoolClient
 from gelenk.http.workers.task import Context, TaskRequest, buffers
 from gelenk.jobs.runner import Runner
 from gelenk.operations.operation import Operation, operation
-from gelenk.operations.outcome import Limits, Outcome, PictureFormat
-from gelenk.operations.request_counts import REQUEST_COUNTS, RequestCounts
+from gelenk.operations.outcome import REQUEST_COUNTS, Limits, Outcome, PictureFormat, RequestCounts
 from gelenk.store.records import LoadedRobot
 
 _PICTURES: dict[str, PictureFormat] = {SVG: "svg", PNG: "png"}

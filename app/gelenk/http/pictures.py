@@ -1,18 +1,21 @@
-"""Endpoints of the course's pictures: their list, and each as SVG or PNG."""
+"""Endpoints of the course's pictures: their list, and each as SVG or PNG; and the DH parameters on two links."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import orjson
 from fastapi import APIRouter, Path, Query, Request
 from starlette.datastructures import QueryParams
 from starlette.responses import Response
 
+from gelenk.contract.dh import Convention
+from gelenk.contract.dh_picture import ClassicPicture, two_links
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.endpoints import BY_NAME
 from gelenk.errors import UnknownPicture
 from gelenk.http.dispatch import answer
 from gelenk.http.messages.openapi import PLANAR_2R, documentation
-from gelenk.http.messages.payloads import PNG, SVG, JsonResponse, preferred_type
+from gelenk.http.messages.payloads import PNG, SVG, BoundedRequest, JsonResponse, preferred_type, read_query
+from gelenk.http.messages.routes import DocumentedRoute
 from gelenk.http.workers.pool_client import PoolClient
 from gelenk.http.workers.task import Context, TaskRequest, buffers
 from gelenk.language import Language, language, translated
@@ -72,3 +75,23 @@ def _drawn(_: Context, task_request: TaskRequest) -> Response:
     with language("de" if query["language"] == "de" else "en"):
         figure = gallery_figure(query["picture"])
     return Response(as_bytes(figure, "png" if wanted == PNG else "svg"), media_type=wanted)
+
+
+def picture_route(pool_client: PoolClient, max_body_bytes: int) -> DocumentedRoute:
+    """Return the route of the picture, which a worker draws."""
+
+    def classic(
+        convention: Annotated[Convention, Query(openapi_examples={"modified": {"value": "modified"}})] = "standard",
+        language: Annotated[
+            Language, Query(description="Of the title.", openapi_examples={"German": {"value": "de"}})
+        ] = "en",
+    ) -> Any: ...
+
+    async def draw(request: BoundedRequest) -> Response:
+        chosen = read_query(ClassicPicture, QueryParams(request.scope["query_string"].decode("latin-1")))
+        body = orjson.dumps({**two_links(chosen.convention), "language": chosen.language})
+        wanted = request.preferred((SVG, PNG))
+        task_request = TaskRequest(buffers([body]), wanted=wanted, endpoint="dh_picture")
+        return await pool_client.answer(request, answer, task_request)
+
+    return DocumentedRoute(classic, draw, max_body_bytes, **documentation("get_dh_picture"))

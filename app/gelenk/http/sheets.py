@@ -18,11 +18,11 @@ from gelenk.http.workers.task import Context, TaskRequest, buffers
 from gelenk.language import language
 from gelenk.sheets.bounds import Content
 from gelenk.sheets.bundle import bundle
+from gelenk.sheets.document import booklet_page, sheets_page
 from gelenk.sheets.grades import grades_table
 from gelenk.sheets.homework import Homework
 from gelenk.sheets.key import key_table
 from gelenk.sheets.moodle import moodle_xml
-from gelenk.sheets.pages import booklet_page, sheets_page
 from gelenk.sheets.pdf import printed
 from gelenk.store.course_secret import kept_secret
 

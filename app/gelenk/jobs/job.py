@@ -1,13 +1,17 @@
 """The record of a job, and why it failed, in forms that can be stored."""
 
 import dataclasses
+import fcntl
+import uuid
 from dataclasses import asdict, dataclass, field, replace
-from typing import Any, Literal, TypeAlias
+from pathlib import Path
+from typing import IO, Any, Literal, TypeAlias
 
 import orjson
 
 from gelenk import errors
 from gelenk.errors import JobFailed, KinematicsError
+from gelenk.store.folders import is_locked, open_plain
 
 State: TypeAlias = Literal["queued", "running", "succeeded", "failed", "cancelled"]
 
@@ -83,3 +87,36 @@ class JobRecord:
         """Create the job from a row made by `to_row`; any other row raises TypeError or ValueError."""
         job = cls(**row)
         return job if job.failure is None else replace(job, failure=Failure(**orjson.loads(row["failure"])))
+
+
+class Owners:
+    """The processes of the service that own jobs, as seen by one of them; `register` creates their folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._lock: IO[str] | None = None
+        self.own_name = uuid.uuid4().hex
+
+    def register(self) -> None:
+        """Lock the file of this process; call this before the process owns a job."""
+        if self._lock is None:
+            self._folder.mkdir(exist_ok=True)
+            self._lock = open_plain(self._folder / self.own_name, "w")
+            fcntl.flock(self._lock, fcntl.LOCK_EX)
+
+    def is_alive(self, name: str) -> bool:
+        """Return whether the process with a name is alive."""
+        return self._lock is not None if name == self.own_name else is_locked(self._folder / name)
+
+    def sweep(self) -> None:
+        """Remove the files of processes that have ended."""
+        for lock in self._folder.glob("*"):
+            if not self.is_alive(lock.name):
+                lock.unlink(missing_ok=True)
+
+    def release(self) -> None:
+        """Release the lock of this process and remove its file."""
+        if self._lock is not None:
+            self._lock.close()
+            (self._folder / self.own_name).unlink(missing_ok=True)
+            self._lock = None

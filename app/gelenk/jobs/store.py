@@ -20,8 +20,7 @@ from typing import IO, Any
 
 from gelenk.errors import JobExists, JobInterrupted, StorageFailed, TooManyJobs, UnknownJob
 from gelenk.jobs.database import NAMED, Database, import_earlier
-from gelenk.jobs.job import JobRecord
-from gelenk.jobs.owners import Owners
+from gelenk.jobs.job import JobRecord, Owners
 from gelenk.jobs.parts import Parts
 from gelenk.jobs.robot_files import robot_digest
 from gelenk.store import folders

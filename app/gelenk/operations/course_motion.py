@@ -15,7 +15,7 @@ from gelenk.contract.course_motion import (
 )
 from gelenk.course.cartesian.planar_line import PlanarLine, planar_line
 from gelenk.course.motion.check import MotionClaims, certified
-from gelenk.course.motion.formulas import SHOWN_JOINTS
+from gelenk.course.motion.time_law_steps import SHOWN_JOINTS
 from gelenk.errors import InvalidField, counted
 from gelenk.language import marked, translated as _
 from gelenk.operations.outcome import Outcome, PictureFormat

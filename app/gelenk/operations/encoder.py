@@ -3,7 +3,7 @@
 from typing import Any
 
 from gelenk.contract.encoder import EncoderRequest
-from gelenk.course.actuators import gray
+from gelenk.course.actuators import encoders
 from gelenk.course.actuators.encoders import COUNTS_A_LINE, TURN, required, required_step, resolution, resolution_steps
 from gelenk.course.actuators.quadrature import decoded, decoding_step, read_samples
 from gelenk.course.steps import Step
@@ -92,20 +92,22 @@ def _check(call: EncoderRequest) -> None:
 
 
 def _absolute(call: EncoderRequest, bits: int, steps: list[Step]) -> dict[str, Any]:
-    readings = gray.read_codes(call.readings or (), call.code, bits, "readings")
+    readings = encoders.read_codes(call.readings or (), call.code, bits, "readings")
     for number, value in enumerate(call.values or ()):
         if value >> bits:
             raise InvalidField(
                 f"values/{number}", f"is {value}; numbers of {counted(bits, 'bit')} are below {1 << bits}"
             )
-    if call.table and bits > gray.MOST_TABLE_BITS:
-        raise InvalidField("table", f"is written for at most {gray.MOST_TABLE_BITS} bits; `values` take any position")
-    values = [gray.position(value, bits) for value in call.values or ()]
+    if call.table and bits > encoders.MOST_TABLE_BITS:
+        raise InvalidField(
+            "table", f"is written for at most {encoders.MOST_TABLE_BITS} bits; `values` take any position"
+        )
+    values = [encoders.position(value, bits) for value in call.values or ()]
     if readings:
-        steps.append(gray.reading_step(readings, call.code, bits))
+        steps.append(encoders.reading_step(readings, call.code, bits))
     if values:
-        steps.append(gray.code_step(values))
-    going_on = gray.unwrapped([reading.value for reading in readings], bits)
+        steps.append(encoders.code_step(values))
+    going_on = encoders.unwrapped([reading.value for reading in readings], bits)
     travel = TURN * (going_on[-1] - going_on[0]) / (1 << bits) if going_on else None
     return {
         "readings": readings,
@@ -113,5 +115,5 @@ def _absolute(call: EncoderRequest, bits: int, steps: list[Step]) -> dict[str, A
         "motor_travel": travel,
         "load_travel": None if travel is None else travel / call.gear_ratio,
         "values": values,
-        "table": gray.table(bits) if call.table else None,
+        "table": encoders.table(bits) if call.table else None,
     }

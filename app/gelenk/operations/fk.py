@@ -4,7 +4,7 @@ from typing import Any
 
 from gelenk.contract.fk import ForwardRequest
 from gelenk.course.steps import Step
-from gelenk.dh.forward_steps import forward_steps, placement_steps
+from gelenk.dh.table_steps import forward_steps, placement_steps
 from gelenk.dh.tables.from_chain import standard_table
 from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.operations.chains import chain_and_positions, check_numbers, check_worked, head

@@ -15,9 +15,7 @@ from gelenk.operations.cells import cell_of
 from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolved_headers
 from gelenk.operations.ik_contacts import certify_table, contacts_of
 from gelenk.operations.ik_request import TargetLimits, has_table, is_in_cell, parse, task_of
-from gelenk.operations.outcome import Limits, Outcome
-from gelenk.operations.request_counts import RequestCounts
-from gelenk.operations.warm_up import WarmUp
+from gelenk.operations.outcome import Limits, Outcome, RequestCounts, WarmUp
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.compilation import is_awaited

@@ -3,10 +3,9 @@
 from typing import Any
 
 from gelenk.contract.ik import InverseRequest
-from gelenk.course.inverse.agreement import SentSolutions, hand_steps
+from gelenk.course.inverse.agreement import SentSolutions, hand_steps, solver_step
 from gelenk.course.inverse.arm import HandArm, hand_arm
 from gelenk.course.inverse.contact import contact_step
-from gelenk.course.inverse.solver import solver_step
 from gelenk.course.steps import Step
 from gelenk.dh.tables.from_chain import standard_table
 from gelenk.ik.search.problem import TargetProblem

@@ -5,11 +5,9 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.line import LineRequest
-from gelenk.course.cartesian.axes import AxisLimits, compared_axes
-from gelenk.course.cartesian.line import LineLaw, LineMotion, along_line, line_certificate
+from gelenk.course.cartesian.line import AxisLimits, LineLaw, LineMotion, along_line, compared_axes, line_certificate
 from gelenk.course.cartesian.line_steps import axes_steps, line_steps, optimal_step
-from gelenk.course.cartesian.turn import Turn, rates
-from gelenk.course.cartesian.turn_steps import turn_steps
+from gelenk.course.cartesian.turn import Turn, rates, turn_steps
 from gelenk.errors import InvalidField, counted
 from gelenk.language import translated as _
 from gelenk.operations.course_motion import profile_info, sample_times

@@ -11,10 +11,10 @@ from gelenk.contract.statics import CarriedLoad, PayloadInfo, StaticsRequest, Wr
 from gelenk.errors import InvalidField, UnknownFrame, counted, quoted
 from gelenk.kinematics.dynamics.bodies import Load, tensor
 from gelenk.kinematics.dynamics.mechanism import STANDARD_GRAVITY, ChainMechanism, known_mechanism, mechanism
-from gelenk.kinematics.force.wrenches import WrenchFrame
+from gelenk.kinematics.force.statics import WrenchFrame
 from gelenk.language import translated as _
 from gelenk.operations.chains import check_count
-from gelenk.operations.warm_up import WarmUp
+from gelenk.operations.outcome import WarmUp
 from gelenk.robot.appearance import invented_masses
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain

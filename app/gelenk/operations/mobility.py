@@ -7,8 +7,7 @@ from gelenk.course.mobility.mechanism import Mechanism, mechanism, mechanism_of_
 from gelenk.course.mobility.mobility import Tally, certify_mobility, tally, tally_of_counts, verdict, warnings
 from gelenk.course.mobility.pairs import FREEDOMS
 from gelenk.course.mobility.screws import PostureMobility, posture
-from gelenk.course.mobility.spaces import DIMENSIONS, TaskName, spaces_step, tasks
-from gelenk.course.mobility.steps import steps
+from gelenk.course.mobility.steps import DIMENSIONS, TaskName, spaces_step, steps, tasks
 from gelenk.errors import InvalidField
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import DIRECTIONS, Direction

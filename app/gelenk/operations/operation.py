@@ -8,8 +8,7 @@ from typing import Any
 
 from gelenk.contract.endpoint import Endpoint, RobotEndpoint
 from gelenk.contract.endpoints import BY_NAME
-from gelenk.operations.outcome import Limits, Outcome
-from gelenk.operations.warm_up import WarmUp
+from gelenk.operations.outcome import Limits, Outcome, WarmUp
 from gelenk.store.records import LoadedRobot
 
 

@@ -6,10 +6,9 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.orientation import OrientationRequest
-from gelenk.course.orientation.composition import FrameMotion, composed
 from gelenk.course.orientation.orientation import NEARLY_DEGENERATE, Notations, notations
 from gelenk.course.orientation.orientation_steps import GivenMotion, orientation_steps
-from gelenk.course.orientation.rotations import DEGENERATE, Validation
+from gelenk.course.orientation.rotations import DEGENERATE, FrameMotion, Validation, composed
 from gelenk.language import translated as _
 from gelenk.operations.outcome import json_only
 from gelenk.robot.arrays import Array

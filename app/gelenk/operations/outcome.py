@@ -1,14 +1,30 @@
-"""The outcome of an operation, and the limits of its computation."""
+"""The outcome of an operation, its counts for the metrics, and the limits of its computation."""
 
 from collections.abc import Callable, Mapping, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import partial, wraps
-from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
+from typing import Any, Generic, Literal, NamedTuple, TypeAlias, TypeVar
 
+from gelenk.contract.common import Payload
 from gelenk.jobs.store import JobLimits
 from gelenk.language import Language, language
-from gelenk.operations.request_counts import RequestCounts
 from gelenk.robot.arrays import Array
+from gelenk.store.records import LoadedRobot
+
+
+class RequestCounts(NamedTuple):
+    """Counts of one call: its configurations or targets, and all iterations that led to the solutions."""
+
+    batch: int
+    verdicts: Mapping[str, int] = {}
+    solutions: int = 0
+    iterations: int = 0
+
+
+REQUEST_COUNTS: ContextVar[RequestCounts | None] = ContextVar("request_counts", default=None)
+"""Counts of the current request; None if there is nothing to count."""
+
 
 PictureFormat: TypeAlias = Literal["svg", "png"]
 R = TypeVar("R")
@@ -71,3 +87,21 @@ def json_only(content: Callable[[R], Any]) -> Callable[[R], Outcome]:
         return Outcome(partial(content, request))
 
     return run
+
+
+_Request = TypeVar("_Request", bound=Payload)
+
+
+@dataclass(frozen=True, slots=True)
+class WarmUp(Generic[_Request]):
+    """A fact to find out about a robot.
+
+    Attributes:
+        is_known: Checks whether this process knows it.
+        find: Finds it, in another process, because that may take long or fail; the result must be picklable.
+        keep: Stores it in this process; runs in a thread.
+    """
+
+    is_known: Callable[[LoadedRobot, _Request], bool]
+    find: Callable[[LoadedRobot, _Request], object]
+    keep: Callable[[LoadedRobot, _Request, Any], object]

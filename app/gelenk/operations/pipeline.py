@@ -5,8 +5,7 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.pipeline import PipelineRequest
-from gelenk.course.cartesian.pipeline import Pipeline, pipeline
-from gelenk.course.cartesian.pipeline_steps import pipeline_steps
+from gelenk.course.cartesian.pipeline import Pipeline, pipeline, pipeline_steps
 from gelenk.course.cartesian.planar_line import tips
 from gelenk.language import translated as _
 from gelenk.operations.course_motion import joint_limits, line_of, peaks_info, segments_info

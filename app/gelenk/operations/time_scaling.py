@@ -3,10 +3,9 @@
 import numpy as np
 
 from gelenk.contract.time_scaling import TimeScalingRequest
-from gelenk.course.cartesian.planar_line import PlanarLine
-from gelenk.course.cartesian.planar_motion import along_planar_line, planar_motion_steps
+from gelenk.course.cartesian.planar_line import PlanarLine, along_planar_line, planar_motion_steps
 from gelenk.course.motion.check import MotionClaims
-from gelenk.course.motion.time_scaling_steps import scaling_steps
+from gelenk.course.motion.time_law_steps import scaling_steps
 from gelenk.errors import InvalidField
 from gelenk.language import translated as _
 from gelenk.operations.course_motion import (

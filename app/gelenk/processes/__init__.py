@@ -1,8 +1,7 @@
 """Child processes of the service, forked within milliseconds from a process that has loaded everything.
 
 - `worker_process`: handle of a child process, and client of the fork server.
-- `fork_server`: the process that forks the child processes.
+- `fork_server`: the process that forks the child processes; it gives memory that only loading needed back.
 - `wire`: messages between processes, without copies of large buffers.
-- `pages`: gives memory that only loading needed back to the system.
 - `turns`: a fair queue for clients that share processes or other places.
 """

@@ -2,9 +2,9 @@
 
 - `homework`: who gets which variants; a secret decides the numbers, and nothing is kept.
   `bounds`: how many.
-- `document`: parts of the printed pages; `pages`: the sheets and the booklet of solutions; `pdf`: printed by Chromium.
+- `document`: the sheets and the booklet of solutions as pages; `pdf`: printed by Chromium.
 - `normal_form`: answers in the one form that a comparison of numbers takes.
 - `cloze`, `moodle`: questions for Moodle. `prairielearn`: questions for PrairieLearn.
-- `key`: the right answers as a table. `table`: tables of texts as CSV; `grades`: what a table of answers earns.
+- `key`: the right answers as a table in CSV; `grades`: what a table of answers earns.
 - `bundle`: all of these in one file.
 """

@@ -4,10 +4,10 @@ import io
 import zipfile
 from collections.abc import Iterator
 
+from gelenk.sheets.document import booklet_page, sheets_page
 from gelenk.sheets.homework import Homework
 from gelenk.sheets.key import key_table
 from gelenk.sheets.moodle import moodle_xml
-from gelenk.sheets.pages import booklet_page, sheets_page
 from gelenk.sheets.prairielearn import prairielearn_files
 
 _DATE = (1980, 1, 1, 0, 0, 0)

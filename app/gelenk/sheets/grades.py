@@ -11,7 +11,7 @@ from gelenk.exercises.catalogue import exercise
 from gelenk.exercises.grading import graded
 from gelenk.sheets.bounds import MAX_GRADED, MAX_LABEL, MAX_ROWS
 from gelenk.sheets.homework import unprotected, variant_of
-from gelenk.sheets.table import written
+from gelenk.sheets.key import written
 
 COLUMNS = ("participant", "exercise", "field", "answer")
 GRADED = ("participant", "exercise", "field", "points", "max_points", "mistake", "text")

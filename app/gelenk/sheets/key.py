@@ -1,11 +1,36 @@
-"""The key of a homework: the right answer to each field of each participant."""
+"""The key of a homework: the right answer to each field of each participant, as CSV; in it no cell is a formula."""
 
+import csv
+import io
+import math
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
 
-from gelenk.sheets.homework import Homework
-from gelenk.sheets.table import written
+from gelenk.sheets.homework import FORMULA_SIGNS, Homework
+
+
+def written(columns: Sequence[str], rows: Iterable[Sequence[object]], delimiter: str = ",") -> str:
+    """Return a table (RFC 4180); a text that a spreadsheet would compute begins with an apostrophe."""
+    file = io.StringIO()
+    writer = csv.writer(file, delimiter=delimiter)
+    writer.writerow(columns)
+    writer.writerows([_safe(cell) for cell in row] for row in rows)
+    return file.getvalue()
+
+
+def _safe(cell: object) -> str:
+    text = f"{cell:.12g}" if isinstance(cell, float) else str(cell)
+    return f"'{text}" if text.startswith(FORMULA_SIGNS) and not _is_number(text) else text
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
+
 
 COLUMNS = ("participant", "exercise", "version", "field", "answer", "unit")
 

@@ -3,7 +3,7 @@
 import pytest
 from fastapi import FastAPI
 
-from gelenk.http.access.hosts import ONCE
+from gelenk.http.access.origins import ONCE
 from tests.http.access.asking import HOST, Answer, application, ask, bearer, keys_for
 
 ELSEWHERE = b"https://page.example"

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 from gelenk.course.actuators.dc_motor import Motor
-from gelenk.course.actuators.gray import gray
+from gelenk.course.actuators.encoders import gray
 from gelenk.course.actuators.pwm import Pulses, exact_ripple
 from gelenk.course.mobility.mechanism import GivenPair, Mechanism, Node, mechanism, mechanism_of_tree
 from gelenk.course.mobility.pairs import KINDS, PairGeometry

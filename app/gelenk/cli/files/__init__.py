@@ -1,5 +1,5 @@
 """What the command line reads and writes.
 
-- `inputs`: robots, tables and configurations from arguments, files and standard input; `xacro`: expanded here.
+- `inputs`: robots, tables and configurations from arguments, files and standard input; xacro is expanded here.
 - `outputs`: answers as tables, JSON, CSV and npy, by `rows`.
 """

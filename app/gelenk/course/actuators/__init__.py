@@ -3,5 +3,5 @@
 - `dc_motor`: the brushed motor, steady state and limits; `motor_response`: its exact response to a step.
 - `gear`: a reduction seen from either side, and the ratio of best acceleration.
 - `pwm`: averages and ripple of a switched voltage.
-- `encoders`: resolution; `quadrature`: counts and direction from two channels; `gray`: the Gray code.
+- `encoders`: resolution, and the Gray code; `quadrature`: counts and direction from two channels.
 """

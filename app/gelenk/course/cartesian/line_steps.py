@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from gelenk.course.cartesian.axes import AxesComparison, AxisLimits
-from gelenk.course.cartesian.line import LineLaw, LineMotion, line_move
-from gelenk.course.motion.formulas import tex_polynomial
+from gelenk.course.cartesian.line import AxesComparison, AxisLimits, LineLaw, LineMotion, line_move
+from gelenk.course.motion.time_law_steps import tex_polynomial
 from gelenk.course.motion.trapezoid_steps import trapezoid_steps
 from gelenk.course.steps import Step, step, tex, tex_factor
 from gelenk.course.writing import vector

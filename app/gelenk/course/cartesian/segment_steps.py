@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.course.cartesian.line_steps import sigma_pieces
-from gelenk.course.motion.formulas import SHOWN_JOINTS, tex_row
+from gelenk.course.motion.time_law_steps import SHOWN_JOINTS, tex_row
 from gelenk.course.steps import Step, step, tex
 from gelenk.course.writing import vector
 from gelenk.language import translated as _

@@ -1,4 +1,4 @@
-"""The DH table of an arm with its axes turned as the lecture has them.
+"""The DH table of an arm with its axes turned as the lecture has them, and what a solution by hand consists of.
 
 Turning a frame by π about its x axis changes nothing but signs: α of the row before it by π, and of the next row α by
 π, and the sign of its angle and of d. So parallel axes point the same way, and a wrist has α = -π/2 and π/2.
@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gelenk.course.steps import Step
 from gelenk.course.writing import theta
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable, about_x, about_z
@@ -118,3 +119,50 @@ def hand_arm(table: DhTable) -> HandArm:
 def _half_turn(alpha: float) -> float:
     turned = math.remainder(alpha + math.pi, 2.0 * math.pi)
     return 0.0 if abs(turned) < STRAIGHT else turned
+
+
+@dataclass(frozen=True, slots=True)
+class HandSolution:
+    """One branch: the table's variables, NaN where a joint is free.
+
+    Attributes:
+        values: ϑ or d of each row; shape (n,), [rad or m].
+        pair: Two joints, a sign s, and the value of ϑ_i + s ϑ_j, [rad], which is all that is known of the two.
+    """
+
+    values: Array
+    pair: tuple[int, int, int, float] | None = None
+
+    def filled(self, guess: Array) -> Array:
+        """Return the variables with the free ones taken from a guess (n,), so that the pair's sum is right."""
+        values = np.where(np.isnan(self.values), guess, self.values)
+        if self.pair is not None:
+            i, j, sign, total = self.pair
+            values[j] = sign * (total - values[i])
+        return np.asarray(values)
+
+
+@dataclass(frozen=True, slots=True)
+class ByHand:
+    """The steps, and all branches that they lead to; none if the target is out of reach.
+
+    Attributes:
+        is_family: Whether there are infinitely many, of which these are some.
+    """
+
+    steps: list[Step]
+    solutions: list[HandSolution]
+    is_family: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class HandTarget:
+    """A target in the frames of the table: T_0_n of shape (4, 4), which directions count, and values for free joints.
+
+    Attributes:
+        guess: Variables of a solution that was sent, else zeros; shape (n,), [rad or m].
+    """
+
+    pose: Array
+    directions: frozenset[str]
+    guess: Array

@@ -5,11 +5,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from gelenk.course.inverse.arm import STRAIGHT, ArmRow, HandArm
+from gelenk.course.inverse.arm import STRAIGHT, ArmRow, ByHand, HandArm, HandSolution, HandTarget
 from gelenk.course.inverse.parallel import by_three_parallel, fits_three_parallel
 from gelenk.course.inverse.planar import by_planar, fits_planar
 from gelenk.course.inverse.shoulder import behind_third, placed
-from gelenk.course.inverse.solution import ByHand, HandSolution, HandTarget
 from gelenk.course.inverse.wrist import centre_step, wrist_formulas, wrist_numbers, wrist_text, zyz_angles
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import matrix, number

@@ -8,10 +8,9 @@ import math
 
 import numpy as np
 
-from gelenk.course.inverse.arm import STRAIGHT, HandArm
-from gelenk.course.inverse.elbow import Links, bends, elbow_step
+from gelenk.course.inverse.arm import STRAIGHT, ByHand, HandArm, HandSolution, HandTarget
+from gelenk.course.inverse.planar import Links, bends, elbow_step
 from gelenk.course.inverse.shoulder import first_step, upright
-from gelenk.course.inverse.solution import ByHand, HandSolution, HandTarget
 from gelenk.course.inverse.wrist import centre_step, zyz_angles, zyz_formulas
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import matrix, number, theta, vector, wrapped

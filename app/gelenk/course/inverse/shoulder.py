@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.course.inverse.arm import HandArm
-from gelenk.course.inverse.elbow import Links, bends, elbow_step
+from gelenk.course.inverse.planar import Links, bends, elbow_step
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import ROUNDING, atan2, number, term, theta, vector, wrapped
 from gelenk.language import translated as _

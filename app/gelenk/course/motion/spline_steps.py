@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from gelenk.course.motion.formulas import SHOWN_JOINTS, of_joint, tex_polynomial, tex_row
+from gelenk.course.motion.time_law_steps import SHOWN_JOINTS, of_joint, tex_polynomial, tex_row
 from gelenk.course.steps import Step, step, tex
 from gelenk.course.writing import matrix
 from gelenk.language import marked, translated as _

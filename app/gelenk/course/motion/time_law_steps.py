@@ -1,18 +1,49 @@
 """Worked solutions of the polynomial time laws, in the notation of the lecture."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from math import factorial, perm
 
 import numpy as np
 
-from gelenk.course.motion.formulas import SHOWN_JOINTS, of_joint, tex_polynomial, tex_row
 from gelenk.course.steps import Step, step, tex, tex_factor
 from gelenk.course.writing import matrix
-from gelenk.language import translated as _
+from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
+from gelenk.trajectory.laws.time_scaling import Bound, Quantity, Scaling
 from gelenk.trajectory.motion.extremes import Peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+
+SHOWN_JOINTS = 4
+"""Largest number of joints that a worked solution shows; others are computed in the same manner."""
+_SHOWN_NUMBERS = 12
+
+
+def tex_polynomial(coefficients: Sequence[float]) -> str:
+    """Format a polynomial in t, highest power first in formula and list; 0 if all coefficients are."""
+    text = ""
+    for power, value in zip(range(len(coefficients) - 1, -1, -1), coefficients, strict=True):
+        if value != 0.0:
+            symbol = {0: "", 1: r"\,t"}.get(power, rf"\,t^{{{power}}}")
+            sign = "-" if value < 0.0 else "+" if text else ""
+            text += f" {sign} " if text else sign
+            text += tex(abs(value)) + symbol
+    return text or "0"
+
+
+def tex_row(values: Array) -> str:
+    """Format numbers in a row, at most twelve of them."""
+    shown = ", ".join(map(tex, values[:_SHOWN_NUMBERS].tolist()))
+    return shown if len(values) <= _SHOWN_NUMBERS else shown + r", \dots"
+
+
+def of_joint(step: Step, joint: int, joints: int) -> Step:
+    """Return the step with its joint in the title, if there are several joints."""
+    if joints == 1:
+        return step
+    return replace(step, title=_("Joint {number}: {title}").format(number=joint + 1, title=step.title))
+
 
 _LETTERS = "abcdefgh"
 _RATES = "qvaj"
@@ -175,3 +206,54 @@ def peak_step(velocity: Peaks, acceleration: Peaks) -> Step:
             value, time = float(found.values[j]), float(found.times[j])
             lines.append(rf"\max|{symbol}{index}| = {tex(abs(value))} \text{{ {_('at')} }} t = {tex(time)}")
     return step(_("Peaks"), _("Where the next derivative is zero, or at an end of a piece."), *lines)
+
+
+_SYMBOLS: dict[Quantity, tuple[str, str, str]] = {
+    "velocity": (r"\dot q", "v", r"k_{\mathrm{vel}}"),
+    "acceleration": (r"\ddot q", "a", r"k_{\mathrm{acc}}"),
+    "jerk": (r"\dddot q", "j", r"k_{\mathrm{jerk}}"),
+}
+_TITLES: dict[Quantity, str] = {
+    "velocity": marked("Velocity"),
+    "acceleration": marked("Acceleration"),
+    "jerk": marked("Jerk"),
+}
+_ROOTS: dict[Quantity, str] = {"velocity": "{}", "acceleration": r"\sqrt{{{}}}", "jerk": r"\sqrt[3]{{{}}}"}
+
+
+def scaling_steps(scaling: Scaling, duration: float) -> tuple[Step, ...]:
+    """Return the worked steps: ratios, the course's k, and k without the 1; `duration` in [s]."""
+    roots = ", ".join(_ROOTS[bound.quantity].format(_SYMBOLS[bound.quantity][2]) for bound in scaling.bounds)
+
+    def largest(terms: str, k: float) -> tuple[str, str]:
+        return rf"k = \max\{{{terms}\}} = {tex(k)}", rf"k T = {tex(k)} \cdot {tex(duration)} = {tex(k * duration)}"
+
+    scaled = step(
+        _("Scaling the time"),
+        _("The same path in k times the time: each derivative is divided by k once more."),
+        r"T \to k T:\quad \dot q \to \frac{\dot q}{k},\quad \ddot q \to \frac{\ddot q}{k^2}",
+    )
+    text = _("The 1 in the maximum lets it slow down alone.")
+    course = step(_("k of the course"), text, *largest(f"1, {roots}", scaling.course_factor))
+    steps = (scaled, *map(_ratio_step, scaling.bounds), course)
+    if scaling.factor is None:
+        return steps
+    text = _(
+        'It slows down or speeds up, until a limit is just reached. (The notes say "slow down or speed up" of the '
+        "maximum with the 1, which only slows down.)"
+    )
+    return (*steps, step(_("k without the 1"), text, *largest(roots, scaling.factor)))
+
+
+def _ratio_step(bound: Bound) -> Step:
+    symbol, limit, name = _SYMBOLS[bound.quantity]
+    j = bound.joint
+    return step(
+        _(_TITLES[bound.quantity]),
+        _("The largest ratio of a peak to its limit: joint {joint}, at {time:.10g} s.").format(
+            joint=j, time=bound.time
+        ),
+        rf"{name} = \max_j \frac{{\max_t |{symbol}_j|}}{{{limit}_{{\max,j}}}} = "
+        rf"\frac{{|{symbol}_{{{j}}}|}}{{{limit}_{{\max,{j}}}}} = "
+        rf"\frac{{{tex(abs(bound.peak))}}}{{{tex(bound.limit)}}} = {tex(bound.ratio)}",
+    )

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from gelenk.course.motion.formulas import SHOWN_JOINTS, of_joint, tex_row
+from gelenk.course.motion.time_law_steps import SHOWN_JOINTS, of_joint, tex_row
 from gelenk.course.steps import Step, step, tex, tex_factor
 from gelenk.language import translated as _
 from gelenk.trajectory.joints.parabolic_blends import Blends

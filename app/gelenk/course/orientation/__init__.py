@@ -1,7 +1,7 @@
 """Orientations and frames.
 
-- `rotations`: about an axis or a coordinate; how far a matrix is from one.
+- `rotations`: about an axis or a coordinate; how far a matrix is from one. Frames composed about moving or fixed axes,
+  inverted, and applied to points.
 - `orientation`: an orientation in every notation, both branches, and what degenerates.
-- `composition`: frames composed about moving or fixed axes, inverted, and applied to points.
-- `orientation_steps`: the worked solution; `symbols`: products of elementary rotations in symbols.
+- `orientation_steps`: the worked solution, also with products of elementary rotations in symbols.
 """

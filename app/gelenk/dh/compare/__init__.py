@@ -5,5 +5,5 @@
 - `alignment`: which axis corresponds to which, as a first guess; `placement`: base, tool, zeros and signs, with the
   errors that Pinocchio measures.
 - `mistakes`: common mistakes, tried one after the other by `trials`; `repairs` mend them. `numbers`: entries that must
-  be others; `several`: these beside another mistake. `words`: the names of all.
+  be others; `trials` has them beside another mistake. `words`: the names of all.
 """

@@ -15,8 +15,7 @@ from gelenk.dh.compare.numbers import MOST_POWERS, Difference, in_words, wrong_n
 from gelenk.dh.compare.placement import Subject, placed
 from gelenk.dh.compare.repairs import Repairs
 from gelenk.dh.compare.screws import numbers_of
-from gelenk.dh.compare.several import with_numbers
-from gelenk.dh.compare.trials import Diagnosis, explaining
+from gelenk.dh.compare.trials import Diagnosis, explaining, with_numbers
 from gelenk.dh.compare.words import LOOKS, Mistake
 from gelenk.errors import quoted
 from gelenk.robot.arrays import Array

@@ -7,10 +7,9 @@
 - `factors`: a determinant as the product that a textbook prints.
 - `singular`: the configurations at which a factor vanishes.
 - `typeset`: LaTeX and plain text.
-- `texts`: input and output of the symbolic part, as plain data.
+- `texts`: input and output of the symbolic part, as plain data; the rows of a table in LaTeX.
 - `symbolic`: all of it for one table, as text and as values at samples; it loads neither NumPy nor Pinocchio.
 - `numeric`: the same quantities at given configurations, from the table's own product of transforms.
 - `check`: compares formulas with numbers.
-- `columns`: the rows of a table in LaTeX.
 - `steps`: the solution in the order of the lecture.
 """

@@ -7,10 +7,9 @@ import numpy as np
 
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import decimal, matrix
-from gelenk.dh.derive.columns import COLUMNS, Column, array_of
 from gelenk.dh.derive.jacobian import Block
 from gelenk.dh.derive.numeric import NumericSolution
-from gelenk.dh.derive.texts import Formulas, SingularCondition, Singularities
+from gelenk.dh.derive.texts import COLUMNS, Column, Formulas, SingularCondition, Singularities, array_of
 from gelenk.language import translated as _
 from gelenk.robot.dh import DhTable
 

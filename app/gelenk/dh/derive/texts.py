@@ -1,9 +1,10 @@
-"""Input and output of the symbolic part of a worked solution: plain data, fit for a cache and for an answer."""
+"""Input and output of the symbolic part of a worked solution, as plain data for a cache or an answer; rows in LaTeX."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
+from gelenk.course.steps import table
 from gelenk.dh.derive.jacobian import Block, Setting
 from gelenk.dh.derive.table import TableNumbers
 from gelenk.dh.derive.typeset import Formula, MatrixFormula, Style
@@ -221,3 +222,16 @@ class Singularities:
     conditions: Sequence[SingularCondition] = ()
     values: Sequence[float] = ()
     sizes: Sequence[float] = ()
+
+
+Column: TypeAlias = Literal["a", "alpha", "d", "theta"]
+
+COLUMNS: tuple[Column, ...] = ("a", "alpha", "d", "theta")
+_HEADS = {"a": "a", "alpha": r"\alpha", "d": "d", "theta": r"\vartheta"}
+
+
+def array_of(rows: Sequence[Mapping[Column, str]], link: str, columns: Sequence[Column], first: int = 1) -> str:
+    """Return a table of cells in LaTeX; `link` is the index of a and α, `first` that of the first row."""
+    heads = [rf"{_HEADS[column]}_{{{link if column in ('a', 'alpha') else 'i'}}}" for column in columns]
+    lines = ((str(i), *(row[column] for column in columns)) for i, row in enumerate(rows, start=first))
+    return table(("i", *heads), lines, "c|cccc")

@@ -15,8 +15,7 @@ from gelenk.dh.derive.table import Table, read_table
 from gelenk.dh.derive.texts import SymbolEntry, symbol_entry
 from gelenk.dh.derive.typeset import Formula, MatrixFormula, Notation, indexed, matrix_of, summed
 from gelenk.dh.lagrangian.bodies import Line, LinkBody
-from gelenk.dh.lagrangian.equations import Equations, equations, rate
-from gelenk.dh.lagrangian.plane import NotPlanar, one_group, planar_arm
+from gelenk.dh.lagrangian.equations import Equations, NotPlanar, equations, one_group, planar_arm, rate
 from gelenk.dh.lagrangian.texts import (
     ChristoffelSymbol,
     LinkFormulas,

@@ -22,7 +22,7 @@ from prometheus_client.multiprocess import MultiProcessCollector, mark_process_d
 from prometheus_client.registry import Collector
 
 from gelenk.http.access.request_context import RequestContext
-from gelenk.operations.request_counts import RequestCounts
+from gelenk.operations.outcome import RequestCounts
 from gelenk.pool.pool import WorkerPool
 
 FOLDER = "PROMETHEUS_MULTIPROC_DIR"

@@ -1,12 +1,16 @@
-"""Middleware that every request and every response passes through."""
+"""Middleware that every request and every response passes through; optional OpenTelemetry, FastAPI's own spans.
+
+Only a few names are imported before tracing is switched on; the exporter is an optional extra.
+"""
 
 import asyncio
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeAlias
 
+from fastapi.telemetry import TelemetryConfig
 from starlette.responses import Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -15,7 +19,7 @@ from gelenk.http.access.metrics import Metrics
 from gelenk.http.access.request_context import RequestContext
 from gelenk.http.access.route_table import RouteTable
 from gelenk.logs import REQUEST_ID
-from gelenk.operations.request_counts import REQUEST_COUNTS
+from gelenk.operations.outcome import REQUEST_COUNTS
 
 AccessRule: TypeAlias = Callable[[RequestContext], Response | None]
 """Checks a request; returns the refusal, or None to let the request pass."""
@@ -100,3 +104,29 @@ class Middleware:
 def _lacking(names: tuple[bytes, ...]) -> Headers:
     """Return the common headers that are not among `names`; responses have few sets of names."""
     return [header for header in COMMON if header[0] not in {name.lower() for name in names}]
+
+
+def telemetry(is_wanted: bool) -> TelemetryConfig:
+    """Return FastAPI's telemetry configuration: everything, sent where the environment says, or nothing."""
+    return {"tracing": is_wanted, "metrics": is_wanted, "logs": is_wanted, "auto_configure": is_wanted}
+
+
+def exporter_variables(endpoint: str, environment: Mapping[str, str]) -> dict[str, str]:
+    """Return the standard variables that make the exporter send to `endpoint`; variables already set are left out."""
+    wanted = {"OTEL_EXPORTER_OTLP_ENDPOINT": endpoint, "OTEL_SERVICE_NAME": "gelenk"}
+    return {name: value for name, value in wanted.items() if name not in environment}
+
+
+@dataclass(frozen=True, slots=True)
+class TracedId:
+    """Puts the id of each request on its span, so that a trace leads to the log and back."""
+
+    app: ASGIApp
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Put the request id on the current span, and pass the request on."""
+        from opentelemetry import trace  # noqa: PLC0415 - only where it is wanted
+
+        if scope["type"] == "http":
+            trace.get_current_span().set_attribute("gelenk.request_id", scope["request_id"])
+        await self.app(scope, receive, send)

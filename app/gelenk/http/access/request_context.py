@@ -10,7 +10,7 @@ from starlette.types import Scope as AsgiScope
 
 from gelenk.contract.endpoint import Endpoint, Route, Scope
 from gelenk.http.messages.payloads import wants_answer_later
-from gelenk.operations.request_counts import RequestCounts
+from gelenk.operations.outcome import RequestCounts
 
 _WELL_FORMED = re.compile(rb"[A-Za-z0-9_.-]{1,64}")
 

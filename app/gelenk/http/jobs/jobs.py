@@ -12,8 +12,7 @@ from starlette.responses import StreamingResponse
 from gelenk.contract.jobs import Finished
 from gelenk.errors import InvalidArray, UnknownJob
 from gelenk.http.jobs import trajectory_job
-from gelenk.http.jobs.info import NO_STORE, job_content, job_response
-from gelenk.http.jobs.long_work import HEADERS, RESULTS, headers_of
+from gelenk.http.jobs.long_work import HEADERS, NO_STORE, RESULTS, headers_of, job_content, job_response
 from gelenk.http.jobs.long_works import LONG_WORK
 from gelenk.http.messages.openapi import documentation
 from gelenk.http.messages.payloads import CSV, JSON, NO_ARRAY, NPY, PNG, SVG, preferred_type

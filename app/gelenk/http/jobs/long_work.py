@@ -1,4 +1,4 @@
-"""Operations on a robot that can run as a job: checked at once, computed later, answered with the same bytes."""
+"""Operations on a robot that can run as a job: checked at once, computed later, with the same answer; jobs in JSON."""
 
 import asyncio
 import hashlib
@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 import orjson
@@ -15,14 +15,45 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from gelenk.contract.common import Payload
-from gelenk.http.jobs.info import job_response
+from gelenk.errors import kind_of
 from gelenk.http.messages.payloads import CSV, JSON, NPY, PNG, SVG
 from gelenk.http.workers.pool_client import client_of
+from gelenk.jobs.job import JobRecord
 from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import robot_files
 from gelenk.jobs.runner import Runner, Work
+from gelenk.logs import moment
 from gelenk.operations.outcome import Limits
 from gelenk.store.records import LoadedRobot
+
+NO_STORE = {"Cache-Control": "no-store"}
+
+
+def job_response(job: JobRecord, status: int = 200, headers: dict[str, str] | None = None) -> Response:
+    """Return a job as a response."""
+    return Response(orjson.dumps(job_content(job)), status, {**NO_STORE, **(headers or {})}, JSON)
+
+
+def job_content(job: JobRecord) -> dict[str, Any]:
+    """Return a job as JSON content."""
+    failure = job.failure
+    content: dict[str, Any] = {
+        "id": job.id,
+        "kind": job.kind,
+        "state": job.state,
+        "progress": job.progress,
+        "created": moment(job.created),
+        "started": None if job.started is None else moment(job.started),
+        "finished": None if job.finished is None else moment(job.finished),
+        "attempts": job.attempts,
+        "robot_digest": job.robot_digest,
+        "error": None,
+    }
+    if failure is not None:
+        kind = f"urn:gelenk:{kind_of(type(failure.error_again()))}"
+        content["error"] = {"type": kind, "detail": failure.detail, "facts": failure.facts}
+    return content
+
 
 _Request = TypeVar("_Request", bound=Payload)
 

@@ -5,8 +5,16 @@ from dataclasses import asdict
 from gelenk.contract.common import ChainEnds
 from gelenk.contract.dh import DhTablePayload, table_content
 from gelenk.contract.pose import Pose
-from gelenk.contract.robots import JointInfo, LimitsInfo, MeshInfo, MimicInfo, RobotInfo
-from gelenk.contract.shapes import BoxShape, CylinderShape, LinkShape
+from gelenk.contract.robots import (
+    BoxShape,
+    CylinderShape,
+    JointInfo,
+    LimitsInfo,
+    LinkShape,
+    MeshInfo,
+    MimicInfo,
+    RobotInfo,
+)
 from gelenk.robot.appearance import Solid, skeleton
 from gelenk.robot.description import Joint
 from gelenk.robot.notations import quaternions_xyzw_from_rotations

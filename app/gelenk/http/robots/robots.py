@@ -13,7 +13,7 @@ from gelenk.contract.common import FrameName
 from gelenk.contract.dh import Convention, SnapTolerance
 from gelenk.contract.dh_from_urdf import FromUrdfOptions
 from gelenk.contract.robots import ArchiveReplacement, NewArchive, NewRobot, RobotReplacement
-from gelenk.dh.derive.columns import COLUMNS, Column
+from gelenk.dh.derive.texts import COLUMNS, Column
 from gelenk.errors import InvalidArchive
 from gelenk.http.messages.openapi import RobotPath, UploadedRobotPath, documentation
 from gelenk.http.messages.payloads import JSON, MULTIPART, BoundedRequest, JsonResponse, read_json, read_query

@@ -12,7 +12,7 @@ from starlette.types import Receive, Scope, Send
 
 from gelenk.errors import ServiceStopping, TooManyRequests
 from gelenk.http.workers.task import Context, Reply, TaskRequest, WorkerTask, answered
-from gelenk.operations.request_counts import REQUEST_COUNTS
+from gelenk.operations.outcome import REQUEST_COUNTS
 from gelenk.pool.pool import WorkerPool
 from gelenk.store.library import Library
 from gelenk.store.records import LoadedRobot

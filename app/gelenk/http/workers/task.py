@@ -13,8 +13,7 @@ from typing import TypeAlias
 from starlette.responses import Response
 
 from gelenk.http.messages.payloads import JSON
-from gelenk.operations.outcome import Limits
-from gelenk.operations.request_counts import REQUEST_COUNTS, RequestCounts
+from gelenk.operations.outcome import REQUEST_COUNTS, Limits, RequestCounts
 from gelenk.processes.wire import pieces_of
 from gelenk.store.library import Library
 from gelenk.store.quota import ROBOTS, Quota

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Wedge
 
-from gelenk.course.actuators.gray import Code, gray
+from gelenk.course.actuators.encoders import Code, gray
 from gelenk.language import number, translated as _
 from gelenk.plots import figure as style
 from gelenk.plots.course.sketch import direction

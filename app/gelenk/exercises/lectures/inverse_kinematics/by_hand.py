@@ -5,9 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from gelenk.course.inverse.agreement import SentSolutions, hand_steps
-from gelenk.course.inverse.arm import hand_arm
+from gelenk.course.inverse.arm import HandTarget, hand_arm
 from gelenk.course.inverse.by_hand import prepared, solver_of
-from gelenk.course.inverse.solution import HandTarget
 from gelenk.course.steps import Step
 from gelenk.course.writing import wrapped
 from gelenk.exercises.table_field import table_of

@@ -10,14 +10,13 @@ from gelenk.course.inverse.wrist import wrist_formulas, wrist_numbers, wrist_tex
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import matrix
 from gelenk.exercises import sketches
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.draw import Draw, RationalRotation, drawn_rotation
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import angles, solution_set
 from gelenk.exercises.lectures.inverse_kinematics.by_hand import POSITION, revolute, solutions, steps_by_hand
 from gelenk.exercises.lectures.inverse_kinematics.spatial import is_awkward_reach, not_mirrored
 from gelenk.exercises.lectures.poses.frames import point_field, rotation_field
 from gelenk.exercises.lectures.poses.triples import flipped_without_last, is_plain, without_quadrant
-from gelenk.exercises.rational import RationalRotation, drawn_rotation
 from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable

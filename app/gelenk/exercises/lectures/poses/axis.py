@@ -5,7 +5,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gelenk.course.orientation.composition import Composition, composed
 from gelenk.course.orientation.orientation import notations
 from gelenk.course.orientation.orientation_steps import (
     GivenMotion,
@@ -16,10 +15,10 @@ from gelenk.course.orientation.orientation_steps import (
     points_step,
     zyz_step,
 )
-from gelenk.course.orientation.rotations import about_axis, elementary
+from gelenk.course.orientation.rotations import Composition, about_axis, composed, elementary
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import matrix
-from gelenk.exercises.draw import Draw
+from gelenk.exercises.draw import Draw, RationalRotation, drawn_rotation
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import VectorField, angle, angles, solution_set
 from gelenk.exercises.lectures.poses.frames import point_field, rotation_field
@@ -32,7 +31,6 @@ from gelenk.exercises.lectures.poses.triples import (
     without_quadrant,
     zyz_solutions,
 )
-from gelenk.exercises.rational import RationalRotation, drawn_rotation
 from gelenk.language import marked, number_list, translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import inverse, transform

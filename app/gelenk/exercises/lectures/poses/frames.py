@@ -5,7 +5,6 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from gelenk.course.orientation.composition import Composition, composed
 from gelenk.course.orientation.orientation_steps import (
     GivenMotion,
     composition_step,
@@ -13,7 +12,7 @@ from gelenk.course.orientation.orientation_steps import (
     inverse_step,
     points_step,
 )
-from gelenk.course.orientation.rotations import AxisName, elementary
+from gelenk.course.orientation.rotations import AxisName, Composition, composed, elementary
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import vector
 from gelenk.exercises.arms import misread

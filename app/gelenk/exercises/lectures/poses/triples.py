@@ -11,11 +11,10 @@ from gelenk.course.orientation.orientation_steps import GivenMotion, given_step,
 from gelenk.course.orientation.rotations import elementary
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import number
-from gelenk.exercises.draw import Draw, drawn
+from gelenk.exercises.draw import Draw, RationalRotation, drawn, drawn_rotation
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import ChoiceField, angle, angles, solution_set
 from gelenk.exercises.lectures.poses.frames import AXES, rotation_field
-from gelenk.exercises.rational import RationalRotation, drawn_rotation
 from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import transform

@@ -4,7 +4,7 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from gelenk.course.motion.time_scaling_steps import scaling_steps
+from gelenk.course.motion.time_law_steps import scaling_steps
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
 from gelenk.exercises.fields import quantity

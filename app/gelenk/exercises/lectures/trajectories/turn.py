@@ -5,8 +5,7 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from gelenk.course.cartesian.turn import Turn
-from gelenk.course.cartesian.turn_steps import turn_steps
+from gelenk.course.cartesian.turn import Turn, turn_steps
 from gelenk.course.orientation.rotations import elementary
 from gelenk.exercises.draw import Draw, drawn
 from gelenk.exercises.exercise import Answers, Exercise
