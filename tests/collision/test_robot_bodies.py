@@ -58,6 +58,18 @@ def test_visual_shapes_stand_in_with_a_warning_and_a_missing_mesh_leaves_none() 
     )
 
 
+def test_a_link_without_its_collision_mesh_is_what_it_looks_like() -> None:
+    mesh = '<geometry><mesh filename="{}.obj"/></geometry>'.format
+    urdf = f"""<robot name="r"><link name="base"><collision>{mesh("lost")}</collision><collision><geometry>
+    <sphere radius="0.1"/></geometry></collision><visual>{mesh("shown")}</visual></link></robot>"""
+    found = find_bodies(read_urdf(urdf), lambda name: TETRAHEDRON if name == "shown.obj" else None)
+    assert [body.kind for body in found.bodies] == ["convex"]
+    assert found.warnings == ("collision meshes are missing: the visual shapes are the bodies of 'base'",)
+    without = find_bodies(read_urdf(urdf), lambda _: None)
+    assert [body.kind for body in without.bodies] == ["sphere"]
+    assert without.warnings == ("without a body: mesh 'lost.obj' is missing",)
+
+
 def test_a_broken_mesh_is_named() -> None:
     with pytest.raises(InvalidMesh, match=r"mesh 'tool.obj': "):
         arm(b"f 1 2 3\n")

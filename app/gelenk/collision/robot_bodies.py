@@ -53,14 +53,11 @@ def find_bodies(
         InvalidMesh: A mesh file cannot be read.
     """
     pieces = cache(lambda mesh: _mesh_pieces(mesh, read_mesh(mesh)))
-    shapes = {link.name: _shapes(link) for link in description.links}
+    shapes = {link.name: _shapes(link, pieces) for link in description.links}
     bodies = tuple(body for link, some in shapes.items() for body in _bodies(link, some, pieces))
-    visual = tuple(link for link, some in shapes.items() if some and some[0].role == "visual")
+    warnings = list(_about_visuals([link for link in description.links if shapes[link.name]], shapes, has_own))
     named = {shape.mesh for some in shapes.values() for shape in some if shape.mesh is not None}
     missing = tuple(sorted(mesh for mesh in named if pieces(mesh) is None))
-    warnings = []
-    if visual and has_own:
-        warnings.append(f"no collision shapes: the visual ones are the bodies of {listed(visual)}")
     if missing:
         warnings.append(f"without a body: {meshes_are(missing)} missing")
     if not bodies:
@@ -68,10 +65,23 @@ def find_bodies(
     return RobotBodies(bodies, find_pairs(description, bodies, disabled), tuple(warnings))
 
 
-def _shapes(link: Link) -> list[Shape]:
-    """Return the shapes meant for contacts, or else those that are shown."""
-    meant = [shape for shape in link.shapes if shape.role == "collision"]
-    return meant or list(link.shapes)
+def _shapes(link: Link, pieces_of: _Pieces) -> list[Shape]:
+    """Return the shapes meant for contacts, or else those that are shown; rather ones of which no mesh is missing."""
+    meant, shown = ([shape for shape in link.shapes if shape.role == role] for role in ("collision", "visual"))
+    some = [shapes for shapes in (meant, shown) if shapes]
+    whole = [shapes for shapes in some if all(one.mesh is None or pieces_of(one.mesh) is not None for one in shapes)]
+    return (whole or some or [[]])[0]
+
+
+def _about_visuals(links: Sequence[Link], shapes: dict[str, list[Shape]], has_own: bool) -> Iterator[str]:
+    """Yield why the visual shapes of some links are taken."""
+    visual = [link for link in links if shapes[link.name][0].role == "visual"]
+    replaced = tuple(link.name for link in visual if any(shape.role == "collision" for shape in link.shapes))
+    others = tuple(link.name for link in visual if link.name not in replaced)
+    if others and has_own:
+        yield f"no collision shapes: the visual ones are the bodies of {listed(others)}"
+    if replaced:
+        yield f"collision meshes are missing: the visual shapes are the bodies of {listed(replaced)}"
 
 
 def _mesh_pieces(mesh: str, content: bytes | None) -> list[tuple[Array, float]] | None:

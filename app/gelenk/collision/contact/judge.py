@@ -16,6 +16,7 @@ from gelenk.collision.bodies import Body
 from gelenk.collision.contact.nodes import joint_position
 from gelenk.collision.contact.words import ContactCertificate
 from gelenk.collision.contact.world import World
+from gelenk.collision.shapes.hulls import convex_hull
 from gelenk.errors import CertificationFailed
 from gelenk.kinematics.judge.judge import sampled_rows
 from gelenk.robot.arrays import Array, Flags, Indices
@@ -263,6 +264,13 @@ def _shape(body: Body) -> coal.CollisionGeometry:
         case "half_space":
             return coal.Halfspace(np.array([0.0, 0.0, 1.0]), 0.0)
         case _:
-            points = coal.StdVec_Vec3s()
-            points.extend(list(body.points))
-            return coal.Convex.convexHull(points, True, "Qt")
+            return _polytope(body.points)
+
+
+def _polytope(corners: Array) -> coal.Convex:
+    """Return a convex polytope; the triangles are found here, because Coal crashes at warnings of its Quickhull."""
+    hull = convex_hull(corners)
+    points, triangles = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
+    points.extend(list(hull.vertices))
+    triangles.extend([coal.Triangle(*face) for face in hull.faces.tolist()])
+    return coal.Convex(points, triangles)

@@ -1,24 +1,21 @@
 """Convex hulls of points; with few vertices, and then around the hull."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from gelenk.collision.shapes.quickhull import quickhull
+from gelenk.collision.shapes.surfaces import used, volume_within
 from gelenk.robot.arrays import Array, Indices
 
 MAX_VERTICES = 128
 _THINNEST = 1e-6
 """Least thickness of a hull, relative to its size: flatter ones are thickened, because no hull of them is found."""
-_OPTIONS = "Qt E1e-12"
-"""Of Quickhull: triangles, and what distances count as rounding, of 1. Without that it crashes on some cut edges."""
 _FACES = MAX_VERTICES // 2 + 2
 """Of a simplified hull: F faces meet in at most 2 F - 4 vertices."""
 _FACES_A_ROUND = 16
 _PLANES_AT_ONCE = 16
 """Compared with all vertices: all at once would take gigabytes of a finely drawn hull."""
-_CELLS = 128
-"""Of a coarser hull, along its size: a polygon on such a grid has some 90 corners at most."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,47 +30,21 @@ class Hull:
 def convex_hull(points: Array) -> Hull:
     """Return the hull of points, shape (N, 3); a flat one is thickened.
 
-    Quickhull crashes on flat points. Hence it gets them scaled along their principal axes to a size of one, which
-    changes nothing of what is a vertex. It refuses vertices of more than 255 edges, as of finely drawn discs: these
-    get a slightly larger hull of fewer vertices.
+    Quickhull takes no flat points. Hence it gets them scaled along their principal axes to a size of one, which
+    changes nothing of what is a vertex.
     """
     centre, axes, sizes = _box(points)
     scaled = (points - centre) @ axes / sizes
     for axis in np.flatnonzero(np.ptp(scaled, axis=0) < 0.5):
         step = np.eye(3)[axis] / 2
         scaled = np.concatenate((scaled - step, scaled + step))
-    try:
-        hull = quickhull(scaled)
-    except RuntimeError:
-        hull = quickhull(_cell_corners(scaled))
-    volume = float(hull.computeVolume() * np.prod(sizes))
-    return Hull(np.array(hull.points()) * sizes @ axes.T + centre, _faces(hull), volume)
+    hull = used(scaled, quickhull(scaled))
+    return Hull(hull.points * sizes @ axes.T + centre, hull.faces, volume_within(hull) * float(np.prod(sizes)))
 
 
 def few_vertices(hull: Hull) -> Hull:
     """Return a hull around another, of at most `MAX_VERTICES`."""
     return hull if len(hull.vertices) <= MAX_VERTICES else convex_hull(_around(hull))
-
-
-def _cell_corners(points: Array) -> Array:
-    """Return the corners of the cells of a grid that contain points of a size of one; of a plane few are vertices."""
-    cells = np.unique(np.floor(points * _CELLS), axis=0)
-    corners = np.stack(np.meshgrid(*[(0, 1)] * 3), axis=-1).reshape(8, 1, 3)
-    return np.unique((cells + corners).reshape(-1, 3), axis=0) / _CELLS
-
-
-def quickhull(points: Array) -> Any:
-    """Return Coal's hull of points of a size of about one, not flat; raises RuntimeError for too many edges of one."""
-    import coal  # noqa: PLC0415 - only robots with meshes need it
-
-    listed = coal.StdVec_Vec3s()
-    listed.extend(list(points))
-    return coal.Convex.convexHull(listed, True, _OPTIONS)
-
-
-def _faces(hull: Any) -> Indices:
-    triangles = map(hull.polygons, range(hull.num_polygons))
-    return np.array([(triangle[0], triangle[1], triangle[2]) for triangle in triangles])
 
 
 def _box(points: Array) -> tuple[Array, Array, Array]:
@@ -112,6 +83,5 @@ def _around(hull: Hull) -> Array:
 
 
 def _dual_vertices(planes: Array) -> Array:
-    dual = quickhull(planes)
-    corners = np.array(dual.points())[_faces(dual)]
+    corners = planes[quickhull(planes)]
     return np.asarray(np.linalg.solve(corners, np.ones((len(corners), 3, 1)))[:, :, 0])

@@ -46,7 +46,7 @@ def parts_of(surface: Surface) -> list[Surface]:
     part = labels[surface.faces[:, 0]]
     order = np.argsort(part, kind="stable")
     groups = np.split(surface.faces[order], np.flatnonzero(np.diff(part[order])) + 1)
-    return [_used(surface.points, faces) for faces in groups]
+    return [used(surface.points, faces) for faces in groups]
 
 
 def _components(faces: Indices) -> Indices:
@@ -82,7 +82,7 @@ def cut(surface: Surface, normal: Array, offset: float) -> tuple[Surface, Surfac
     rest_up = np.tile(~tip_up, 2)
     below = surface.faces[count == 0], tips[~tip_up], rests[~rest_up]
     above = surface.faces[count == 3], tips[tip_up], rests[rest_up]
-    return _used(points, np.concatenate(below)), _used(points, np.concatenate(above))
+    return used(points, np.concatenate(below)), used(points, np.concatenate(above))
 
 
 def crossings(points: Array, heights: Array, a: Indices, b: Indices) -> Array:
@@ -91,7 +91,7 @@ def crossings(points: Array, heights: Array, a: Indices, b: Indices) -> Array:
     return np.asarray(points[a] + share[:, None] * (points[b] - points[a]))
 
 
-def _used(points: Array, faces: Indices) -> Surface:
+def used(points: Array, faces: Indices) -> Surface:
     """Return a surface of only those points that are corners."""
     is_used = np.zeros(len(points), dtype=bool)
     is_used[faces] = True
@@ -104,5 +104,10 @@ def enclosed_volume(surface: Surface) -> float:
     count = len(surface.points)
     if not np.array_equal(np.sort(starts * count + ends), np.sort(ends * count + starts)):
         return math.nan
+    return volume_within(surface)
+
+
+def volume_within(surface: Surface) -> float:
+    """Return the volume within a closed surface, [m³]."""
     a, b, c = np.moveaxis((surface.points - surface.points.mean(axis=0))[surface.faces], 1, 0)
     return abs(float(np.einsum("ij,ij->", a, np.cross(b, c)))) / 6.0
