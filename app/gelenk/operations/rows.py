@@ -42,8 +42,22 @@ def objects(columns: Mapping[str, Array | list[bytes]], around: bytes = b"%b") -
         depth = 0 if isinstance(column, list) else column.ndim - 1
         fields.append(b'"%b":%b%%b%b' % (name.encode(), b"[" * depth, b"]" * depth))
         pieces.append(column if isinstance(column, list) else _pieces(column))
-    row = around.replace(b"%b", b"{%b}" % b",".join(fields))
-    return b"[%b]" % b",".join(map(row.__mod__, zip(*pieces, strict=True)))
+    template = around.replace(b"%b", b"{%b}" % b",".join(fields))
+    return b"[%b]" % _filled(template.split(b"%b"), pieces)
+
+
+def _filled(literals: list[bytes], columns: list[list[bytes]]) -> bytes:
+    """Write the literals with entries of the columns between them for each row, and commas between rows.
+
+    One list of all pieces is joined, which takes a third of the time of a format for each row.
+    """
+    count, step = len(columns[0]), 2 * len(columns) + 1
+    row = [b""] * (step * count)
+    for i, literal in enumerate([*literals[:-1], literals[-1] + b","]):
+        row[2 * i :: step] = [literal] * count
+    for i, column in enumerate(columns):
+        row[2 * i + 1 :: step] = column
+    return b"".join(row)[:-1]
 
 
 def _pieces(array: Array) -> list[bytes]:
