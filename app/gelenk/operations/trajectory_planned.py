@@ -76,9 +76,11 @@ class TrajectorySizeLimits:
 
 def sample_times(duration: float, period: float) -> Array:
     """Return every multiple of a period before the end, and the end, [s]; for a duration of zero only 0."""
-    count, rate = np.arange(sample_count(duration, period) - 1), round(1.0 / period)
+    times, rate = np.arange(float(sample_count(duration, period))), round(1.0 / period)
     # 3 · 0.05 is not the double that is nearest to 0.15; 3 / 20 is.
-    return np.append(count / rate if rate * period == 1.0 else count * period, duration)
+    times = times / rate if rate * period == 1.0 else times * period
+    times[-1] = duration
+    return times
 
 
 def sample_count(duration: float, period: float) -> int:

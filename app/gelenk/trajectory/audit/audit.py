@@ -293,15 +293,16 @@ def _worst(values: list[float], times: list[float], names: tuple[str, ...], boun
     """Return the joint nearest to its limit, or the largest value if none is limited."""
     limits = [math.inf] if bounds is None else bounds.tolist()
     limited = any(map(math.isfinite, limits))
-    ratios = [_ratio(*pair) for pair in zip(values, limits, strict=True)] if limited else [abs(one) for one in values]
+    ratios = list(map(_ratio, values, limits)) if limited else list(map(abs, values))
     joint = _worst_index(ratios)
     return Peak(ratios[joint] if limited else None, values[joint], names[joint], times[joint])
 
 
 def _worst_index(values: list[float]) -> int:
     """Return where the largest value is; one that is not a number is the largest."""
-    sizes = [math.inf if math.isnan(value) else value for value in values]
-    return sizes.index(max(sizes))
+    if math.isnan(sum(values)):
+        values = [math.inf if math.isnan(value) else value for value in values]
+    return values.index(max(values))
 
 
 def _ratio(value: float, limit: float) -> float:

@@ -128,7 +128,7 @@ class LimitedPath:
 
     def tip_bounds(self, piece: Indices) -> Array:
         """Return the tip's limits in given pieces, in the order of `QUANTITIES`; shape (N,) → (N, 4)."""
-        return self._bounds(piece, _of_tip(self.limits.tip), [_of_tip(zone.tip) for zone in self.zones])
+        return self._bounds(piece, tip_row(self.limits.tip), [tip_row(zone.tip) for zone in self.zones])
 
     def joint_bounds(self, piece: Indices) -> Array:
         """Return the limits of velocity, acceleration and jerk in given pieces; shape (N,) → (N, 3, n)."""
@@ -255,7 +255,8 @@ def of_order(order: int) -> Flags:
     return found
 
 
-def _of_tip(limits: TipLimits) -> Array:
+def tip_row(limits: TipLimits) -> Array:
+    """Return the limits of the tip in the order of `QUANTITIES`; shape (4,)."""
     return np.array([limits.speed, limits.angular_speed, limits.acceleration, limits.angular_acceleration])
 
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import astuple, dataclass, replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import cast
 
@@ -18,6 +18,7 @@ from gelenk.trajectory.motion.splines import cubic_spline
 from gelenk.trajectory.paths.corners import blended
 from gelenk.trajectory.paths.curves import Arc
 from gelenk.trajectory.paths.orientation_paths import AxisAnglePath, OrientationPath, axis_angle
+from gelenk.trajectory.paths.path_geometry import tip_row
 from gelenk.trajectory.paths.paths import POINT, CurvePath, Path, circle, line, refuse_reversal
 from gelenk.trajectory.paths.spline_paths import PolynomialPath, SplineBoundary, spline
 from gelenk.trajectory.paths.turned_path import TurnedPath
@@ -167,7 +168,7 @@ def _zones(corners: Sequence[BlendedCorner], segments: Sequence[Segment], extent
 def _limits_of(segment: Segment) -> Array:
     """Return all limits in a row, infinite where there are none."""
     limits, stated = segment.limits, segment.stated_jerk
-    own = [limits.joints.ravel(), np.array(astuple(limits.tip)), np.array([np.inf]) if stated is None else stated]
+    own = [limits.joints.ravel(), tip_row(limits.tip), np.array([np.inf]) if stated is None else stated]
     return np.concatenate(own if limits.torque is None else [*own, limits.torque.most])
 
 
