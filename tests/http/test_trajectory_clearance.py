@@ -1,13 +1,15 @@
 """Trajectories in a cell over HTTP: how near they come, where they end before a contact, every way to ask wrongly."""
 
-import time
+from io import BytesIO
 from typing import Any
 
 import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
+from gelenk.contract.trajectories import MotionsAnswer
 from gelenk.contract.trajectory_answer import TrajectoryAnswer
+from tests.http.test_jobs import ended
 
 READY = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 LEFT, RIGHT = ([base, -0.2, 0.0, -2.2, 0.0, 2.0, 0.785] for base in (-0.5, 1.4))
@@ -40,6 +42,12 @@ def ask(client: TestClient, body: dict[str, Any]) -> dict[str, Any]:
     assert answer.status_code == 200, answer.text[:1000]
     TrajectoryAnswer.model_validate_json(answer.content)
     content: dict[str, Any] = answer.json()
+    return content
+
+
+def ended_result(client: TestClient, job: str) -> dict[str, Any]:
+    assert ended(lambda: client.get(job).json())["state"] == "succeeded"
+    content: dict[str, Any] = client.get(f"{job}/result").json()
     return content
 
 
@@ -126,11 +134,7 @@ def test_a_stored_scene_a_table_of_samples_and_a_job_say_the_same(client: TestCl
     job = client.post(PATH, json=body, headers={"Prefer": "respond-async"})
     assert job.status_code == 202, job.text
     client.delete("/v1/scenes/with_post").raise_for_status()
-    end = time.monotonic() + 120.0
-    while (result := client.get(f"{job.headers['Location']}/result")).status_code != 200:
-        assert time.monotonic() < end, result.text
-        time.sleep(0.1)
-    later = result.json()
+    later = ended_result(client, job.headers["Location"])
     for one in (here, later):  # Coal begins each search at the end of the one before.
         assert one["audit"]["clearance"]["certificate"].pop("max_distance_error") < 1e-6
     assert later == here
@@ -152,3 +156,25 @@ def test_a_cell_that_is_none_is_refused_by_field(client: TestClient, fields: dic
     answer = client.post(PATH, json=body)
     assert answer.status_code in {404, 422}, answer.text
     assert pointer in answer.text
+
+
+def test_a_batch_leaves_out_what_would_touch(client: TestClient) -> None:
+    body = {"starts": [LEFT], "targets": [[0.2, *LEFT[1:]], RIGHT, [9.0, *LEFT[1:]]], "scene": SCENE}
+    url = "/v1/robots/panda/trajectories"
+    answer = client.post(url, json=body).json()
+    MotionsAnswer.model_validate(answer)
+    free, touching, beyond = answer["results"]
+    single = ask(client, turn([0.2, *LEFT[1:]]))
+    assert free["passed"]
+    assert free["clearance"] == pytest.approx(single["audit"]["clearance"]["value"], abs=1e-4)
+    blocked = ask(client, turn(RIGHT))["failure"]["nearest"]
+    assert (touching["passed"], touching["duration"], beyond["clearance"]) == (False, None, None)
+    assert touching["clearance"] == pytest.approx(blocked["value"], abs=1e-4)
+    assert "'post'" in touching["reason"]
+    assert answer["contact_certificate"]["samples"] == 2
+    rows = np.load(BytesIO(client.post(url, json=body, headers={"Accept": "application/x-npy"}).content))
+    assert rows.shape == (3, 12)
+    np.testing.assert_allclose(rows[:2, 11], [free["clearance"], touching["clearance"]])
+    job = client.post(url, json=body, headers={"Prefer": "respond-async"})
+    later = ended_result(client, job.headers["Location"])
+    assert [later[name] for name in ("results", "notes")] == [answer[name] for name in ("results", "notes")]

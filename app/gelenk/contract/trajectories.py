@@ -2,10 +2,12 @@
 
 from pydantic import Field
 
+from gelenk.collision.contact.words import ContactCertificate
 from gelenk.contract.common import Answer, ChainOptions, optional
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS, AboutChain, Configurations
 from gelenk.contract.options import InLanguage
+from gelenk.contract.scene import InCell
 from gelenk.contract.trajectory_answer import LimitSourcesInfo, MotionLimitsInfo
 from gelenk.contract.trajectory_request import MotionOptions
 from gelenk.kinematics.judge.words import PoseCertificate
@@ -28,10 +30,10 @@ COLUMNS = (
     "tip_angular_acceleration",
     "min_singular_value",
 )
-"""Columns of the array, which are the fields of a result but for its reason."""
+"""Columns of the array, which are the fields of a result but for its reason; in a cell `clearance` comes last."""
 
 
-class MotionsOptions(ChainOptions, MotionOptions, InLanguage):
+class MotionsOptions(ChainOptions, MotionOptions, InCell, InLanguage):
     """What all motions of a batch share."""
 
     law: Law = Field(default="trapezoidal", description="Of time, the same as of a segment of `trajectory`.")
@@ -65,6 +67,10 @@ class MotionResult(Answer):
     min_singular_value: float | None = Field(
         description="Smallest singular value of the Jacobian on the way, [m or rad] per [rad or m]: units are mixed."
     )
+    clearance: float | None = optional(
+        "If the request has `scene` or `min_clearance`: least distance of a pair at any time, less what an object "
+        "demands, to 0.1 mm, [m]; also of a motion that there is not because it would touch something."
+    )
 
 
 class MotionsAnswer(AboutChain):
@@ -77,6 +83,7 @@ class MotionsAnswer(AboutChain):
     certificate: PoseCertificate = Field(
         description="Of the tip's poses midway between starts and targets, a sample recomputed through Pinocchio."
     )
+    contact_certificate: ContactCertificate | None = optional("Of the clearances, of which Coal recomputes a sample.")
 
 
 ENDPOINT = RobotEndpoint(
@@ -91,15 +98,16 @@ ENDPOINT = RobotEndpoint(
     Each motion is that of a `joint` segment of `trajectory`, from rest to rest in the least time. It is audited like
     that one, by code independent of the planner: exact peaks of the joints, jumps where pieces meet, the ends; the tip
     and the singular values are sampled less densely, and searched between samples. A motion that cannot be done, as
-    one to a target beyond the joint limits, has a `reason`, and the others are not affected. For the samples of one of
-    them ask `trajectory`.
+    one to a target beyond the joint limits, or through something of a `scene`, has a `reason`, and the others are not
+    affected. For the samples of one of them ask `trajectory`.
     """,
     batch="targets",
     options=MotionsOptions,
     npy_holds_more=True,
     npy_body="An array of shape (N, 2, n): of each motion the start and the target.",
     npy_answer=f"An array of shape (N, {len(COLUMNS)}), of each motion {', '.join(f'`{name}`' for name in COLUMNS)}, "
-    "the fields of a result; `passed` is 1 or 0, and what is null there is NaN.",
+    "the fields of a result; `passed` is 1 or 0, and what is null there is NaN. With `scene` or `min_clearance` "
+    "`clearance` follows as one more column.",
     example={
         "starts": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]],
         "targets": [[0.3, -0.5, 0.1, -2.2, 0.05, 1.8, 0.9], [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 3.0]],

@@ -9,6 +9,7 @@ from multiprocessing import get_context
 
 import numpy as np
 
+from gelenk.collision.cell import cell_in
 from gelenk.collision.contact.gradient import pair_gradients, soft_clearances
 from gelenk.collision.contact.kernels import (
     all_contacts,
@@ -187,6 +188,9 @@ def _answers() -> None:
     poses, start = forward_kinematics(robot, chain, qs).poses, mid_range(chain)[None]
     for options in (Options(), Options(every=True), Options(trace=True, max_iterations=1)):
         inverse_kinematics(robot, chain, poses, start, options)
+    cell = cell_in(build_world(robot, chain, RobotBodies((), (), ())))
+    move = Segment("joint", "trapezoidal", SegmentLimits(*np.ones((3, 3))))
+    plan_batch(robot, chain, qs, qs + 0.5, move, cell)
     (robot, chain), qs = _six_joints(), np.full((1, 6), 0.4)
     inverse_kinematics(robot, chain, forward_kinematics(robot, chain, qs).poses, qs, Options(every=True))
 

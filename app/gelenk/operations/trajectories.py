@@ -1,13 +1,17 @@
 """Batches of joint motions of a robot: planned and audited, as JSON or npy."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from gelenk.collision.cell import Cell
+from gelenk.collision.contact.words import ContactCertificate
 from gelenk.contract.trajectories import COLUMNS, MAX_MOTIONS, MotionsRequest
 from gelenk.errors import InvalidArray, InvalidField, TooLarge, counted
 from gelenk.kinematics.judge.words import PoseCertificate
+from gelenk.operations.cells import cell_of, has_cell
 from gelenk.operations.chains import check_numbers, head
 from gelenk.operations.outcome import Limits, Outcome, always
 from gelenk.operations.trajectory_limits import OwnVelocities, SourcedLimits, bounds_of, limit_notes, own_velocities
@@ -34,29 +38,37 @@ class MotionBatch:
     bounds: SourcedLimits
     move: Segment
 
-    def planned(self, robot: RobotModel, rows: slice = slice(None)) -> BatchMotions:
-        """Plan and audit some of the motions."""
-        starts = self.starts if len(self.starts) == 1 else self.starts[rows]
-        return plan_batch(robot, self.chain, starts, self.targets[rows], self.move)
+    def planned(self, robot: RobotModel, cell: Cell | None = None) -> BatchMotions:
+        """Plan and audit the motions."""
+        return plan_batch(robot, self.chain, self.starts, self.targets, self.move, cell)
 
-    def to_json(self, results: Any, certificate: PoseCertificate) -> dict[str, Any]:
+    def to_json(
+        self,
+        results: Any,
+        certificate: PoseCertificate,
+        warnings: Sequence[str] = (),
+        contact_certificate: ContactCertificate | None = None,
+    ) -> dict[str, Any]:
         """Return the answer with given results."""
-        return {
+        answer = {
             **head(self.chain),
             "results": results,
             "limits": limits_json(self.bounds.limits),
             "limit_sources": self.bounds.sources,
-            "notes": limit_notes(self.chain, self.own, [self.bounds]),
+            "notes": [*limit_notes(self.chain, self.own, [self.bounds]), *warnings],
             "certificate": certificate,
         }
+        return answer | ({"contact_certificate": contact_certificate} if contact_certificate else {})
 
 
 def run(loaded: LoadedRobot, call: MotionsRequest, limits: Limits) -> Outcome:
     """Plan and audit the motions of a call."""
     batch = parse(loaded.robot, call, MAX_MOTIONS)
-    check_numbers(len(batch.targets) * len(COLUMNS), limits)
-    found = batch.planned(loaded.robot)
-    return Outcome(lambda: batch.to_json(results_json(found), found.certificate), lambda: (found.rows, {}))
+    check_numbers(len(batch.targets) * (len(COLUMNS) + has_cell(call)), limits)
+    cell, warnings = cell_of(loaded, batch.chain, call) or (None, [])
+    found = batch.planned(loaded.robot, cell)
+    about = found.certificate, warnings, found.contact_certificate
+    return Outcome(lambda: batch.to_json(results_json(found), *about), lambda: (table(found), {}))
 
 
 def parse(robot: RobotModel, call: MotionsRequest, most: int) -> MotionBatch:
@@ -92,9 +104,15 @@ def _ends(chain: Chain, call: MotionsRequest) -> tuple[Array, Array]:
     return starts, targets
 
 
+def table(found: BatchMotions) -> Array:
+    """Return the motions as one array."""
+    return found.rows if found.clearances is None else np.column_stack((found.rows, found.clearances))
+
+
 def results_json(found: BatchMotions) -> list[dict[str, Any]]:
-    """Return the results as JSON content; NaN becomes null."""
+    """Return the results as JSON content; NaN and infinite numbers become null."""
+    columns = COLUMNS if found.clearances is None else (*COLUMNS, "clearance")
     return [
-        {**dict(zip(COLUMNS, row, strict=True)), "passed": i not in found.reasons, "reason": found.reasons.get(i)}
-        for i, row in enumerate(found.rows.tolist())
+        {**dict(zip(columns, row, strict=True)), "passed": i not in found.reasons, "reason": found.reasons.get(i)}
+        for i, row in enumerate(table(found).tolist())
     ]

@@ -9,6 +9,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gelenk.collision.cell import Cell
+from gelenk.collision.contact.room import FlatWorld
+from gelenk.collision.contact.words import ContactCertificate
 from gelenk.errors import AuditFailed, InvalidInput, OutsideLimits
 from gelenk.kinematics.judge.judge import certify_poses
 from gelenk.kinematics.judge.words import PoseCertificate
@@ -19,6 +22,9 @@ from gelenk.robot.compilation import compiled
 from gelenk.robot.configuration import check_limits
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.audit.contact.clearance import RESOLUTION
+from gelenk.trajectory.audit.contact.search import least_slack
+from gelenk.trajectory.audit.contact.travel import put_position
 from gelenk.trajectory.audit.motions import SIGMA_SAMPLES, TIP_SAMPLES, BatchLimits, figures, slowdown
 from gelenk.trajectory.audit.pieces import Pieces
 from gelenk.trajectory.audit.result import Audit
@@ -47,24 +53,32 @@ class BatchMotions:
             the Jacobian. NaN from the duration on where there is no motion. Shape (N, 11).
         reasons: Why there is none, by row.
         certificate: Of poses midway between starts and targets.
+        clearances: In a cell the least of each motion, also of one that would touch something, [m]; NaN where there is
+            no other motion; infinite if nothing can touch anything; shape (N,).
+        contact_certificate: Of these.
     """
 
     rows: Array
     reasons: dict[int, str]
     certificate: PoseCertificate
+    clearances: Array | None = None
+    contact_certificate: ContactCertificate | None = None
 
 
-def plan_batch(robot: RobotModel, chain: Chain, starts: Array, targets: Array, move: Segment) -> BatchMotions:
+def plan_batch(
+    robot: RobotModel, chain: Chain, starts: Array, targets: Array, move: Segment, cell: Cell | None = None
+) -> BatchMotions:
     """Plan and audit the fastest motion from each start to its target, from rest to rest.
 
     Args:
         starts: Shape (N, n), or (1, n) for one start of all, [rad or m].
         targets: Shape (N, n).
         move: Law and limits of all; its target does not count.
+        cell: What no motion may touch.
 
     Raises:
         InvalidField: A limit is out of the supported range.
-        CertificationFailed: Pinocchio's poses differ.
+        CertificationFailed: Pinocchio's poses differ, or Coal's distances.
     """
     time_scaling.check_limits(move.limits.joints)
     starts, targets = np.ascontiguousarray(starts), np.ascontiguousarray(targets)
@@ -77,7 +91,37 @@ def plan_batch(robot: RobotModel, chain: Chain, starts: Array, targets: Array, m
     reasons = dict(_again(robot, chain, starts, targets, move, rows))
     middles = 0.5 * (starts + targets)
     certificate = certify_poses(robot, chain, middles, {chain.tip_frame: Poses(*chain_poses(chain.flat, middles))})
-    return BatchMotions(rows, reasons, certificate)
+    found = BatchMotions(rows, reasons, certificate)
+    return found if cell is None else _in_cell(cell, found, starts, targets, move)
+
+
+def _in_cell(cell: Cell, found: BatchMotions, starts: Array, targets: Array, move: Segment) -> BatchMotions:
+    """Add clearances, and take motions out that would touch something."""
+    rows, reasons = found.rows, dict(found.reasons)
+    moving = np.flatnonzero(rows[:, 0] == 1.0)
+    some = starts if len(starts) == 1 else starts[moving]
+    qs, free = _nearest(cell.world.flat, some, targets[moving], shape_of(move.law), move.limits.joints)
+    nearest = cell.nearest(qs)
+    certificate = cell.certified_nearest(qs, nearest)
+    for i in np.flatnonzero(~free).tolist():
+        row = int(moving[i])
+        reasons[row] = cell.contact(int(nearest.pairs[i]), float(nearest.distances[i]))
+        rows[row, 0], rows[row, 1:] = 0.0, np.nan
+    clearances = np.full(len(rows), np.nan)
+    clearances[moving] = nearest.clearances
+    return replace(found, reasons=dict(sorted(reasons.items())), clearances=clearances, contact_certificate=certificate)
+
+
+@compiled
+def _nearest(world: FlatWorld, starts: Array, targets: Array, law: LawShape, limits: Array) -> tuple[Array, Flags]:
+    """Return the nearest configuration of each motion, (N, n), and whether it touches nothing; time does not count."""
+    qs, free = np.empty_like(targets), np.empty(len(targets), dtype=np.bool_)
+    for i in range(len(targets)):
+        pieces = _pieces(*fastest_motion(starts[min(i, len(starts) - 1)], targets[i], limits, law))
+        least = least_slack(world, pieces, RESOLUTION)
+        put_position(pieces, least.place, qs[i])
+        free[i] = least.free_until == np.inf
+    return qs, free
 
 
 def _within(chain: Chain, qs: Array) -> Flags:
