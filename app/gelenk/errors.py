@@ -128,7 +128,7 @@ class InvalidPose(InvalidInput):
 
 
 class InvalidArchive(InvalidInput):
-    """The archive does not contain exactly one URDF and its meshes; where known, the error names the entry."""
+    """The archive does not contain one URDF, its meshes and its SRDF; where known, the error names the entry."""
 
     reason: str
     entry: str | None = None

@@ -86,7 +86,7 @@ def test_neighbours_are_rigidly_joined_or_have_one_joint_and_no_body_between_the
 
 
 def test_an_srdf_leaves_pairs_out() -> None:
-    srdf = "<robot><disable_collisions link1='tool' link2='base'/><group name='a'/><disable_collisions/></robot>"
+    srdf = b"<robot><disable_collisions link1='tool' link2='base'/><group name='a'/><disable_collisions/></robot>"
     disabled = disabled_pairs(srdf)
     assert disabled == [("tool", "base")]
     pairs = {(pair.a, pair.b): pair for pair in find_pairs(read_urdf(ARM), arm().bodies, disabled)}

@@ -9,9 +9,10 @@ from gelenk.robot.description import Description
 from gelenk.robot.xml import read_xml
 
 
-def disabled_pairs(srdf: str) -> list[tuple[str, str]]:
+def disabled_pairs(srdf: bytes) -> list[tuple[str, str]]:
     """Return the links of each `disable_collisions` in an SRDF; raises InvalidUrdf if it is no well-formed XML."""
-    found = (child.attributes for child in read_xml(srdf).children if child.tag == "disable_collisions")
+    root = read_xml(srdf.decode("utf-8", "replace"))
+    found = (child.attributes for child in root.children if child.tag == "disable_collisions")
     return [(pair["link1"], pair["link2"]) for pair in found if {"link1", "link2"} <= pair.keys()]
 
 

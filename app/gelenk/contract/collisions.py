@@ -77,10 +77,10 @@ ENDPOINT = RobotEndpoint(
     Whether the robot touches itself or its surroundings at each configuration, where, and how far it is from it.
 
     Links are what their collision shapes are; a mesh counts as the convex hulls of what it is cut into, so it may be in
-    contact a little early, never late. Links that are neighbours do not count, nor do two that the chain does not move relative
-    to each other. Distances are exact to 1e-6 m, and so is the depth of a contact, but that of a point deep inside a
-    cylinder: it takes the two apart, and may be more than the smallest that does. Every answer is recomputed by
-    Pinocchio and Coal before it is sent (a sample of a large batch).
+    contact a little early, never late. Links that are neighbours do not count, nor do two that the chain does not move
+    relative to each other. Distances are exact to 1e-6 m, and so is the depth of a contact, but that of a point deep
+    inside a cylinder: it takes the two apart, and may be more than the smallest that does. Every answer is recomputed
+    by Pinocchio and Coal before it is sent (a sample of a large batch).
     """,
     options=CollisionOptions,
     npy_answer="Contacts as one array of shape (N, 2): 1 in contact, else 0; clearance, NaN if not requested.",

@@ -56,7 +56,9 @@ _WORKSPACE_PICTURE = (
 )
 
 _BINARY = {"type": "string", "format": "binary"}
-_ARCHIVE: dict[str, dict[str, Any]] = {"archive": {**_BINARY, "description": "Zip of one URDF and its meshes."}}
+_ARCHIVE: dict[str, dict[str, Any]] = {
+    "archive": {**_BINARY, "description": "Zip of one URDF, its meshes, and its SRDF if there is one."}
+}
 _SCENE_FILES: dict[str, dict[str, Any]] = {
     "files": {
         "type": "array",
@@ -172,7 +174,8 @@ RESOURCES = (
         files=_ARCHIVE,
         summary="Add a robot",
         description="""
-        Adds a URDF (xacro expanded), a DH table, or, as a form, a zip of one URDF and its meshes.
+        Adds a URDF (xacro expanded), a DH table, or, as a form, a zip of one URDF, its meshes, and
+        its SRDF if there is one, whose `disable_collisions` leave out pairs of links.
 
         The answer is sent once the robot is safely on disk; every worker sees it at once. Adding the same robot under
         the same name again returns 200, a different one 409; a default chain with an unknown frame returns 404.

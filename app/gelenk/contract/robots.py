@@ -49,13 +49,14 @@ class RobotFile(Payload):
     description: Text = ""
     format: Literal["urdf", "dh"]
     model: str | PackagedFile = Field(description="The URDF or DH file, in this folder or in a package.")
-    srdf: PackagedFile | None = optional("The SRDF, of a robot of the catalogue.")
+    srdf: str | PackagedFile | None = optional("The SRDF, in this folder or in a package.")
     meshes: str | None = optional("Folder of the mesh files, in this folder.")
     urdf_folder: str = Field(default="", description="Where the URDF stood among the mesh files.")
     digest: str | None = optional("SHA-256 of the model and its meshes, of an uploaded robot.")
     owner: str | None = optional("Which client uploaded it; null where none did.")
     kept_bytes: int = Field(default=0, description="Of the model and its meshes, of an uploaded robot.")
     left_out: int = Field(default=0, description="Files of the archive, meshes or pictures, that nothing names.")
+    findings: list[str] = Field(default_factory=list, description="What is wrong with meshes and SRDF of an upload.")
     default_chain: ChainEnds | None = None
     chains: dict[str, ChainEnds] = Field(default_factory=dict)
     collision_pairs: list[PairChoice] = Field(default_factory=list, description="As a person chose them.")

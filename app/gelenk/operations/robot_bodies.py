@@ -21,10 +21,10 @@ from gelenk.collision.link_pairs import disabled_pairs
 from gelenk.collision.pairs import LinkPair, edited
 from gelenk.collision.robot_bodies import RobotBodies, find_bodies
 from gelenk.collision.shapes.meshes import MAX_BYTES
-from gelenk.errors import StorageFailed
+from gelenk.errors import InvalidUrdf, StorageFailed
 from gelenk.robot.robot import RobotModel
 from gelenk.store import folders
-from gelenk.store.records import LoadedRobot, mesh_file, package_data, stamp_of
+from gelenk.store.records import LoadedRobot, mesh_file, stamp_of
 
 _KEPT = 500
 """Number of robots whose bodies stay on disk, the last found ones."""
@@ -57,9 +57,10 @@ def stored_or_found(loaded: LoadedRobot) -> RobotBodies:
 
 
 def _found(loaded: LoadedRobot) -> RobotBodies:
-    srdf = loaded.record.file.srdf
-    disabled = [] if srdf is None else disabled_pairs((package_data() / srdf.path).read_text(encoding="utf-8"))
-    description = loaded.robot.description
+    description, srdf = loaded.robot.description, loaded.record.srdf_path
+    disabled: list[tuple[str, str]] = []
+    with suppress(InvalidUrdf, FileNotFoundError):  # The robot's warnings tell of a broken one.
+        disabled = [] if srdf is None else disabled_pairs(folders.read_plain(srdf))
     found = find_bodies(description, lambda mesh: _content(loaded, mesh), disabled, loaded.table is None)
     return without_lasting_contacts(description, found)
 
@@ -80,9 +81,8 @@ def _mesh_file(loaded: LoadedRobot, mesh: str) -> Path | None:
 
 def _digest(loaded: LoadedRobot) -> str:
     """Return what changes with the description, its SRDF, its meshes, and the code that makes bodies of them."""
-    srdf = loaded.record.file.srdf
     files = [_mesh_file(loaded, mesh) for mesh in loaded.meshes]
-    stamps = [stamp_of(file) for file in [*files, srdf and package_data() / srdf.path] if file]
+    stamps = [stamp_of(file) for file in [*files, loaded.record.srdf_path] if file]
     return hashlib.sha256(repr((_code(), loaded.urdf, loaded.table is None, stamps)).encode()).hexdigest()
 
 

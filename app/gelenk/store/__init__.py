@@ -1,7 +1,7 @@
 """Robots on disk, the read-only catalogue and uploaded ones in a folder each; and scenes, each one file.
 
 - `folders`: durable writing: acknowledged data is on disk, unfinished data is invisible.
-- `archive`: unpacks an untrusted zip of one URDF and its meshes.
+- `archive`: unpacks an untrusted zip of one URDF, its meshes and its SRDF; `findings` says what is wrong with these.
 - `meshes`: finds the file that a mesh name refers to.
 - `records`: reads a robot's folder: its `robot.json` and the paths of its files.
 - `index`: one file with the data on each uploaded robot that the list of robots and the quotas need.

@@ -1,4 +1,4 @@
-"""Unpacks an untrusted zip of one URDF and its meshes, and checks names, counts and actual sizes.
+"""Unpacks an untrusted zip of one URDF, its meshes and its SRDF, and checks names, counts and actual sizes.
 
 The sizes stated in a zip are not trusted: bytes are counted while they are unpacked. Nothing here parses a mesh:
 kinematics does not need meshes, and the browser gets them unchanged.
@@ -34,7 +34,7 @@ _END_RECORD = struct.Struct("<4s4H2LH")
 
 @dataclass(frozen=True, slots=True)
 class UnpackedRobot:
-    """Contents of an archive: a URDF and its folder, "" at the top, and mesh files by their path.
+    """Contents of an archive: a URDF and its folder, "" at the top, mesh files by path, and an SRDF if it has one.
 
     The meshes are parts of an unnamed file that disappears when the context of `unpacked` or the process ends.
     """
@@ -42,6 +42,7 @@ class UnpackedRobot:
     urdf: bytes
     urdf_folder: str
     meshes: dict[str, FileRange]
+    srdf: bytes | None = None
 
 
 @contextmanager
@@ -65,9 +66,11 @@ def _unpack(archive: zipfile.ZipFile, store: IO[bytes], max_unpacked: int) -> Un
         raise TooLarge("entries in the archive", count, MAX_ENTRIES)
     entries = [entry for entry in archive.infolist() if not entry.filename.endswith("/")]
     _check_overlap(entries, archive.start_dir)
-    descriptions = [entry for entry in entries if entry.filename.lower().endswith(".urdf")]
+    descriptions, srdfs = ([one for one in entries if one.filename.lower().endswith(end)] for end in (".urdf", ".srdf"))
     if len(descriptions) != 1:
         raise InvalidArchive(f"the archive holds {len(descriptions)} URDF files; it must hold exactly one")
+    if len(srdfs) > 1:
+        raise InvalidArchive(f"the archive holds {len(srdfs)} SRDF files; it may hold one")
     for entry in entries:
         _check_entry(entry)
     _check_names([entry.filename.lower() for entry in entries])
@@ -79,10 +82,12 @@ def _unpack(archive: zipfile.ZipFile, store: IO[bytes], max_unpacked: int) -> Un
         size = _copy(archive, entry, store, max_unpacked - used, max_unpacked)
         meshes[entry.filename] = FileRange(store, used, size)
         used += size
-    urdf = BytesIO()
-    _copy(archive, descriptions[0], urdf, MAX_BYTES, MAX_BYTES)
+    urdf, srdf = BytesIO(), BytesIO()
+    for entry, text in zip((*descriptions, *srdfs), (urdf, srdf), strict=False):
+        _copy(archive, entry, text, MAX_BYTES, MAX_BYTES)
     parent = PurePosixPath(descriptions[0].filename).parent
-    return UnpackedRobot(urdf.getvalue(), "" if str(parent) == "." else str(parent), meshes)
+    folder = "" if str(parent) == "." else str(parent)
+    return UnpackedRobot(urdf.getvalue(), folder, meshes, srdf.getvalue() if srdfs else None)
 
 
 def _check_directory(file: BinaryIO) -> None:

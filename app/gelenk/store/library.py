@@ -36,6 +36,7 @@ from gelenk.errors import (
 )
 from gelenk.robot.robot import RobotModel
 from gelenk.store import folders
+from gelenk.store.findings import findings
 from gelenk.store.folders import Content, FileRange
 from gelenk.store.index import NAME, Index, summary
 from gelenk.store.meshes import MeshFiles, flat
@@ -55,6 +56,7 @@ from gelenk.store.records import (
 _MEMORY = 512 * 1024 * 1024
 """Memory for loaded robots, in estimated bytes; Pinocchio's workspace grows with the cube of the joints."""
 _VERSION = re.compile(r"files-[0-9a-f]{12}")
+_SRDF_NAME = "robot.srdf"
 _MODEL_NAMES = {"urdf": "robot.urdf", "dh": "dh.json"}
 _TICK = 2_000_000_000
 """Nanoseconds within which two changes of a folder may have the same time."""
@@ -73,6 +75,7 @@ class RobotUpload:
     Attributes:
         model: Bytes of the URDF, or of the DH table as JSON.
         default_chain: Chain of calls that name none.
+        srdf: Bytes of the SRDF that came with a URDF.
         meshes, urdf_folder: Contents of mesh files by relative path, and the folder of the URDF among them.
         strict: Whether a URDF with harmless faults is refused; not stored.
         owner: Client that keeps it; it counts against this client's quota.
@@ -85,6 +88,7 @@ class RobotUpload:
     default_chain: ChainEnds | None = None
     meshes: Mapping[str, Content] = field(default_factory=dict)
     urdf_folder: str = ""
+    srdf: bytes | None = None
     strict: bool = False
     owner: str | None = None
 
@@ -335,12 +339,15 @@ def _files(upload: RobotUpload) -> tuple[RobotFile, str, dict[str, Content]]:
     version = f"files-{uuid.uuid4().hex[:12]}"
     used = MeshFiles(upload.meshes, upload.urdf_folder).used(description.meshes)
     contents: dict[str, Content] = {_MODEL_NAMES[upload.format]: upload.model}
+    contents |= {} if upload.srdf is None else {_SRDF_NAME: upload.srdf}
     contents |= {f"meshes/{flat(path)}": upload.meshes[path] for path in sorted(used)}
     file = RobotFile(
         description=upload.description,
         format=upload.format,
         model=f"{version}/{_MODEL_NAMES[upload.format]}",
+        srdf=None if upload.srdf is None else f"{version}/{_SRDF_NAME}",
         meshes=f"{version}/meshes" if used else None,
+        findings=findings({path: upload.meshes[path] for path in sorted(used)}, upload.srdf),
         urdf_folder=upload.urdf_folder,
         digest=_digest(upload),
         owner=upload.owner,
@@ -358,8 +365,10 @@ def _as_bytes(file: RobotFile) -> bytes:
 
 
 def _digest(upload: RobotUpload) -> str:
-    """Return the SHA-256 of the model's bytes and of each mesh's path and bytes."""
+    """Return the SHA-256 of the model's bytes, the SRDF's, and of each mesh's path and bytes."""
     digest = hashlib.sha256(upload.model)
+    if upload.srdf is not None:
+        digest.update(b"\0\0" + upload.srdf)
     for path in sorted(upload.meshes):
         digest.update(f"\0{path}\0".encode())
         of_mesh = hashlib.sha256()
@@ -373,7 +382,8 @@ def _stands(folder: Path, wanted: RobotFile) -> bool:
     """Return whether an identical robot is stored, whatever the names of its files; RobotExists for another one."""
     if not folder.exists():
         return False
-    record, apart = uploaded_record(folder), {"model", "meshes", "owner", "kept_bytes", "left_out", "collision_pairs"}
+    record = uploaded_record(folder)
+    apart = {"model", "meshes", "srdf", "owner", "kept_bytes", "left_out", "findings", "collision_pairs"}
     is_same = record is not None and record.file.model_dump(exclude=apart) == wanted.model_dump(exclude=apart)
     if not is_same:
         raise RobotExists(folder.name)

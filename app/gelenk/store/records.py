@@ -16,7 +16,7 @@ from typing import Literal, TypeAlias
 from pydantic import ValidationError
 
 from gelenk.contract.dh import DhTablePayload
-from gelenk.contract.robots import RobotFile
+from gelenk.contract.robots import PackagedFile, RobotFile
 from gelenk.dh.tables.convert import describe_dh
 from gelenk.errors import InvalidRobotFolder, InvalidUrdf, KinematicsError, TooLarge, counted, quoted
 from gelenk.robot.description import Description
@@ -55,6 +55,13 @@ class Record:
     mesh_root: Path | None
     signature: Signature
 
+    @property
+    def srdf_path(self) -> Path | None:
+        """Path of the SRDF; None without one."""
+        if isinstance(self.file.srdf, PackagedFile):
+            return package_data() / self.file.srdf.path
+        return None if self.file.srdf is None else self.file_path.parent / self.file.srdf
+
     def is_current(self) -> bool:
         """Return whether both files are unchanged; two `stat` calls, fast enough for an event loop."""
         return self.signature == (stamp_of(self.file_path), stamp_of(self.model_path))
@@ -90,7 +97,8 @@ class LoadedRobot:
         unused = (
             f"{counted(left_out, 'file')} of the archive, meshes or pictures that nothing refers to, were not stored"
         )
-        return (*self.robot.description.warnings, *mesh_warnings(self.found), *([unused] if left_out else ()))
+        found = (*mesh_warnings(self.found), *self.record.file.findings)
+        return (*self.robot.description.warnings, *found, *([unused] if left_out else ()))
 
 
 def read_record(folder: Path, source: Source) -> Record | None:
@@ -121,17 +129,15 @@ def _read_record(folder: Path, source: Source) -> Record | None:
     file = _robot_file(path) if stamp else _without_robot_file(folder)
     if file is None:
         return None
-    if not isinstance(file.model, str):
-        if source != "catalogue":
-            raise InvalidRobotFolder(
-                "only robots of the catalogue may refer to packages", f"{folder.name}/{ROBOT_FILE}"
-            )
+    if PackagedFile in {type(file.model), type(file.srdf)} and source != "catalogue":
+        raise InvalidRobotFolder("only robots of the catalogue may refer to packages", f"{folder.name}/{ROBOT_FILE}")
+    if isinstance(file.model, PackagedFile):
         root = package_data()
         model = root / file.model.path
         return Record(folder.name, source, file, path, model, root.parent, (stamp, stamp_of(model)))
     inside = folder.resolve()
-    for name in filter(None, (file.model, file.meshes)):
-        if not (folder / name).resolve().is_relative_to(inside):
+    for name in (file.model, file.meshes, file.srdf):
+        if isinstance(name, str) and not (folder / name).resolve().is_relative_to(inside):
             raise InvalidRobotFolder(f"the path {quoted(name)} leads out of the folder", f"{folder.name}/{ROBOT_FILE}")
     model = folder / file.model
     if (model_stamp := stamp_of(model)) is None:

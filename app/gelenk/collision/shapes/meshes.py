@@ -55,6 +55,8 @@ def _stl(content: bytes) -> Array:
     count = int.from_bytes(content[80:84], "little")
     if len(content) == _HEADER + count * _FACET.itemsize or not content[:80].lstrip().lower().startswith(b"solid"):
         _check_count(count)
+        if len(content) < _HEADER + count * _FACET.itemsize:
+            raise ValueError("it ends before its last triangle")
         return np.frombuffer(content, _FACET, count, _HEADER)["corners"].astype(float)
     corners = re.findall(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", content, re.IGNORECASE)
     _check_count(len(corners) // 3)

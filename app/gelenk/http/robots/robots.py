@@ -175,6 +175,7 @@ class Keep:
                 default_chain=self.form.ends(),
                 meshes=content.meshes,
                 urdf_folder=content.urdf_folder,
+                srdf=content.srdf,
                 strict=self.form.strict,
                 owner=self.owner,
             )
