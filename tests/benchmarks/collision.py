@@ -88,7 +88,7 @@ def _verdicts(world: World) -> list[Row]:
 def _solutions(loaded: LoadedRobot, name: str) -> Row:
     """Solve for tip poses of free configurations around the goals of a set, seeded with its start."""
     rng, robot, chain = np.random.default_rng(2), loaded.robot, loaded.robot.chain(None, None)
-    solved, asked, seconds = 0, 0, 0.0
+    solved, asked, times = 0, 0, list[float]()
     for problem in problems(name)[:SCENES]:
         cell = cell_in(build_world(robot, chain, bodies_of(loaded), problem.obstacles, FINGERS))
         near = problem.goal + rng.normal(0.0, SPREAD, (4 * TARGETS, len(chain)))
@@ -97,10 +97,10 @@ def _solutions(loaded: LoadedRobot, name: str) -> Row:
         asking = TargetProblem(robot, chain, forward_kinematics(robot, chain, qs).poses, START[None], Options())
         started = time.perf_counter()
         found = solve(asking, cell)
-        seconds += time.perf_counter() - started
+        times.append((time.perf_counter() - started) / len(qs))
         solved, asked = solved + len(found.qs) - int(cell.touching(found.qs).sum()), asked + len(qs)
     what = f"Panda in {name}: ik that touches nothing, {asked} solvable targets in batches of {TARGETS}"
-    return Row(what, f"{solved / asked:.2%}, {seconds / asked * 1e6:.1f} µs", wanted="≥ 99.9 %, ≤ 30 µs")
+    return Row(what, f"{solved / asked:.2%}, {statistics.median(times) * 1e6:.1f} µs", wanted="≥ 99.9 %, ≤ 30 µs")
 
 
 def panda_among_boxes(loaded: LoadedRobot) -> World:
