@@ -69,8 +69,8 @@ def _shapes(link: Link, pieces_of: _Pieces) -> list[Shape]:
     """Return the shapes meant for contacts, or else those that are shown; rather ones of which no mesh is missing."""
     meant, shown = ([shape for shape in link.shapes if shape.role == role] for role in ("collision", "visual"))
     some = [shapes for shapes in (meant, shown) if shapes]
-    whole = [shapes for shapes in some if all(one.mesh is None or pieces_of(one.mesh) is not None for one in shapes)]
-    return (whole or some or [[]])[0]
+    whole = (shapes for shapes in some if all(one.mesh is None or pieces_of(one.mesh) is not None for one in shapes))
+    return next(whole, some[0] if some else [])
 
 
 def _about_visuals(links: Sequence[Link], shapes: dict[str, list[Shape]], has_own: bool) -> Iterator[str]:

@@ -14,8 +14,8 @@ _THINNEST = 1e-6
 _FACES = MAX_VERTICES // 2 + 2
 """Of a simplified hull: F faces meet in at most 2 F - 4 vertices."""
 _FACES_A_ROUND = 16
-_PLANES_AT_ONCE = 16
-"""Compared with all vertices: all at once would take gigabytes of a finely drawn hull."""
+_SLIVER = 1e-8
+"""Area of a face, relative to the size, below which its direction is left to chance."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,18 +68,25 @@ def _around(hull: Hull) -> Array:
     scaled = (hull.vertices - mean) @ axes / sizes
     first, second, third = np.moveaxis(scaled[hull.faces], 1, 0)
     normals = np.cross(second - first, third - first)
+    is_plain = np.linalg.norm(normals, axis=1) > _SLIVER
+    faces = normals[is_plain] / (normals * first)[is_plain].sum(axis=1, keepdims=True)
     box = np.concatenate((np.eye(3), -np.eye(3)))
-    planes = np.concatenate((box, normals * np.sign((normals * first).sum(axis=1, keepdims=True))))
-    parts = np.array_split(planes, len(planes) // _PLANES_AT_ONCE + 1)
-    planes /= np.concatenate([(part @ scaled.T).max(axis=1) for part in parts])[:, None] * (1.0 + 1e-9)
+    planes = np.concatenate((_touching(box, scaled), faces))
     chosen = np.arange(len(box))
     vertices = _dual_vertices(planes[chosen])
     while len(chosen) < _FACES:
         beyond = (vertices @ planes.T - 1.0) / np.linalg.norm(planes / sizes, axis=1)
         worst = beyond.argmax(axis=1)[np.argsort(-beyond.max(axis=1))]
-        chosen = np.append(chosen, list(dict.fromkeys(worst.tolist()))[: min(_FACES_A_ROUND, _FACES - len(chosen))])
+        new = list(dict.fromkeys(worst.tolist()))[: min(_FACES_A_ROUND, _FACES - len(chosen))]
+        planes[new] = _touching(planes[new], scaled)
+        chosen = np.append(chosen, new)
         vertices = _dual_vertices(planes[chosen])
     return np.asarray(vertices * sizes @ axes.T + mean)
+
+
+def _touching(planes: Array, points: Array) -> Array:
+    """Return parallels to planes that have no point beyond them."""
+    return np.asarray(planes / ((planes @ points.T).max(axis=1)[:, None] * (1.0 + 1e-9)))
 
 
 def _dual_vertices(planes: Array) -> Array:
