@@ -66,3 +66,25 @@ def test_solutions_in_contact_are_told_apart(studio: Studio) -> None:
     assert 0 < found.count() < studio.page.locator(".solution").count()
     assert "in contact: " in (found.first.text_content() or "")
     assert f"In contact: {found.count()} of them." in (studio.page.locator(".verdict-summary").text_content() or "")
+
+
+@pytest.mark.slow
+def test_a_motion_in_a_scene_has_its_clearance_as_a_curve(studio: Studio) -> None:
+    start = [float(value) for value in READY.split(",")[:7]]
+    ends = {"robot": "panda", "base_frame": "panda_link0", "tip_frame": "panda_hand_tcp"}
+    motion = {**ends, "start": start, "segments": [{"type": "joint", "target": [1.2, *start[1:]]}]}
+    post = {"name": "post", "shape": {"type": "sphere", "radius": 0.1}, "pose": {"position": [0.25, 0.17, 0.3]}}
+    studio.open("trajectory", q=READY, motion=json.dumps(motion), objects=json.dumps([post]))
+    studio.until("studio.store.value.plan && document.querySelector('.clearance canvas')")
+    nearest = studio.run("studio.store.value.plan.answer.audit.clearance")
+    assert "post" in {nearest["pair"]["a"], nearest["pair"]["b"]}
+    assert "Clearance" in (studio.page.locator(".findings").first.text_content() or "")
+    studio.field("Time in the motion").fill(str(nearest["time"]))
+    said_then = studio.page.locator(".clearance").locator("xpath=..").text_content() or ""
+    assert abs(float(said_then.split(": ")[1].split(" ")[0]) - 1000.0 * nearest["value"]) < 1.0
+    blocked = {**post, "pose": {"position": [0.25, 0.17, 0.45]}}
+    studio.run("(objects) => studio.store.set({scene: {name: null, objects}})", [blocked])
+    studio.button("Plan").click()
+    studio.until("studio.store.value.plan.answer.failure?.reason === 'collision'")
+    studio.button("Show the contact").click()
+    studio.until("studio.store.value.contacts && Math.abs(studio.store.value.contacts.clearance) < 1e-4")

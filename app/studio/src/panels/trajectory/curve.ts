@@ -18,11 +18,16 @@ export class Curve {
   readonly breaks: number[] = [];
   #coefficients: number[][][] = [];
 
-  constructor({ segments, duration }: TrajectoryAnswer) {
+  constructor({ segments, duration, joint_positions: positions }: TrajectoryAnswer) {
     for (const { polynomials } of segments) {
       const { breaks, coefficients } = polynomials!; // which the planner asks for
       this.breaks.push(...breaks.slice(0, coefficients.length));
       this.#coefficients.push(...coefficients);
+    }
+    // What cannot begin stays where it starts.
+    if (!this.#coefficients.length) {
+      this.breaks.push(0);
+      this.#coefficients.push([positions[0]!]);
     }
     this.breaks.push(duration);
   }

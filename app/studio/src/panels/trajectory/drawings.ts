@@ -41,8 +41,8 @@ export function drawings(api: Api, chain: ShownChain, plan: Plan, curve: Curve):
   return element("div", { class: "part" }, element("div", { class: "bar" }, ...buttons), problem.host, place);
 }
 
-function profiles({ path }: ShownChain, { motion }: Plan): Picture {
-  const call = { path: `${path}/trajectory`, body: request(motion) };
+function profiles({ path }: ShownChain, { motion, scene }: Plan): Picture {
+  const call = { path: `${path}/trajectory`, body: request(motion, scene) };
   return { name: "profiles", button: "Profiles drawn", title: "Profiles of the joints", call };
 }
 

@@ -7,6 +7,7 @@ import { RequestView } from "../../ui/request.ts";
 import { whileKept } from "../kept.ts";
 import type { Panel, Studio } from "../panel.ts";
 import { Arm } from "./arm.ts";
+import { ClearancePlot } from "./clearance.ts";
 import { Draft } from "./draft.ts";
 import { Ends } from "./ends.ts";
 import { Loads } from "./loads.ts";
@@ -36,7 +37,7 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const ends = new Ends(draft);
   const loads = new Loads(draft);
   const arm = new Arm(studio);
-  const result = new Result(draft, asked.api, marks);
+  const result = new Result(draft, asked.api, new ClearancePlot(studio.api), marks);
   const planner = new Planner(
     draft,
     asked,
@@ -49,7 +50,7 @@ function open(host: HTMLElement, studio: Studio): () => void {
     asked.host,
   );
   const stops = [
-    store.watch(["model", "base", "tip", "motion", "degrees", "plan"], ({ plan }) => {
+    store.watch(["model", "base", "tip", "motion", "degrees", "plan", "scene"], ({ plan }) => {
       draft.begin();
       list.update();
       settings.update(plan && belongs(plan.motion, draft.chain) ? plan.answer.limits : null);

@@ -1,5 +1,6 @@
 /** A motion as it is built here: the request itself, but for places that are still missing, and whose it is. */
 
+import { type Scene, sceneField } from "../../scene/objects.ts";
 import type { ShownChain } from "../../robot/chain.ts";
 import { asPose, isPose } from "../../robot/pose.ts";
 import type { Direction, Pose, TrajectoryRequest } from "../../types.ts";
@@ -198,8 +199,9 @@ export function missing({ path, segments }: Motion): string | null {
 }
 
 /** The body of the call. */
-export function request(motion: Motion): object {
-  const { robot: _, approach, ...call } = motion;
+export function request(motion: Motion, scene: Scene): object {
+  const { robot: _, approach, ...own } = motion;
+  const call = { ...own, ...sceneField(scene) };
   if (!call.path) return call;
   const { segments: __, start, ...along } = call;
   return approach ? { ...along, start } : along;

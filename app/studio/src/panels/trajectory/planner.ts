@@ -49,24 +49,27 @@ export class Planner {
     this.#plan.disabled = isBusy || lacks !== null;
     this.#plan.hidden = isBusy;
     this.#cancel.hidden = !isBusy;
-    const { plan } = store.value;
+    const { plan, scene } = store.value;
     if (isBusy) {
       const seconds = Math.floor((performance.now() - this.#begun) / 1000);
       this.#status.textContent = seconds < 1 ? "Planning …" : `Planning … ${seconds} s`;
     } else if (lacks) this.#status.textContent = lacks;
     else if (plan && JSON.stringify(plan.motion) !== JSON.stringify(motion))
       this.#status.textContent = "The motion has changed since it was planned.";
+    else if (plan && JSON.stringify(plan.scene) !== JSON.stringify(scene))
+      this.#status.textContent = "The scene has changed since it was planned.";
     else this.#status.textContent = "";
   }
 
   /** Ask the service; whether an answer came. */
   async plan(): Promise<boolean> {
     const { motion, chain, store } = this.draft;
+    const { scene } = store.value;
     this.#begun = performance.now();
     this.#timer = window.setInterval(() => this.update(), 1000);
     this.update();
     // The polynomials are exact between the samples too.
-    const call = { ...request(motion), coefficients: true };
+    const call = { ...request(motion, scene), coefficients: true };
     try {
       const answer = await this.#latest.run((signal) =>
         this.asked.api.post<TrajectoryAnswer>(`${chain.path}/trajectory`, call, signal),
@@ -74,7 +77,7 @@ export class Planner {
       if (!answer) return false;
       this.#problem.show(null);
       this.fail([]);
-      store.set({ plan: { motion, answer } });
+      store.set({ plan: { motion, scene, answer } });
       return true;
     } catch (error) {
       const problem = asProblem(error);

@@ -3,6 +3,7 @@
 import type { Api } from "../../api.ts";
 import { element } from "../../ui/dom.ts";
 import type { Plan } from "./answer.ts";
+import type { ClearancePlot } from "./clearance.ts";
 import { Curve } from "./curve.ts";
 import type { Draft } from "./draft.ts";
 import { drawings } from "./drawings.ts";
@@ -31,13 +32,15 @@ export class Result {
   constructor(
     private readonly draft: Draft,
     private readonly api: Api,
+    private readonly clearance: ClearancePlot,
     private readonly marks: MotionMarks | null,
   ) {
     this.#saving = new Saving(api, () => {
-      const { motion } = this.#plan!;
-      return { name: motion.robot, path: `${draft.chain.path}/trajectory`, body: request(motion) };
+      const { motion, scene } = this.#plan!;
+      return { name: motion.robot, path: `${draft.chain.path}/trajectory`, body: request(motion, scene) };
     });
     this.#profiles = new Profiles(draft.store, (time) => this.#player.seek(time));
+    clearance.go = (time) => this.#player.seek(time);
     this.host = element(
       "section",
       { class: "section", hidden: true },
@@ -46,6 +49,7 @@ export class Result {
       this.#ended,
       this.#player.host,
       this.#profiles.host,
+      clearance.host,
       this.#drawings,
       this.#body,
     );
@@ -68,6 +72,7 @@ export class Result {
     if (!isOther) return;
     this.#saving.problem.show(null);
     this.drawWay();
+    void this.clearance.show(chain, shown, this.#curve);
     this.#drawings.replaceChildren(...(shown && this.#curve ? [drawings(this.api, chain, shown, this.#curve)] : []));
   }
 
@@ -80,6 +85,7 @@ export class Result {
 
   drawProfiles(): void {
     this.#profiles.draw();
+    this.clearance.draw();
   }
 
   /** Bring a joint's lines to the front. */
@@ -95,6 +101,7 @@ export class Result {
   stop(): void {
     this.#player.pause();
     this.#profiles.stop();
+    this.clearance.stop();
   }
 
   #tell(): void {
@@ -105,7 +112,7 @@ export class Result {
     this.#profiles.show({ curve: this.#curve, torques, answer, joints: chain.joints }, this.#player.time);
     const go = (time: number) => this.#player.seek(time);
     this.#title.textContent = `Motion of ${answer.duration.toFixed(3)} s`;
-    const failure = failureBox(answer, go);
+    const failure = failureBox(answer, go, (configuration) => this.draft.goTo(configuration));
     const timing = timingTable(answer);
     const choice = choiceText(answer, degrees);
     const notes = [
@@ -124,6 +131,7 @@ export class Result {
 
   #move(time: number): void {
     this.#profiles.at(time);
+    this.clearance.at(time);
     this.draft.goTo(this.#curve!.at(time));
   }
 }

@@ -15,6 +15,7 @@ const REASONS: Record<Failure["reason"], string> = {
   joint_limit: "a joint limit",
   singularity: "a singularity",
   branch_change: "a change of branch",
+  collision: "a contact",
 };
 /** Below it a jump is rounding. */
 const NO_JUMP = 1e-9;
@@ -122,8 +123,12 @@ export function timingTable({ timing }: TrajectoryAnswer): HTMLElement | null {
   );
 }
 
-/** Why the motion ends early, and where. */
-export function failureBox(answer: TrajectoryAnswer, go: (time: number) => void): HTMLElement | null {
+/** Why the motion ends early, and where; `put` is told of the configuration of a contact that was asked for. */
+export function failureBox(
+  answer: TrajectoryAnswer,
+  go: (time: number) => void,
+  put: (configuration: readonly number[]) => void,
+): HTMLElement | null {
   const { failure, completed_fraction, path } = answer;
   if (!failure) return null;
   const { reason, segment, time: at, position, detail } = failure;
@@ -137,7 +142,13 @@ export function failureBox(answer: TrajectoryAnswer, go: (time: number) => void)
       {},
       `${path ? `Way-point ${path.turns.length}` : `Segment ${segment + 1}`} stops the tip at (${where}) m: ${detail}.`,
     ),
-    button(`Go to ${fixed(at, 3)} s`, () => go(at), { class: "button small" }),
+    element(
+      "div",
+      { class: "bar" },
+      button(`Go to ${fixed(at, 3)} s`, () => go(at), { class: "button small" }),
+      failure.first_contact &&
+        button("Show the contact", () => put(failure.first_contact!.joint_positions), { class: "button small" }),
+    ),
   );
 }
 
@@ -177,12 +188,20 @@ function peak(name: string, found: Peak | null, measure: Measure, counts = true)
   return { name, value: measure(Math.abs(value), joint), ratio, counts, joint, time };
 }
 
-function rest({ limit_margin, min_singular_value, continuity }: Audit, ofJoint: (per: string) => Measure): Finding[] {
+function rest(
+  { limit_margin, min_singular_value, continuity, clearance }: Audit,
+  ofJoint: (per: string) => Measure,
+): Finding[] {
   const bare = { ratio: null, counts: false };
   const found: Finding[] = [];
   if (limit_margin) {
     const { value, joint, bound, time } = limit_margin;
     found.push({ ...bare, name: `To a joint's ${bound} limit`, value: ofJoint("")(value, joint), joint, time });
+  }
+  if (clearance?.pair) {
+    const { value, time, pair } = clearance;
+    const named = { name: "Clearance", joint: `${pair.a} to ${pair.b}`, time };
+    found.push({ ...bare, ...named, value: `${fixed(1000 * value!, 1)} mm` });
   }
   if (min_singular_value) {
     const { value, time } = min_singular_value;

@@ -4,6 +4,7 @@ import { asProblem } from "../../api.ts";
 import "../../styles/workspace.css";
 
 import { shownChain } from "../../robot/chain.ts";
+import { sceneField } from "../../scene/objects.ts";
 import { choosing } from "../../state.ts";
 import type { JobInfo } from "../../types.ts";
 import { titled } from "../../ui/dom.ts";
@@ -102,9 +103,10 @@ class WorkspacePanel {
   }
 
   async #begin(): Promise<void> {
-    const chain = shownChain(this.studio.store.value);
+    const { value } = this.studio.store;
+    const chain = shownChain(value);
     if (!chain?.path) return;
-    const call = { ...this.#settings.call, ...chain.ends };
+    const call = { ...this.#settings.call, ...chain.ends, ...sceneField(value.scene) };
     const job = await this.#request.api.post<JobInfo>(`${chain.path}/workspace`, call);
     this.#remember(job.id);
   }

@@ -97,7 +97,7 @@ export class Results {
       element(
         "p",
         { class: "muted small" },
-        `${summary.tip_frame} in ${summary.base_frame} of ${summary.robot}, from ${summary.samples.toLocaleString("en")} samples.`,
+        `${summary.tip_frame} in ${summary.base_frame} of ${summary.robot}, from ${summary.samples.toLocaleString("en")} samples${freeOf(summary)}.`,
       ),
       element(
         "dl",
@@ -144,4 +144,9 @@ export class Results {
     this.host.replaceChildren();
     delete this.host.dataset["points"];
   }
+}
+
+/** In a scene: how many of them touch nothing, which alone count. */
+function freeOf({ samples_free: free }: WorkspaceSummary): string {
+  return free == null ? "" : `, of which ${free.toLocaleString("en")} touch nothing`;
 }
