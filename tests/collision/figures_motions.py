@@ -19,7 +19,7 @@ from gelenk.robot.robot import RobotModel
 from gelenk.store.records import load, read_record
 from tests.collision.motions import checked, random_motion
 
-ROBOTS = ("panda", "ur5", "xarm7", "kinova", "z1", "tiago", "ur10")
+ROBOTS = ("panda", "ur5", "xarm7", "kinova", "z1", "ur10")
 _EACH = 20
 """Motions in a scene."""
 
