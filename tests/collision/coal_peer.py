@@ -16,6 +16,9 @@ from gelenk.robot.description import Shape
 from gelenk.robot.notations import placement
 from gelenk.store.records import LoadedRobot, mesh_file
 
+_FLAT = 1e-9
+"""Height up to which a triangle counts as one without area, [m]."""
+
 
 def coal_shape(body: Body) -> coal.CollisionGeometry:
     """Return the piece as one of Coal's shapes."""
@@ -39,13 +42,22 @@ def coal_distance(a: Body, b: Body, poses: Array) -> float:
 
 
 def drawn_shape(loaded: LoadedRobot, shape: Shape) -> coal.CollisionGeometry:
-    """Return a shape of a link: of a mesh its triangles, no hulls."""
+    """Return a shape of a link: of a mesh its triangles, no hulls.
+
+    Those without area are left out: Coal takes each sphere to touch them, wherever it is.
+    """
     if shape.mesh is None:
         return {"sphere": coal.Sphere, "cylinder": coal.Cylinder, "box": coal.Box}[shape.kind](*shape.size)
     file = mesh_file(loaded, loaded.meshes[shape.mesh] or "")
     assert file is not None
     content = gzip.decompress(file.read_bytes()) if file.suffix == ".gz" else file.read_bytes()
-    corners = read_triangles(shape.mesh, content).reshape(-1, 3) * np.array(shape.size)
+    triangles = read_triangles(shape.mesh, content) * np.array(shape.size)
+    sides = triangles - np.roll(triangles, 1, axis=1)
+    areas, longest = (
+        np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1),
+        np.linalg.norm(sides, axis=2).max(axis=1),
+    )
+    corners = triangles[areas > _FLAT * longest].reshape(-1, 3)
     vertices, faces = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
     vertices.extend(list(corners))
     for i in range(0, len(corners), 3):

@@ -78,7 +78,7 @@ def compared(world: World, links: Mapping[str, Any], qs: Array) -> tuple[Counter
             slack = float(nearest_pairs(world.flat, q[None])[0][0])
             counts["touching" if slack <= TOUCHING else "missed"] += 1
             if slack > TOUCHING:
-                print("missed by", slack, q.tolist(), world.others, flush=True)
+                print("missed by", slack, q.tolist(), flush=True)
         elif k >= 0 and not is_contact:
             a, b = world.flat.pairs[k].tolist()
             excess = max(abs(np.nan_to_num(world.bodies[i].excess, nan=np.inf)) for i in (a, b))
