@@ -115,4 +115,4 @@ class TrianglesPeer:
 
     def gap(self, a: str, b: str) -> float:
         """Return the distance of two links or objects at the configuration last looked at, [m]."""
-        return min(pin.computeDistance(self._geometry, self._found, k).min_distance for k in self._of[a, b])
+        return min(float(pin.computeDistance(self._geometry, self._found, k).min_distance) for k in self._of[a, b])
