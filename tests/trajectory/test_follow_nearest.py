@@ -7,7 +7,7 @@ import pytest
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
-from gelenk.trajectory.follow.nearest import nearest
+from gelenk.trajectory.follow.kernels.nearest import nearest
 from tests.robots import robot
 
 TWIST = np.array([0.3, -0.2, 0.1, 0.4, 0.2, -0.5])

@@ -6,10 +6,10 @@ import pytest
 from gelenk.ik.search.task import FULL_POSE
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array
-from gelenk.trajectory.follow.elimination import beside, rates_at
 from gelenk.trajectory.follow.exact import refined
 from gelenk.trajectory.follow.follow import _joint_path
 from gelenk.trajectory.follow.integrate import traced
+from gelenk.trajectory.follow.kernels.elimination import beside, rates_at
 from gelenk.trajectory.follow.rate_field import RateField
 from gelenk.trajectory.follow.swept import swept
 from gelenk.trajectory.problem.problem import Following

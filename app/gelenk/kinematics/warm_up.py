@@ -57,8 +57,8 @@ from gelenk.trajectory.audit.contact.search import least_slack
 from gelenk.trajectory.audit.deviations import deviations
 from gelenk.trajectory.audit.pieces import pieces_of
 from gelenk.trajectory.batch import plan_batch
+from gelenk.trajectory.follow.kernels.nearest import nearest
 from gelenk.trajectory.follow.ladder import Metric, Rungs, way_up
-from gelenk.trajectory.follow.nearest import nearest
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.paths.corners import blended_lines
 from gelenk.trajectory.paths.rotation_splines import rotation_spline

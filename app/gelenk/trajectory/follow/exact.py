@@ -15,7 +15,7 @@ from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.compilation import compiled, inlined
 from gelenk.trajectory.audit.result import PathError
 from gelenk.trajectory.follow.bounds import SLACK
-from gelenk.trajectory.follow.elimination import beside
+from gelenk.trajectory.follow.kernels.elimination import beside
 from gelenk.trajectory.follow.rate_field import RateField, sampled
 from gelenk.trajectory.follow.rows import row_derivatives, task_rows
 from gelenk.trajectory.follow.step import BERNSTEIN

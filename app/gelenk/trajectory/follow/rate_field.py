@@ -16,7 +16,7 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.notations import rotations_from_vectors
 from gelenk.robot.poses import Poses
-from gelenk.trajectory.follow.nearest import EXACT, FAR, FARTHEST, MOST_STEPS, NEARLY, RANK, nearest
+from gelenk.trajectory.follow.kernels.nearest import EXACT, FAR, FARTHEST, MOST_STEPS, NEARLY, RANK, nearest
 from gelenk.trajectory.follow.rows import PLACES, STENCIL, CountedRows, row_derivatives, task_rows
 from gelenk.trajectory.paths.paths import Path, PathSamples
 

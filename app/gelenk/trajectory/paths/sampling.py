@@ -36,14 +36,26 @@ def about_axis(start: Array, vector: Array, x: Array) -> tuple[Array, Array, Arr
         for k in range(3):
             vectors[i, k] = x[i] * vector[k]
             rates[i, k] = start[k, 0] * vector[0] + start[k, 1] * vector[1] + start[k, 2] * vector[2]
+    if not vector.any():
+        return _same(start, len(x)), rates, np.zeros((len(x), 3))
     rotations = rotations_from_vectors(vectors)
     _turn(start, rotations, 0, len(x))
     return rotations, rates, np.zeros((len(x), 3))
 
 
 @compiled
+def _same(rotation: Array, count: int) -> Array:
+    """Repeat a rotation, where the tip does not turn; shape (count, 3, 3)."""
+    rotations = np.empty((count, 3, 3))
+    rotations[:] = rotation
+    return rotations
+
+
+@compiled
 def by_vectors(starts: Array, breaks: Array, coefficients: Array, x: Array) -> tuple[Array, Array, Array]:
     """Return R_k Exp(θ(x)), ω_x and dω_x/dx for piecewise polynomials θ, (M, d + 1, 3), and R_k, (M, 3, 3)."""
+    if len(starts) == 1 and not coefficients.any():
+        return _same(starts[0], len(x)), np.zeros((len(x), 3)), np.zeros((len(x), 3))
     thetas = evaluated(breaks, coefficients, x, 2)
     rotations = rotations_from_vectors(thetas[0])
     omegas, alphas = angular_motion(thetas[0], thetas[1], thetas[2])
