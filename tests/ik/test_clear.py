@@ -64,6 +64,7 @@ def nearest(qs: Array, seed: Array) -> float:
     return float(np.linalg.norm(qs - seed, axis=1).min())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("min_clearance", [0.0, 0.03])
 def test_of_all_branches_the_nearest_free_one_is_the_answer(min_clearance: float) -> None:
     arm = table_arm(UR5)
@@ -86,7 +87,7 @@ def test_of_all_branches_the_nearest_free_one_is_the_answer(min_clearance: float
 
 def test_all_branches_are_told_apart_the_free_ones_first() -> None:
     arm = table_arm(UR5)
-    cell, problem = cell_of(arm), asked(arm, 30, every=True)
+    cell, problem = cell_of(arm), asked(arm, 12, every=True)
     here, there = solve(problem, cell), solve(problem)
     assert here.touching is not None
     np.testing.assert_array_equal(here.touching, ~free_by_coal(cell, here.qs))
@@ -115,6 +116,7 @@ def test_a_self_motion_is_left_in_contact_only_if_all_of_it_is() -> None:
         assert cell.touching(others).all()
 
 
+@pytest.mark.slow
 def test_of_a_round_of_starts_the_nearest_free_solution_counts() -> None:
     arm = table_arm(SEVEN, "RRRRRRR")
     cell, problem = cell_of(arm), asked(arm, 12)
@@ -132,6 +134,7 @@ def test_of_a_round_of_starts_the_nearest_free_solution_counts() -> None:
         assert nearest(found[None], problem.seeds[0]) == nearest(some[rows[i]][is_free[rows[i]]], problem.seeds[0])
 
 
+@pytest.mark.slow
 def test_a_method_from_one_start_says_that_its_end_is_in_contact() -> None:
     arm = table_arm(SEVEN, "RRRRRRR")
     cell, problem = cell_of(arm), asked(arm, 40, method="damped_least_squares")
@@ -146,6 +149,7 @@ def test_a_method_from_one_start_says_that_its_end_is_in_contact() -> None:
     ]
 
 
+@pytest.mark.slow
 def test_what_is_out_of_reach_stays_so_and_joints_may_be_held() -> None:
     arm = table_arm(SEVEN, "RRRRRRR")
     cell, problem = cell_of(arm), asked(arm, 12)
@@ -157,6 +161,7 @@ def test_what_is_out_of_reach_stays_so_and_joints_may_be_held() -> None:
     assert free_by_coal(cell, found.qs).all()
 
 
+@pytest.mark.slow
 def test_an_objective_moves_no_solution_into_contact() -> None:
     arm = table_arm(UR5)
     cell = cell_of(arm)
@@ -171,6 +176,7 @@ def test_an_objective_moves_no_solution_into_contact() -> None:
     )
 
 
+@pytest.mark.slow
 def test_the_objective_clearance_moves_away_from_contact() -> None:
     arm = table_arm(SEVEN, "RRRRRRR")
     cell, problem = cell_of(arm), asked(arm, 12)
