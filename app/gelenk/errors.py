@@ -319,10 +319,11 @@ class UnknownFrame(NotFound):
 
 
 class UnknownMesh(NotFound):
-    """The robot has no mesh file with this path."""
+    """The robot or scene has no file with this path."""
 
     path: str
-    template = "the robot has no mesh file {path!q}"
+    thing: str = "robot"
+    template = "the {thing} has no file {path!q}"
 
 
 class UnknownJob(NotFound):

@@ -46,6 +46,7 @@ NAMES = {
     "inverse_kinematics": "ik",
     "list_scenes": "scenes",
     "get_scene": "scene",
+    "get_scene_file": "scene_file",
     "get_job": "job",
     "list_exercises": "exercises",
     "list_pictures": "course_pictures",

@@ -109,6 +109,7 @@ def make_real(case: Any, data: st.DataObject) -> None:
     places = {
         "robot": UPLOADED if of_others else robot_name,
         "scene": EXAMPLE_SCENE["name"],
+        "file": "shelf.stl",
         "job": NEW_JOB if of_others else JOB,
         "path": data.draw(st.sampled_from(_MESHES)),
         "exercise": EXAMPLE_EXERCISE,

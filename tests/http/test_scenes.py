@@ -75,6 +75,16 @@ def test_a_scene_comes_with_its_files_and_keeps_those_it_still_names(own: TestCl
     answer = form(own, [SHELF, SCAN], [("scan.npy", POINTS), ("shelf.stl", b"not looked at")])
     assert answer.status_code == 201, answer.text
     assert answer.json()["files"] == [{"name": "shelf.stl", "size": 13}, {"name": "scan.npy", "size": len(POINTS)}]
+    for file, content, kind in (
+        ("shelf.stl", b"not looked at", "model/stl"),
+        ("scan.npy", POINTS, "application/x-npy"),
+    ):
+        got = own.get(f"/v1/scenes/packed/files/{file}")
+        assert (got.status_code, got.content, got.headers["content-type"]) == (200, content, kind)
+        assert "sandbox" in got.headers["content-security-policy"]
+    for other in ("scene.json", "none.stl", "..%2fpacked.zip"):
+        missing = own.get(f"/v1/scenes/packed/files/{other}")
+        assert (missing.status_code, missing.headers["content-type"]) == (404, "application/problem+json")
     assert own.put("/v1/scenes/packed", json={"objects": [BALL, SHELF]}).json()["files"] == [
         {"name": "shelf.stl", "size": 13}
     ]

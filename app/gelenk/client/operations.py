@@ -142,6 +142,7 @@ class Operations:
 
     scenes = Sent(stored.scenes)
     scene = Sent(stored.scene)
+    scene_file = Sent(stored.scene_file)
     add_scene = Sent(stored.add_scene)
     add_scene_files = Sent(stored.add_scene_files)
     replace_scene = Sent(stored.replace_scene)

@@ -125,6 +125,11 @@ def scene(scene: str) -> Call[SceneInfo]:
     return Call("GET", f"v1/scenes/{segment(scene)}", reader(SceneInfo))
 
 
+def scene_file(scene: str, file: str) -> Call[bytes]:
+    """A file of a stored scene; `files` of `scene` lists them."""
+    return Call("GET", f"v1/scenes/{segment(scene)}/files/{quote(file)}", _content, accept="*/*")
+
+
 def add_scene(name: str, objects: Sequence[SceneObject | Mapping[str, Any]]) -> Call[SceneInfo]:
     """Store a scene, whose name is then the `scene` of calls."""
     return json_call("POST", "v1/scenes", {"name": name, "objects": objects}, SceneInfo)

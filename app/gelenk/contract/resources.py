@@ -27,6 +27,9 @@ MESH_TYPES = {
 }
 """Media types of the files of a robot, by the ends of their names."""
 
+SCENE_TYPES = {end: MESH_TYPES[end] for end in (".stl", ".obj", ".dae")} | {".npy": "application/x-npy"}
+"""Media types of the files of a scene, by the ends of their names."""
+
 _BY_WORKER = (429, 500, 503, 504)
 _OF_ROBOT = (404, 422, *_BY_WORKER)
 _EXERCISE = (400, 404, 413, 415, 422, *_BY_WORKER)
@@ -212,6 +215,15 @@ RESOURCES = (
         problems=(404, 422, 503),
         summary="A scene",
         description="The objects as they were sent, and the names and sizes of the files.",
+    ),
+    _query(
+        name="get_scene_file",
+        path="v1/scenes/{scene}/files/{file}",
+        tag="Scenes",
+        responses=_file("The file", *SCENE_TYPES.values()),
+        problems=(404, 422, 503),
+        summary="A file of a scene",
+        description="A mesh or a cloud of points, exactly as it was sent.",
     ),
     Resource(
         name="add_scene",

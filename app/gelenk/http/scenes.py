@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import PurePath
 from typing import Annotated, Any
 
 import numpy as np
@@ -10,13 +11,15 @@ from fastapi import APIRouter, Path, Response
 from starlette.datastructures import UploadFile
 
 from gelenk.contract.pose import MAX_MAGNITUDE
+from gelenk.contract.resources import SCENE_TYPES
 from gelenk.contract.scene import MAX_FILES, MAX_POINTS, NamedScene, Scene, SceneForm, SceneList, ScenePoints
-from gelenk.errors import InvalidArray, InvalidField, TooLarge, quoted
+from gelenk.errors import InvalidArray, InvalidField, TooLarge, UnknownMesh, quoted
 from gelenk.http.messages.npy import read_npy
 from gelenk.http.messages.openapi import documentation
 from gelenk.http.messages.payloads import JSON, MULTIPART, BoundedRequest, read_json
 from gelenk.http.messages.problems import UnsupportedMediaType
 from gelenk.http.messages.routes import DocumentedRoute
+from gelenk.http.robots.meshes import SANDBOXED
 from gelenk.http.workers.pool_client import PoolClient, owner_of
 from gelenk.http.workers.task import Context, TaskRequest, buffers
 from gelenk.store.folders import writing
@@ -38,6 +41,19 @@ def scenes_router(scenes: Scenes) -> APIRouter:
     @router.api_route(**documentation("get_scene"))
     def get_scene(scene: ScenePath) -> Any:
         return _scene_response(scenes, scene)
+
+    @router.api_route(**documentation("get_scene_file"))
+    def get_file(
+        scene: ScenePath,
+        file: Annotated[
+            str, Path(description="Name of one of its files.", openapi_examples={"mesh": {"value": "shelf.stl"}})
+        ],
+    ) -> Response:
+        stored = scenes.get(scene)
+        if file not in stored.files:
+            raise UnknownMesh(file, "scene")
+        kind = SCENE_TYPES[PurePath(file).suffix.lower()]
+        return Response(stored.read(file), media_type=kind, headers=SANDBOXED)
 
     @router.api_route(**documentation("remove_scene"))
     def remove_scene(scene: ScenePath) -> Response:

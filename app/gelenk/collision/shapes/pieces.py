@@ -35,7 +35,7 @@ _DIRECTIONS = np.array([*np.eye(3), *(np.eye(3)[i] + sign * np.eye(3)[j] for i, 
 
 
 @dataclass(frozen=True, eq=False)
-class _Part:
+class _Chunk:
     """A connected part of a mesh, or what planes left of it; the number of the part, and its axes as rows."""
 
     number: int
@@ -47,20 +47,20 @@ class _Part:
         return convex_hull(self.surface.points)
 
     @cached_property
-    def halves(self) -> tuple["_Part", "_Part"]:
+    def halves(self) -> tuple["_Chunk", "_Chunk"]:
         """Both sides of the plane that seems to save most."""
         return self._cut(*_best_plane(self.surface, self.axes))
 
     @cached_property
-    def middles(self) -> tuple["_Part", "_Part"]:
+    def middles(self) -> tuple["_Chunk", "_Chunk"]:
         """Both sides of the plane across the middle of its longest side."""
         along = self.surface.points @ self.axes.T
         axis = np.ptp(along, axis=0).argmax()
         return self._cut(self.axes[axis], (along[:, axis].min() + along[:, axis].max()) / 2)
 
-    def _cut(self, normal: Array, offset: float) -> tuple["_Part", "_Part"]:
+    def _cut(self, normal: Array, offset: float) -> tuple["_Chunk", "_Chunk"]:
         below, above = cut(self.surface, normal, offset)
-        return _Part(self.number, below, self.axes), _Part(self.number, above, self.axes)
+        return _Chunk(self.number, below, self.axes), _Chunk(self.number, above, self.axes)
 
     @cached_property
     def saved(self) -> float:
@@ -84,7 +84,7 @@ def pieces_of(triangles: Array) -> list[tuple[Array, float]]:
     if len(surfaces) > MAX_PIECES:
         surfaces = [whole]
     enclosed = [enclosed_volume(surface) for surface in surfaces]
-    parts = _decomposed([_Part(number, surface, _axes(surface)) for number, surface in enumerate(surfaces)], enclosed)
+    parts = _decomposed([_Chunk(number, surface, _axes(surface)) for number, surface in enumerate(surfaces)], enclosed)
     hulls = [few_vertices(part.hull) for part in parts]
     volumes = np.bincount([part.number for part in parts], [hull.volume for hull in hulls])
     excess = [
@@ -93,7 +93,7 @@ def pieces_of(triangles: Array) -> list[tuple[Array, float]]:
     return [(hull.vertices, float(excess[part.number])) for part, hull in zip(parts, hulls, strict=True)]
 
 
-def _decomposed(parts: list[_Part], enclosed: list[float]) -> list[_Part]:
+def _decomposed(parts: list[_Chunk], enclosed: list[float]) -> list[_Chunk]:
     """Halve the part where that saves most, as long as it is worth it; `enclosed` bounds what it can save."""
     worth = _WORTH * sum(part.hull.volume for part in parts) + _SMALLEST
     done = [part for part, space in zip(parts, enclosed, strict=True) if part.hull.volume - space < worth]
