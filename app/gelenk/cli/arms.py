@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from gelenk.contract.ik import InverseAnswer
     from gelenk.contract.jacobian import JacobianAnswer
     from gelenk.contract.manipulability import ManipulabilityAnswer
-    from gelenk.contract.pose import Pose
 
 QOption = Annotated[
     list[str] | None,
@@ -70,7 +69,7 @@ def fk(
     shared, given = session(context), rows_of(at or [], file, "joint_positions")
     body = {"base_frame": base, "tip_frame": tip, "pose_format": pose_format, **fields_of(fields)}
     answer: ForwardAnswer = _answer_at(shared, robot, "fk", given, body)
-    rows = [_pose_row(pose, pose_format) for pose in answer.poses]
+    rows = [[*(pose.position or ()), *getattr(pose, pose_format)] for pose in answer.poses]
     note = f"T of {answer.tip_frame} in {answer.base_frame}; Pinocchio's differ by {largest(answer.certificate)}"
     shared.write(answer, AnswerRows((*AXES, *ORIENTATIONS[pose_format]), rows, (note,)))
 
@@ -90,10 +89,6 @@ def _answer_at(
             answer = in_calls(partial(getattr(client, operation), name), body, "joint_positions", progress)
         draw(client, plot, f"v1/robots/{name}/{operation}", body)
     return answer
-
-
-def _pose_row(pose: "Pose", pose_format: str) -> list[float]:
-    return [*(pose.position or ()), *getattr(pose, pose_format)]
 
 
 def jacobian(

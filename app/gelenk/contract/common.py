@@ -104,6 +104,11 @@ class Answer(Shown):
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
+def content_of(answer: type[BaseModel], found: object, **others: Any) -> dict[str, Any]:
+    """Return the content of an answer: each field from `others`, or else what was found under the same name."""
+    return {name: others[name] if name in others else getattr(found, name) for name in answer.model_fields}
+
+
 FrameName = Annotated[str, Field(min_length=1, max_length=128, description="Name of a frame: each link has one.")]
 
 Strict = Annotated[

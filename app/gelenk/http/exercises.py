@@ -7,8 +7,8 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Path, Query
 from starlette.responses import Response
 
-from gelenk.contract.common import as_lists
-from gelenk.contract.exercises import ExerciseGradeRequest, ExerciseRequest
+from gelenk.contract.common import as_lists, content_of
+from gelenk.contract.exercises import ExerciseField, ExerciseGradeRequest, ExerciseInfo, ExerciseRequest
 from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.catalogue import exercise, exercises
 from gelenk.exercises.exercise import Variant
@@ -94,16 +94,7 @@ class ExerciseTask:
 
 def _listed(code: Language) -> list[dict[str, Any]]:
     with language(code):
-        return [
-            {
-                "id": one.id,
-                "lecture": one.lecture,
-                "title": translated(one.title),
-                "difficulty": one.difficulty,
-                "version": one.version,
-            }
-            for one in exercises().values()
-        ]
+        return [content_of(ExerciseInfo, one, title=translated(one.title)) for one in exercises().values()]
 
 
 def _drawn(variant: Variant[Any], _: Any) -> dict[str, Any]:
@@ -116,17 +107,8 @@ def _drawn(variant: Variant[Any], _: Any) -> dict[str, Any]:
 
 
 def _field(one: AnswerField) -> dict[str, Any]:
-    return {
-        "name": one.name,
-        "kind": one.kind,
-        "label": one.label,
-        "unit": one.unit or None,
-        "tolerance": one.tolerance,
-        "is_relative": one.is_relative,
-        "points": one.points,
-        "shape": one.shape(),
-        "choices": [{"value": value, "text": text} for value, text in one.choices().items()],
-    }
+    choices = [{"value": value, "text": text} for value, text in one.choices().items()]
+    return content_of(ExerciseField, one, unit=one.unit or None, shape=one.shape(), choices=choices)
 
 
 def _solved(variant: Variant[Any], _: Any) -> dict[str, Any]:

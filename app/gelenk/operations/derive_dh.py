@@ -8,8 +8,9 @@ from itertools import chain
 from types import FrameType
 from typing import Any, TypeVar
 
-from gelenk.contract.common import as_lists
-from gelenk.contract.derive_dh import DeriveRequest
+from gelenk.contract.common import as_lists, content_of
+from gelenk.contract.derive_dh import DeriveRequest, NumericInfo
+from gelenk.contract.lagrangian import DynamicsInfo, MotionNumbers
 from gelenk.dh.derive.jacobian import ROW_NAMES
 from gelenk.dh.derive.numeric import NumericSolution
 from gelenk.dh.derive.steps import which_block
@@ -142,36 +143,19 @@ def _determinant(singular: Singularities, before: int) -> dict[str, Any] | None:
 
 
 def _numbers(one: NumericSolution, determinant: float | None) -> dict[str, Any]:
-    numbers: dict[str, Any] = as_lists(
-        {
-            "joint_positions": one.q,
-            "A": one.rows,
-            "T_0": one.frames,
-            "T_base_tool": one.tip,
-            "position": one.tip[:3, 3],
-            "rotation": one.tip[:3, :3],
-            "columns": one.columns,
-            "jacobian": one.jacobian,
-            "singular_values": one.singular_values,
-            "rank": one.rank,
-            "determinant": determinant,
-        }
-    )
+    named = {"joint_positions": one.q, "A": one.rows, "T_0": one.frames, "T_base_tool": one.tip}
+    parts = {"position": one.tip[:3, 3], "rotation": one.tip[:3, :3], "determinant": determinant}
+    numbers: dict[str, Any] = as_lists(content_of(NumericInfo, one, **named, **parts))
     return numbers
 
 
 def _dynamics(motion: MotionSolution) -> dict[str, Any]:
-    names = ("gravity", "links", "mass_matrix", "christoffel", "coriolis", "coriolis_vector", "gravity_vector")
-    return {
-        **{name: getattr(motion.texts, name) for name in (*names, "skew", "equations_of_motion")},
-        "numeric": [_motion_numbers(one) for one in motion.numeric],
-        "certificate": motion.certificate,
-        "numeric_certificate": motion.numeric_certificate,
-    }
+    certificates = {"certificate": motion.certificate, "numeric_certificate": motion.numeric_certificate}
+    return content_of(
+        DynamicsInfo, motion.texts, numeric=[_motion_numbers(one) for one in motion.numeric], **certificates
+    )
 
 
 def _motion_numbers(one: NumericMotion) -> dict[str, Any]:
-    names = ("mass_matrix", "coriolis", "coriolis_vector", "gravity_vector")
-    quantities = {name: getattr(one, name) for name in names}
-    numbers: dict[str, Any] = as_lists({"joint_positions": one.q, "joint_velocities": one.v, **quantities})
+    numbers: dict[str, Any] = as_lists(content_of(MotionNumbers, one, joint_positions=one.q, joint_velocities=one.v))
     return numbers

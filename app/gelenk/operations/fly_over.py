@@ -4,7 +4,8 @@ from typing import Any, get_args
 
 import numpy as np
 
-from gelenk.contract.fly_over import FlyOverRequest
+from gelenk.contract.common import content_of
+from gelenk.contract.fly_over import FlyOverBlend, FlyOverRequest, RestToRestInfo
 from gelenk.course.motion.blended_motion import BlendedMotion, rest_to_rest
 from gelenk.course.motion.fly_over import Blend, Given, blended, corner_of
 from gelenk.course.motion.fly_over_check import checked
@@ -58,7 +59,8 @@ def _fly_over(call: FlyOverRequest) -> dict[str, Any]:
     return {
         "given": given,
         "blend": _blend(blend),
-        "rest_to_rest": whole and _rest_to_rest(whole),
+        "rest_to_rest": whole
+        and content_of(RestToRestInfo, whole, time_saved=whole.stopping_duration - whole.duration),
         "motion": motion,
         "samples": None if motion is None or call.samples is None else _samples(motion, call.samples),
         "steps": fly_over_steps(blend, given, value, whole),
@@ -68,32 +70,14 @@ def _fly_over(call: FlyOverRequest) -> dict[str, Any]:
 
 
 def _blend(blend: Blend) -> dict[str, Any]:
-    corner = blend.corner
-    return {
-        "blend_time": blend.time,
-        "distance_before": blend.distance_before,
-        "distance_after": blend.distance_after,
-        "entry": blend.entry,
-        "exit": blend.exit,
-        "direction_before": corner.direction_before,
-        "direction_after": corner.direction_after,
-        "turn": corner.turn,
-        "angle": corner.angle,
-        "acceleration": blend.acceleration,
-        "acceleration_norm": float(np.linalg.norm(blend.acceleration)),
-        "closest_distance": blend.closest_distance,
-        "closest_time": blend.closest_time,
-        "longest_blend_time": corner.longest_blend_time,
-    }
-
-
-def _rest_to_rest(whole: BlendedMotion) -> dict[str, Any]:
-    return {
-        "phases": whole.phases,
-        "duration": whole.duration,
-        "stopping_duration": whole.stopping_duration,
-        "time_saved": whole.stopping_duration - whole.duration,
-    }
+    of_corner = ("direction_before", "direction_after", "turn", "angle", "longest_blend_time")
+    return content_of(
+        FlyOverBlend,
+        blend,
+        blend_time=blend.time,
+        acceleration_norm=float(np.linalg.norm(blend.acceleration)),
+        **{name: getattr(blend.corner, name) for name in of_corner},
+    )
 
 
 def _samples(motion: PiecewisePolynomial, count: int) -> dict[str, Any]:

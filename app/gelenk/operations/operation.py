@@ -41,11 +41,7 @@ def operation(name: str) -> Operation:
     """Return the operation of an endpoint; raises KeyError for an unknown name."""
     endpoint = BY_NAME[name]
     module = import_module(f"gelenk.operations.{name}")
-    is_heavy = getattr(module, "is_heavy", _never)
+    is_heavy = getattr(module, "is_heavy", lambda _: False)
     takes_robot = isinstance(endpoint, RobotEndpoint) or bool(endpoint.robot_field)
     attempt, warm_up = getattr(module, "attempt", None), getattr(module, "WARM_UP", None)
     return Operation(endpoint, module.run, is_heavy, attempt, warm_up, takes_robot)
-
-
-def _never(_: object) -> bool:
-    return False

@@ -2,7 +2,8 @@
 
 from typing import Any
 
-from gelenk.contract.pulse_width_modulation import PwmRequest
+from gelenk.contract.common import content_of
+from gelenk.contract.pulse_width_modulation import PwmAnswer, PwmRequest
 from gelenk.course.actuators import pwm
 from gelenk.course.actuators.dc_motor import Motor
 from gelenk.errors import InvalidField
@@ -44,19 +45,15 @@ def _content(call: PwmRequest) -> dict[str, Any]:
     pulses = _pulses(call, motor)
     ripple = _ripple(call, pulses)
     wanted = [] if motor is None else [pwm.speed_step(motor, call.angular_velocity or 0.0, call.load_torque or 0.0)]
-    return {
-        "duty": pulses.duty,
-        "direction": pulses.direction,
-        "needs_h_bridge": pulses.direction < 0,
-        "average_voltage": pulses.average_voltage,
-        "rms_voltage": pulses.rms_voltage,
-        "on_time": pulses.on_time,
-        "off_time": pulses.off_time,
-        "approximate_ripple": pwm.approximate_ripple(pulses, call.inductance) if call.inductance else None,
-        "current": ripple,
-        "steps": [*wanted, *pwm.pwm_steps(pulses, call.inductance, ripple)],
-        "warnings": pwm.pwm_warnings(pulses, ripple),
-    }
+    return content_of(
+        PwmAnswer,
+        pulses,
+        needs_h_bridge=pulses.direction < 0,
+        approximate_ripple=pwm.approximate_ripple(pulses, call.inductance) if call.inductance else None,
+        current=ripple,
+        steps=[*wanted, *pwm.pwm_steps(pulses, call.inductance, ripple)],
+        warnings=pwm.pwm_warnings(pulses, ripple),
+    )
 
 
 def _back_emf(call: PwmRequest, motor: Motor | None) -> float:

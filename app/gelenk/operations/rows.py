@@ -24,7 +24,7 @@ def json_rows(array: Array) -> orjson.Fragment | Array:
 
 def json_list(pieces: Iterable[bytes]) -> orjson.Fragment:
     """Join lists that are JSON already into one list."""
-    return orjson.Fragment(b"[" + b",".join(_inner(pieces)) + b"]")
+    return orjson.Fragment(b"[" + b",".join(piece[1:-1] for piece in pieces) + b"]")
 
 
 def json_objects(columns: Mapping[str, Array]) -> orjson.Fragment:
@@ -65,10 +65,6 @@ def _pieces(array: Array) -> list[bytes]:
     depth = array.ndim - 1
     between = b"]" * depth + b"," + b"[" * depth
     return [row for piece in _encoded(array) for row in piece[depth + 1 : -depth - 1].split(between)]
-
-
-def _inner(lists: Iterable[bytes]) -> Iterable[bytes]:
-    return (piece[1:-1] for piece in lists)
 
 
 def csv_head(columns: Sequence[str]) -> bytes:

@@ -4,7 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from gelenk.contract.spline import SplineRequest
+from gelenk.contract.common import content_of
+from gelenk.contract.spline import SplineRequest, SystemInfo
 from gelenk.course.motion.check import MotionClaims
 from gelenk.course.motion.spline_steps import spline_steps
 from gelenk.course.motion.time_law_steps import peak_step
@@ -72,14 +73,8 @@ def _system(found: Spline) -> dict[str, Any] | None:
     A = found.matrix
     if A is None:
         return None
-    return {
-        "matrix": A.dense().tolist() if len(A) <= _SHOWN_UNKNOWNS else None,
-        "lower": A.lower,
-        "diagonal": A.diagonal,
-        "upper": A.upper,
-        "right_side": found.right_side.tolist(),
-        "unknowns": [i + 1 for i in found.unknowns],
-    }
+    matrix, unknowns = A.dense().tolist() if len(A) <= _SHOWN_UNKNOWNS else None, [i + 1 for i in found.unknowns]
+    return content_of(SystemInfo, A, matrix=matrix, right_side=found.right_side.tolist(), unknowns=unknowns)
 
 
 def _knots(found: Spline) -> list[dict[str, Any]]:

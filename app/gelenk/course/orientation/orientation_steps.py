@@ -98,13 +98,9 @@ def orientation_steps(given: Sequence[GivenMotion], path: Composition, found: No
     return steps
 
 
-def _symbol(index: int, count: int) -> str:
-    return "R" if count == 1 else f"R_{{{index}}}"
-
-
 def given_step(one: GivenMotion, index: int, count: int) -> Step:
     """Return the step from what is given of a motion, the `index`-th of `count` from 1, to its matrix."""
-    name = _symbol(index, count)
+    name = "R" if count == 1 else f"R_{{{index}}}"
     R, values = one.transform[:3, :3], one.numbers.tolist()
     if one.notation in _NAMES:
         turns = _NAMES[one.notation]

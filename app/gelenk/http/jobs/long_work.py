@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from starlette.requests import Request
 from starlette.responses import Response
 
-from gelenk.contract.common import Payload
+from gelenk.contract.common import Payload, content_of
+from gelenk.contract.jobs import JobInfo
 from gelenk.errors import kind_of
 from gelenk.http.messages.payloads import CSV, JSON, NPY, PNG, SVG
 from gelenk.http.workers.pool_client import client_of
@@ -36,23 +37,13 @@ def job_response(job: JobRecord, status: int = 200, headers: dict[str, str] | No
 
 def job_content(job: JobRecord) -> dict[str, Any]:
     """Return a job as JSON content."""
-    failure = job.failure
-    content: dict[str, Any] = {
-        "id": job.id,
-        "kind": job.kind,
-        "state": job.state,
-        "progress": job.progress,
-        "created": moment(job.created),
-        "started": None if job.started is None else moment(job.started),
-        "finished": None if job.finished is None else moment(job.finished),
-        "attempts": job.attempts,
-        "robot_digest": job.robot_digest,
-        "error": None,
-    }
-    if failure is not None:
-        kind = f"urn:gelenk:{kind_of(type(failure.error_again()))}"
-        content["error"] = {"type": kind, "detail": failure.detail, "facts": failure.facts}
-    return content
+    moments = {"created": job.created, "started": job.started, "finished": job.finished}
+    times = {name: None if time is None else moment(time) for name, time in moments.items()}
+    if (failure := job.failure) is None:
+        return content_of(JobInfo, job, **times, error=None)
+    kind = f"urn:gelenk:{kind_of(type(failure.error_again()))}"
+    error = {"type": kind, "detail": failure.detail, "facts": failure.facts}
+    return content_of(JobInfo, job, **times, error=error)
 
 
 _Request = TypeVar("_Request", bound=Payload)

@@ -14,7 +14,6 @@ from gelenk.exercises.fields import MatrixField, VectorField
 from gelenk.exercises.lectures.dynamics.pendulum import FALL
 from gelenk.exercises.table_field import table_of
 from gelenk.language import marked, translated as _
-from gelenk.robot.arrays import Array
 
 
 class TwoBodies(NamedTuple):
@@ -161,10 +160,6 @@ GRAVITY = Exercise(
 )
 
 
-def _mass_of(one: TwoBodies, change: Array) -> Answers:
-    return {"mass": one.answers("mass")["mass"] + change}
-
-
 MASS = Exercise(
     id="dynamics.mass_matrix",
     title=marked("The mass matrix of two links"),
@@ -179,7 +174,7 @@ MASS = Exercise(
         "coupling_forgotten": lambda one: {"mass": np.diag(np.diag(one.answers("mass")["mass"]))},
         "own_inertia_forgotten": lambda one: one._replace(i1=0.0, i2=0.0).answers("mass"),
         "sine_in_mass": lambda one: one._replace(q2=90.0 - one.q2).answers("mass"),
-        "second_inertia_once": lambda one: _mass_of(one, np.array([[-one.i2, 0.0], [0.0, 0.0]])),
+        "second_inertia_once": lambda one: {"mass": one.answers("mass")["mass"] - np.diag([one.i2, 0.0])},
     },
 )
 
