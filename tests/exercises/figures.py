@@ -13,8 +13,7 @@ from random import Random
 from typing import Any
 
 from gelenk.exercises.answer_field import AnswerField
-from gelenk.exercises.catalogue import exercises
-from gelenk.exercises.exercise import Exercise, Variant
+from gelenk.exercises.exercise import Exercise, Variant, exercises
 from gelenk.exercises.grading import FieldGrade, graded
 from tests.exercises.forms import same, sent
 

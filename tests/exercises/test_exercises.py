@@ -11,8 +11,7 @@ from typing import Any
 import pytest
 
 from gelenk.exercises import mistakes
-from gelenk.exercises.catalogue import LECTURES, exercises
-from gelenk.exercises.exercise import Exercise, Variant
+from gelenk.exercises.exercise import LECTURES, Exercise, Variant, exercises
 from gelenk.exercises.grading import graded
 from gelenk.exercises.mistakes.catalogue import catalogue
 from gelenk.exercises.mistakes.general import OF_FORM

@@ -6,7 +6,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from gelenk.contract.endpoints import BY_NAME
-from gelenk.contract.pictures import CoursePictures
+from gelenk.contract.exercises import CoursePictures
 from gelenk.plots.course.titles import CALCULATED, TITLES
 
 PICTURES = "/v1/course/pictures"

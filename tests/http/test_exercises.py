@@ -6,7 +6,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from gelenk.contract.exercises import ExerciseGrade, ExerciseList, ExerciseSolution, ExerciseVariant
-from gelenk.exercises.catalogue import exercises
+from gelenk.exercises.exercise import exercises
 from tests.http.access.asking import HOST, application, ask, bearer, keys_for
 
 PATH = "/v1/course/exercises"

@@ -7,8 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from gelenk.course.steps import step
-from gelenk.exercises.catalogue import exercises
-from gelenk.exercises.exercise import Exercise
+from gelenk.exercises.exercise import Exercise, exercises
 from gelenk.exercises.fields import ChoiceField, MatrixField, NumberField, SetField, VectorField, basis
 from gelenk.sheets.homework import Homework, Sheet
 

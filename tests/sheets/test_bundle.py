@@ -14,10 +14,9 @@ import numpy as np
 import pytest
 
 from gelenk.sheets.bundle import bundle
-from gelenk.sheets.cloze import fits
 from gelenk.sheets.document import booklet_page, sheets_page
 from gelenk.sheets.key import key_table
-from gelenk.sheets.moodle import moodle_xml
+from gelenk.sheets.moodle import fits, moodle_xml
 from gelenk.sheets.prairielearn import prairielearn_files
 from tests.exercises.forms import sent
 from tests.sheets.examples import homework, odd

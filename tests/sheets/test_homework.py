@@ -6,7 +6,7 @@ import hmac
 import pytest
 
 from gelenk.errors import InvalidField, TooLarge, UnknownExercise
-from gelenk.exercises.catalogue import exercise
+from gelenk.exercises.exercise import exercise
 from gelenk.sheets.homework import Homework, seed_of, unprotected
 from tests.sheets.examples import SECRET, homework
 

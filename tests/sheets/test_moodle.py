@@ -14,8 +14,7 @@ from gelenk.errors import InvalidField
 from gelenk.exercises.exercise import Variant
 from gelenk.exercises.mistakes.catalogue import mistake
 from gelenk.language import language
-from gelenk.sheets.cloze import fits
-from gelenk.sheets.moodle import moodle_xml
+from gelenk.sheets.moodle import fits, moodle_xml
 from gelenk.sheets.normal_form import normal_form
 from tests.sheets.examples import SIGNS, homework, odd, unasked
 

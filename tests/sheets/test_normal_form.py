@@ -5,7 +5,7 @@ from random import Random
 import numpy as np
 import pytest
 
-from gelenk.exercises.catalogue import exercise
+from gelenk.exercises.exercise import exercise
 from gelenk.exercises.fields import basis
 from gelenk.sheets.normal_form import allowed, form_note, has_normal_form, normal_form
 from tests.exercises.forms import same, sent

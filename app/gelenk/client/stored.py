@@ -13,10 +13,9 @@ from gelenk.client.exchange import encoded, json_call, query_of, reader, segment
 from gelenk.contract.collision_pairs import CollisionPairs
 from gelenk.contract.common import Answer, ChainEnds
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer
-from gelenk.contract.exercises import ExerciseList
-from gelenk.contract.health import Health
+from gelenk.contract.exercises import CoursePictures, ExerciseList
 from gelenk.contract.jobs import Finished, JobInfo
-from gelenk.contract.pictures import CoursePictures
+from gelenk.contract.problem import Health
 from gelenk.contract.robots import RobotInfo, RobotList
 from gelenk.contract.scene import SceneInfo, SceneList, SceneObject
 from gelenk.contract.trajectory import JOINT_TRAJECTORY, URSCRIPT, YAML

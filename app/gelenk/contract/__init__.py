@@ -4,9 +4,9 @@
   scopes and reference are built. A module with an operation's name has its request, its answer and its `ENDPOINT`.
   `resources`: operations on stored robots and jobs, and about the service.
 - `common`: the strict base of all payloads, names, chains. `kinematics`: configurations, matrices, certificates.
-  `options`: fields that requests share.
+  `options`: fields that requests share, quantities.
 - `pose`: poses in every notation. `dh`: Denavit-Hartenberg tables.
-- `quantities`, `course_motion`, `formulas`: shared by several calculators of the course.
-- `robots`: robots as listed, described and uploaded, and the `robot.json` of a folder; `shapes`: drawn for links
-  without visuals. `jobs`: long work. `problem`: an error. `health`: for a monitor.
+- `course_motion`: shared by several calculators of the course.
+- `robots`: robots as listed, described and uploaded, and the `robot.json` of a folder; shapes drawn for links
+  without visuals. `jobs`: long work. `problem`: an error, and the answer for a monitor.
 """

@@ -6,13 +6,13 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, optional
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.options import InLanguage
-from gelenk.contract.quantities import (
+from gelenk.contract.options import (
     AngularVelocity,
     Current,
     Friction,
     Inductance,
     Inertia,
+    InLanguage,
     MachineConstant,
     Resistance,
     Steps,

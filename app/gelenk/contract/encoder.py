@@ -6,8 +6,7 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, optional
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.options import InLanguage
-from gelenk.contract.quantities import Ratio, Steps
+from gelenk.contract.options import InLanguage, Ratio, Steps
 from gelenk.course.actuators.encoders import TURN, Code, Decoding, DiscPosition, EncoderResolution, RequiredEncoder
 from gelenk.course.actuators.quadrature import Quadrature
 

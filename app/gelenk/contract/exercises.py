@@ -1,4 +1,4 @@
-"""Exercises of the course: their list, variants, solutions and grades."""
+"""Exercises of the course: their list, variants, solutions and grades; the list of its pictures."""
 
 import sys
 from typing import Annotated, Any
@@ -130,3 +130,16 @@ class ExerciseGrade(Answer):
     points: float = Field(description="Of all fields together; no unit.")
     max_points: float = Field(description="What they are worth; no unit.")
     fields: list[ExerciseFieldGrade]
+
+
+class CoursePicture(Answer):
+    """A picture that explains something of the course."""
+
+    name: str = Field(description="In the path of the picture.")
+    title: str = Field(description="In the language asked for.")
+
+
+class CoursePictures(Answer):
+    """All pictures of the course."""
+
+    pictures: list[CoursePicture] = Field(description="By name.")

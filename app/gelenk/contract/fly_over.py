@@ -6,8 +6,7 @@ from pydantic import AfterValidator, Field
 
 from gelenk.contract.common import Answer, optional
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.options import InLanguage
-from gelenk.contract.quantities import Steps, Warnings
+from gelenk.contract.options import InLanguage, Steps, Warnings
 from gelenk.course.motion.blended_motion import Phase
 from gelenk.course.motion.fly_over import Given, Turn
 from gelenk.course.motion.fly_over_check import BlendCheck

@@ -6,8 +6,7 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, optional
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.options import InLanguage
-from gelenk.contract.quantities import AngularVelocity, Inertia, Ratio, Steps, Torque
+from gelenk.contract.options import AngularVelocity, Inertia, InLanguage, Ratio, Steps, Torque
 from gelenk.course.actuators.gear import BackDriving, GearSide, PowerFlow, ReflectedInertias
 
 

@@ -7,8 +7,8 @@ from pydantic import Field
 from gelenk.contract.common import Answer, optional
 from gelenk.contract.course_motion import Bound, Coordinate, Duration, PeakInfo, SampleTimesRequest
 from gelenk.contract.endpoint import Endpoint
+from gelenk.contract.options import Steps, Warnings
 from gelenk.contract.orientation import OrientationPayload
-from gelenk.contract.quantities import Steps, Warnings
 from gelenk.contract.time_law import ProfileInfo
 from gelenk.course.cartesian.line import AxesComparison
 from gelenk.course.motion.check import MotionCertificate

@@ -1,8 +1,8 @@
-"""Fields that the requests of several operations share."""
+"""Fields that several operations share, and physical quantities with their bounds."""
 
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from gelenk.contract.common import Payload
 from gelenk.contract.kinematics import Configurations
@@ -53,3 +53,25 @@ WorkedSolutions = Annotated[
         f"{MAX_WORKED}."
     ),
 ]
+
+
+def _zero_or_measurable(value: float) -> float:
+    if 0.0 < value < 1e-12:
+        raise ValueError("an inductance is 0, or at least 1e-12 H")
+    return value
+
+
+Resistance = Annotated[float, Field(ge=1e-6, le=1e9)]
+Inductance = Annotated[float, Field(ge=0.0, le=1e6), AfterValidator(_zero_or_measurable)]
+MachineConstant = Annotated[float, Field(ge=1e-9, le=1e6)]
+Friction = Annotated[float, Field(ge=0.0, le=1e6)]
+Inertia = Annotated[float, Field(ge=1e-15, le=1e9)]
+Voltage = Annotated[float, Field(ge=-1e6, le=1e6)]
+Torque = Annotated[float, Field(ge=-1e9, le=1e9)]
+AngularVelocity = Annotated[float, Field(ge=-1e9, le=1e9)]
+Current = Annotated[float, Field(ge=-1e9, le=1e9)]
+Time = Annotated[float, Field(ge=0.0, le=1e9)]
+Ratio = Annotated[float, Field(ge=1e-6, le=1e6)]
+
+Steps = Annotated[list[Step], Field(description="The worked solution, with the numbers put in.")]
+Warnings = Annotated[list[str], Field(description="What to know before using the numbers.")]

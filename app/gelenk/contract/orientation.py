@@ -7,9 +7,8 @@ from pydantic import Field, model_validator
 
 from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.options import InLanguage
+from gelenk.contract.options import InLanguage, Steps
 from gelenk.contract.pose import MAX_MAGNITUDE, ORIENTATIONS, Matrix3, Pose, Vector3, Vector4
-from gelenk.contract.quantities import Steps
 from gelenk.course.orientation.orientation import Degeneracy
 from gelenk.course.orientation.rotations import (
     DEGENERATE,

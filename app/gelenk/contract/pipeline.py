@@ -7,8 +7,7 @@ from pydantic import Field
 from gelenk.contract.common import Answer, optional
 from gelenk.contract.course_motion import Duration, MotionLimits, PeaksInfo, PlanarLinePayload, SegmentInfo
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.options import InLanguage
-from gelenk.contract.quantities import Steps, Warnings
+from gelenk.contract.options import InLanguage, Steps, Warnings
 from gelenk.course.cartesian.pipeline import Deviation, PipelineCertificate
 from gelenk.trajectory.audit.words import PolynomialLaw
 

@@ -6,8 +6,7 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, optional
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.options import InLanguage
-from gelenk.contract.quantities import Steps
+from gelenk.contract.options import InLanguage, Steps
 from gelenk.course.planar import WorkspacePlace, WorkspaceTrial
 
 MAX_LENGTH = 1e6

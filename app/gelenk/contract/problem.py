@@ -1,8 +1,8 @@
-"""An error as JSON (RFC 9457)."""
+"""An error as JSON (RFC 9457), and the answer that a monitor gets."""
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from gelenk.contract.common import optional
+from gelenk.contract.common import Answer, optional
 
 
 class FieldError(BaseModel):
@@ -24,3 +24,9 @@ class Problem(BaseModel):
     instance: str = Field(description="Path of the request.")
     request_id: str | None = optional("The answer's `X-Request-Id`, for searching the log.")
     errors: list[FieldError] | None = optional("The invalid places in the payload, if there are several.")
+
+
+class Health(Answer):
+    """The process is alive, or ready for work."""
+
+    status: str = Field(description="`alive`, or `ready`.")

@@ -6,11 +6,11 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, optional
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.options import InLanguage
-from gelenk.contract.quantities import (
+from gelenk.contract.options import (
     AngularVelocity,
     Friction,
     Inductance,
+    InLanguage,
     MachineConstant,
     Resistance,
     Steps,

@@ -6,11 +6,10 @@ from typing import Any
 from gelenk.contract.collision_pairs import CollisionPairs
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer
 from gelenk.contract.endpoint import Resource, Scope
-from gelenk.contract.exercises import ExerciseGrade, ExerciseList, ExerciseSolution, ExerciseVariant
-from gelenk.contract.health import Health
+from gelenk.contract.exercises import CoursePictures, ExerciseGrade, ExerciseList, ExerciseSolution, ExerciseVariant
 from gelenk.contract.ik import InverseAnswer
 from gelenk.contract.jobs import JobInfo
-from gelenk.contract.pictures import CoursePictures
+from gelenk.contract.problem import Health
 from gelenk.contract.robots import EXAMPLE_DH, ArchiveReplacement, NewArchive, RobotInfo, RobotList
 from gelenk.contract.scene import EXAMPLE_SCENE, SceneForm, SceneInfo, SceneList
 from gelenk.contract.trajectory_answer import TrajectoryAnswer

@@ -8,7 +8,7 @@ from pydantic import Field
 from gelenk.contract.common import Answer, optional
 from gelenk.contract.course_motion import Coordinates, MotionAnswer, SampledRequest, Time, Times, Waypoints
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.quantities import Steps, Warnings
+from gelenk.contract.options import Steps, Warnings
 from gelenk.trajectory.motion.splines import Boundary
 
 

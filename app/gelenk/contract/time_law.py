@@ -16,7 +16,7 @@ from gelenk.contract.course_motion import (
     one_joint,
 )
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.quantities import Steps, Warnings
+from gelenk.contract.options import Steps, Warnings
 from gelenk.trajectory.audit.words import PolynomialLaw
 
 Law: TypeAlias = Literal[PolynomialLaw, "4-3-4", "trapezoidal", "parabolic_blends"]

@@ -16,7 +16,7 @@ from gelenk.contract.course_motion import (
     Waypoints,
 )
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.quantities import Steps, Warnings
+from gelenk.contract.options import Steps, Warnings
 from gelenk.trajectory.audit.words import PolynomialLaw
 from gelenk.trajectory.laws.time_scaling import Bound
 from gelenk.trajectory.motion.splines import Boundary

@@ -7,8 +7,7 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, optional
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.options import InLanguage
-from gelenk.contract.quantities import Steps, Warnings
+from gelenk.contract.options import InLanguage, Steps, Warnings
 from gelenk.course.triangle.triangle import TriangleCase, TriangleCheck
 
 Side = Annotated[float, Field(ge=1e-6, le=1e6)]

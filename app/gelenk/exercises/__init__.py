@@ -1,6 +1,6 @@
 """Exercises that grade themselves: drawn from a seed, solved by the core, wrong models computed as well.
 
-- `catalogue`: all of them. `lectures`: the exercises of each lecture. `exercise`: what one is, and its variants.
+- `lectures`: the exercises of each lecture. `exercise`: what one is, its variants, and all of them.
 - `draw`: random numbers that stay the same. `fields`: when two answers are the same; `answer_field`: their base;
   `table_field`: a DH table.
 - `arms`: the arms that exercises are about; `sketches`: their pictures.

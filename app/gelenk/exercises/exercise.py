@@ -1,17 +1,25 @@
-"""An exercise: one small declaration, from which variants, solutions and grades are made."""
+"""An exercise: one small declaration, from which variants, solutions and grades are made.
 
+All of them, in the order of the course: those of each module in `lectures` and in the folders below it.
+"""
+
+import pkgutil
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, lru_cache
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 from gelenk.course.steps import Step
+from gelenk.errors import UnknownExercise
+from gelenk.exercises import lectures
 from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.draw import Draw
 from gelenk.language import Language, current_language
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
 
 N = TypeVar("N")
 Answers: TypeAlias = Mapping[str, Any]
@@ -159,3 +167,40 @@ def _as_svg(figure: "Figure") -> bytes:
 
 def _distance(one: AnswerField, answer: Any, other: Any) -> float:
     return min(one.distance(answer, other), one.distance(other, answer))
+
+
+LECTURES = (
+    "mobility",
+    "actuators",
+    "poses",
+    "dh_tables",
+    "inverse_kinematics",
+    "velocities",
+    "statics",
+    "manipulability",
+    "trajectories",
+    "workspaces",
+    "dynamics",
+)
+"""The course; a lecture of one's own follows these."""
+
+
+@cache
+def exercises() -> dict[str, Exercise[Any]]:
+    """Return all exercises by id, by lectures in the order of the course, the easier ones first."""
+    names = (module.name for module in pkgutil.walk_packages(lectures.__path__, f"{lectures.__name__}."))
+    found = [one for name in names for one in vars(import_module(name)).values() if isinstance(one, Exercise)]
+    return {one.id: one for one in sorted(found, key=_place)}
+
+
+def _place(one: Exercise[Any]) -> tuple[int, str, int, str]:
+    known = LECTURES.index(one.lecture) if one.lecture in LECTURES else len(LECTURES)
+    return known, one.lecture, one.difficulty, one.id
+
+
+def exercise(name: str) -> Exercise[Any]:
+    """Return an exercise by its id; raises UnknownExercise."""
+    found = exercises().get(name)
+    if found is None:
+        raise UnknownExercise(name, tuple(exercises()))
+    return found

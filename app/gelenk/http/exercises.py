@@ -10,8 +10,7 @@ from starlette.responses import Response
 from gelenk.contract.common import as_lists, content_of
 from gelenk.contract.exercises import ExerciseField, ExerciseGradeRequest, ExerciseInfo, ExerciseRequest
 from gelenk.exercises.answer_field import AnswerField
-from gelenk.exercises.catalogue import exercise, exercises
-from gelenk.exercises.exercise import Variant
+from gelenk.exercises.exercise import Variant, exercise, exercises
 from gelenk.exercises.grading import graded
 from gelenk.http.messages.openapi import documentation
 from gelenk.http.messages.payloads import JSON, BoundedRequest, JsonResponse, read_json

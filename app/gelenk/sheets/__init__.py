@@ -4,7 +4,7 @@
   `bounds`: how many.
 - `document`: the sheets and the booklet of solutions as pages; `pdf`: printed by Chromium.
 - `normal_form`: answers in the one form that a comparison of numbers takes.
-- `cloze`, `moodle`: questions for Moodle. `prairielearn`: questions for PrairieLearn.
+- `moodle`: questions for Moodle. `prairielearn`: questions for PrairieLearn.
 - `key`: the right answers as a table in CSV; `grades`: what a table of answers earns.
 - `bundle`: all of these in one file.
 """

@@ -7,7 +7,7 @@ from typing import Any
 
 from gelenk.errors import InvalidField, TooLarge, UnknownExercise, listed, quoted
 from gelenk.exercises.answer_field import AnswerField
-from gelenk.exercises.catalogue import exercise
+from gelenk.exercises.exercise import exercise
 from gelenk.exercises.grading import graded
 from gelenk.sheets.bounds import MAX_GRADED, MAX_LABEL, MAX_ROWS
 from gelenk.sheets.homework import unprotected, variant_of

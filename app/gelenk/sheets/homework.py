@@ -9,8 +9,7 @@ from functools import cached_property
 from typing import Any
 
 from gelenk.errors import InvalidField, TooLarge, quoted
-from gelenk.exercises.catalogue import exercise
-from gelenk.exercises.exercise import Exercise, Variant
+from gelenk.exercises.exercise import Exercise, Variant, exercise
 from gelenk.sheets.bounds import MAX_VARIANTS
 
 _SEED_BITS = 53

@@ -12,9 +12,9 @@ from gelenk.exercises.answer_field import AnswerField
 from gelenk.exercises.exercise import Exercise, Variant
 from gelenk.exercises.fields import NumberField
 from gelenk.language import translated as _
-from gelenk.sheets.cloze import fits
 from gelenk.sheets.document import paragraphs, picture
 from gelenk.sheets.homework import Homework
+from gelenk.sheets.moodle import fits
 from gelenk.sheets.normal_form import allowed, form_note, normal_form, turns_of
 
 _SERVER = '''"""Chooses one of the variants in `variants.json`; PrairieLearn seeds `random` for each of its own."""

@@ -26,8 +26,7 @@ from gelenk.trajectory.paths.spline_paths import PolynomialPath, spline
 from gelenk.trajectory.problem.problem import FreeTool, ToolTurn
 from gelenk.trajectory.problem.result import PlanningFailure, ToolChoice
 from gelenk.trajectory.tool.blocked import blocked
-from gelenk.trajectory.tool.candidates import Clear, TurnedCandidates, candidates, solved_near
-from gelenk.trajectory.tool.forms import forms_of
+from gelenk.trajectory.tool.candidates import Clear, TurnedCandidates, candidates, forms_of, solved_near
 from gelenk.trajectory.tool.smoothing import TurnedRungs, smoothed
 
 _TURN = 2.0 * np.pi
