@@ -67,7 +67,7 @@ class _Machine:
 
 
 @dataclass(eq=False)
-class _Part:
+class _QueuedPart:
     """A submitted part: its task, how often its process has died, its machine, and Ray's reference to its result."""
 
     task: _Task
@@ -107,7 +107,7 @@ class _Dispatcher:
         self._probe = ray.remote(max_retries=0, num_cpus=0)(_probed)
         self._events: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._machines: dict[str, _Machine] = {}
-        self._parts: dict[int, _Part] = {}
+        self._parts: dict[int, _QueuedPart] = {}
         self._waiting: deque[int] = deque()
         self._started = self._reported = time.monotonic()
 
@@ -176,7 +176,7 @@ class _Dispatcher:
             self._requeue(number, self._parts[number])
         machine.parts.clear()
 
-    def _requeue(self, number: int, part: _Part) -> None:
+    def _requeue(self, number: int, part: _QueuedPart) -> None:
         self._ray.cancel(part.reference, force=True)
         part.reference = None
         self._waiting.append(number)
@@ -184,7 +184,7 @@ class _Dispatcher:
     def _handle_message(self, number: int, task: _Task | None) -> None:
         """Queue a part; if the task is None, cancel the part instead."""
         if task is not None:
-            self._parts[number] = _Part(task)
+            self._parts[number] = _QueuedPart(task)
             self._waiting.append(number)
         elif (part := self._parts.pop(number, None)) is not None and part.reference is not None:
             self._ray.cancel(part.reference, force=True)
