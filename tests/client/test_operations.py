@@ -41,6 +41,7 @@ NAMES = {
     "get_robot_urdf": "urdf",
     "get_robot_mesh": "mesh",
     "get_robot_dh": "dh_table",
+    "get_collision_bodies": "collision_bodies",
     "get_collision_pairs": "collision_pairs",
     "forward_kinematics": "fk",
     "inverse_kinematics": "ik",

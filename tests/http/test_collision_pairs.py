@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
+from gelenk.contract.collision_bodies import CollisionBodies
 from gelenk.contract.collision_pairs import CollisionPairs
 from gelenk.contract.robots import EXAMPLE_DH
 from gelenk.operations import robot_bodies
@@ -79,6 +80,16 @@ def test_what_is_no_pair_is_named(own: TestClient, pairs: list[Any], field: str,
     assert answer.status_code == 422
     assert field in answer.text
     assert reason in answer.json()["detail"] + str(answer.json().get("errors"))
+
+
+def test_the_bodies_are_those_that_contacts_are_computed_of(client: TestClient) -> None:
+    answer = client.get("/v1/robots/planar_2r/collision-bodies")
+    assert answer.status_code == 200, answer.text
+    bodies = CollisionBodies.model_validate_json(answer.content).bodies
+    pairs = client.get("/v1/robots/planar_2r/collision-pairs").json()["pairs"]
+    assert {body.link for body in bodies} == {link for pair in pairs for link in (pair["a"], pair["b"])}
+    assert all(body.size and not body.points and body.excess == 0.0 for body in bodies)
+    assert client.get("/v1/robots/nobody/collision-bodies").status_code == 404
 
 
 def test_the_catalogue_is_read_only_and_others_are_unknown(client: TestClient) -> None:

@@ -137,6 +137,7 @@ class Operations:
     replace_robot = _about_robot("v1/robots/{robot}", RobotReplacement, RobotInfo, "PUT")
     replace_archive = Sent(stored.replace_archive)
     remove_robot = Sent(stored.remove)
+    collision_bodies = Sent(stored.collision_bodies)
     collision_pairs = Sent(stored.collision_pairs)
     choose_collision_pairs = _about_robot("v1/robots/{robot}/collision-pairs", PairChoices, CollisionPairs, "PUT")
 

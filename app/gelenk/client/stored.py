@@ -10,6 +10,7 @@ from httpx2 import Response
 
 from gelenk.client.call import Call
 from gelenk.client.exchange import encoded, json_call, query_of, reader, segment
+from gelenk.contract.collision_bodies import CollisionBodies
 from gelenk.contract.collision_pairs import CollisionPairs
 from gelenk.contract.common import Answer, ChainEnds
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer
@@ -37,6 +38,11 @@ def robot(robot: str) -> Call[RobotInfo]:
 def urdf(robot: str) -> Call[str]:
     """A robot as URDF."""
     return Call("GET", f"v1/robots/{segment(robot)}/urdf", _text, accept="application/xml")
+
+
+def collision_bodies(robot: str) -> Call[CollisionBodies]:
+    """Convex pieces that a robot's links count as where contacts are computed."""
+    return Call("GET", f"v1/robots/{segment(robot)}/collision-bodies", reader(CollisionBodies))
 
 
 def collision_pairs(robot: str) -> Call[CollisionPairs]:

@@ -3,6 +3,7 @@
 from functools import partial
 from typing import Any
 
+from gelenk.contract.collision_bodies import CollisionBodies
 from gelenk.contract.collision_pairs import CollisionPairs
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer
 from gelenk.contract.endpoint import Resource, Scope
@@ -122,6 +123,16 @@ RESOURCES = (
 
         A file that is stored compressed is sent compressed to clients whose `Accept-Encoding` names `gzip`.
         """,
+    ),
+    _query(
+        name="get_collision_bodies",
+        path="v1/robots/{robot}/collision-bodies",
+        tag="Robots",
+        answer=CollisionBodies,
+        problems=_OF_ROBOT,
+        summary="What of a robot can touch anything",
+        description="Lists the convex pieces that each link counts as where contacts are computed. The first call on a "
+        "robot may take seconds.",
     ),
     _query(
         name="get_collision_pairs",

@@ -7,7 +7,7 @@ import type { Store } from "./store.ts";
 import { isPose } from "./robot/pose.ts";
 import { type DhTable, DIRECTIONS, type InverseOptions } from "./types.ts";
 
-const FLAGS = ["degrees", "frames", "axes", "names", "dh"] as const;
+const FLAGS = ["degrees", "frames", "axes", "names", "dh", "bodies"] as const;
 const OPTION = /^[a-z]+\.[a-z]+$/; // `panel.option`
 const PARTS: readonly string[] = ["transforms", "pose", "jacobian", "singular", "motion"];
 const WRITE_AFTER = 250; // browsers refuse more than some hundred changes of the address in half a minute

@@ -12,6 +12,7 @@ import { followTheme, furnish, keySwitch } from "./page.ts";
 import type { Studio } from "./panels/panel.ts";
 import { showPart } from "./panels/robot/index.ts";
 import { Loader } from "./robot/load.ts";
+import { showBodies } from "./scene/bodies.ts";
 import { followContacts } from "./scene/contacts.ts";
 import { showScene } from "./scene/layer.ts";
 import { followStored } from "./scene/stored.ts";
@@ -49,6 +50,7 @@ function start(): void {
     store.watch(["dark"], () => view.dress());
     mark(view, store);
     showScene(view, store);
+    showBodies(view, store, api);
   }
   followContacts(store, api);
   followStored(store, api);

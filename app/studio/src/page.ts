@@ -14,6 +14,7 @@ const MARKS = [
   { key: "axes", text: "Axes", title: "The axes of the joints" },
   { key: "names", text: "Names", title: "The names of the links" },
   { key: "dh", text: "DH frames", title: "The frames of the chain's DH table, with a and d" },
+  { key: "bodies", text: "Bodies", title: "What contacts are computed of" },
 ] as const;
 
 export interface Places {

@@ -44,6 +44,8 @@ export interface Linked {
   axes: boolean;
   names: boolean;
   dh: boolean;
+  /** Whether what contacts are computed of is in the picture. */
+  bodies: boolean;
   /** What is chosen in panels, by `panel.option`; see `chosen`. */
   options: Readonly<Record<string, string>>;
 }
@@ -93,6 +95,7 @@ export const FIRST: Linked = {
   axes: false,
   names: false,
   dh: false,
+  bodies: false,
   options: {},
 };
 

@@ -4,6 +4,8 @@ import type * as api from "./schema.ts";
 
 export type ChainEnds = api.ChainEnds;
 export type CollisionAnswer = api.CollisionAnswer;
+export type CollisionBodies = api.CollisionBodies;
+export type CollisionBody = api.CollisionBody;
 export type CollisionResult = CollisionAnswer["results"][number];
 export type CoursePictures = api.CoursePictures;
 export type DeriveAnswer = api.DeriveAnswer;

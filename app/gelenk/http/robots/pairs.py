@@ -1,11 +1,14 @@
-"""Which pairs of a robot's links are looked at for contacts, and a person's choices among them."""
+"""Bodies of a robot's links, which pairs are looked at for contacts, and a person's choices among these."""
 
+import math
 from typing import Any
 
 from fastapi import Request
 from starlette.responses import Response
 
+from gelenk.collision.bodies import Body
 from gelenk.collision.robot_bodies import RobotBodies
+from gelenk.contract.collision_bodies import CollisionBodies, CollisionBody
 from gelenk.contract.collision_pairs import CollisionPairs, PairChoice, PairChoices, PairInfo
 from gelenk.errors import InvalidField, quoted
 from gelenk.http.messages.openapi import RobotPath, UploadedRobotPath, documentation
@@ -18,7 +21,10 @@ from gelenk.operations.robot_bodies import bodies_of
 
 
 def pair_routes(pool_client: PoolClient, max_body_bytes: int) -> list[DocumentedRoute]:
-    """Return the routes that list and choose pairs; workers answer, because they open meshes."""
+    """Return the routes that list bodies, and list and choose pairs; workers answer, because they open meshes."""
+
+    async def show(request: Request) -> Response:
+        return await pool_client.answer(request, _bodies, TaskRequest(robot=request.path_params["robot"]))
 
     async def read(request: Request) -> Response:
         return await pool_client.answer(request, _listed, TaskRequest(robot=request.path_params["robot"]))
@@ -29,14 +35,31 @@ def pair_routes(pool_client: PoolClient, max_body_bytes: int) -> list[Documented
         given = TaskRequest(buffers(await request.pieces()), robot=request.path_params["robot"])
         return await pool_client.answer(request, _chosen, given)
 
+    def collision_bodies(robot: RobotPath) -> Any: ...
+
     def collision_pairs(robot: RobotPath) -> Any: ...
 
     def chosen_pairs(robot: UploadedRobotPath, choices: PairChoices) -> Any: ...
 
     return [
+        DocumentedRoute(collision_bodies, show, max_body_bytes, **documentation("get_collision_bodies")),
         DocumentedRoute(collision_pairs, read, max_body_bytes, **documentation("get_collision_pairs")),
         DocumentedRoute(chosen_pairs, choose, max_body_bytes, **documentation("choose_collision_pairs")),
     ]
+
+
+def _bodies(context: Context, task_request: TaskRequest) -> Response:
+    found = bodies_of(context.library.get(task_request.robot))
+    bodies = [_body(body) for body in found.bodies]
+    return JsonResponse(CollisionBodies(bodies=bodies, warnings=list(found.warnings)).model_dump(mode="json"))
+
+
+def _body(body: Body) -> CollisionBody:
+    numbers = {"points": body.points.tolist(), "T_link_body": body.T_link_body.tolist(), "size": list(body.size)}
+    excess = None if math.isnan(body.excess) else body.excess
+    return CollisionBody.model_validate(
+        {"name": body.name, "link": body.link, "kind": body.kind, **numbers, "excess": excess}
+    )
 
 
 def _listed(context: Context, task_request: TaskRequest) -> Response:
