@@ -21,6 +21,7 @@ from pydantic import BaseModel, ValidationError
 from gelenk.contract.common import as_lists
 from gelenk.contract.dh import DhTablePayload
 from gelenk.contract.ik import InverseRequest
+from gelenk.contract.scene import InCell
 from gelenk.contract.trajectory_request import TrajectoryRequest
 from gelenk.dh.tables.convert import describe_dh
 from gelenk.errors import InvalidField, UnknownRobot, counted
@@ -215,6 +216,7 @@ class Robot:
             array = np.asarray(given, dtype=float)
             fields["targets"] = array[None] if array.shape in {(7,), (4, 4)} else array
         call = call.model_copy(update=fields)  # arrays do not go number by number through pydantic
+        _refuse_cell(call)
         return solve(parse(self.core, call, _UNBOUNDED, call.time_limit))
 
     def trajectory(self, start: Configuration, segments: Sequence[Mapping[str, object]], **options: Any) -> Trajectory:
@@ -234,9 +236,7 @@ class Robot:
             AuditFailed: The motion does not pass its audit.
         """
         call = _checked(TrajectoryRequest, {**self._ends(), "start": start, "segments": segments, **options})
-        for name in ("scene", "min_clearance"):
-            if getattr(call, name) is not None:
-                raise InvalidField(name, "counts in the service, which has the bodies of its robots")
+        _refuse_cell(call)
         return plan(self.core, self.chain, trajectory_request.parse(self.core, self.chain, call).problem)
 
     def _ends(self) -> dict[str, str]:
@@ -253,6 +253,12 @@ def _several(q: Configurations) -> Sequence[Configuration] | Array:
         return np.ascontiguousarray(np.atleast_2d(q), dtype=float)
     is_one = isinstance(q, Mapping) or not any(isinstance(entry, Sequence | Mapping | np.ndarray) for entry in q)
     return cast(Sequence[Configuration], [q] if is_one else q)
+
+
+def _refuse_cell(call: InCell) -> None:
+    for name in ("scene", "min_clearance"):
+        if getattr(call, name) is not None:
+            raise InvalidField(name, "counts in the service, which has the bodies of its robots")
 
 
 def _checked(model: type[_Payload], fields: Mapping[str, object]) -> _Payload:
