@@ -49,7 +49,7 @@ function start(): void {
   if (view) {
     store.watch(["dark"], () => view.dress());
     mark(view, store);
-    showScene(view, store);
+    showScene(view, store, api);
     showBodies(view, store, api);
   }
   followContacts(store, api);

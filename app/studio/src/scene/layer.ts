@@ -8,6 +8,7 @@ import {
   DoubleSide,
   Float32BufferAttribute,
   Group,
+  type Material,
   Matrix4,
   Mesh,
   MeshLambertMaterial,
@@ -21,6 +22,8 @@ import {
   Vector3,
 } from "three";
 
+import type { Api } from "../api.ts";
+import { type MeshSource, meshSource } from "../robot/meshes.ts";
 import type { State } from "../state.ts";
 import type { Store } from "../store.ts";
 import type { SceneObject } from "../types.ts";
@@ -38,14 +41,15 @@ const WIDE = 20;
 const NEAR = 1e-6;
 
 /** Keep the scene in the picture as the state has it, from now on. */
-export function showScene(view: View, store: Store<State>): void {
+export function showScene(view: View, store: Store<State>, api: Api): void {
+  const meshes = new Map<string, MeshSource>();
   const [objects, touching] = [new Group(), new Group()];
   objects.name = "scene";
   touching.name = "contacts";
   view.scene.add(objects, touching);
   store.watch(["scene", "contacts", "unit", "dark", "chosen", "model"], (state) => {
     dispose(objects);
-    for (const object of state.scene.objects) objects.add(drawn(object, state));
+    for (const object of state.scene.objects) objects.add(drawn(object, state, fetched(state.scene.name)));
     place(objects, state);
     dispose(touching);
     if (state.contacts) touching.add(...marks(state.contacts, state));
@@ -55,11 +59,36 @@ export function showScene(view: View, store: Store<State>): void {
     place(objects, state);
     view.draw();
   });
+  /** The files of a stored scene, each fetched once; one that cannot be read stays a name. */
+  function fetched(scene: string | null): (file: string, into: Group, tone: Material) => void {
+    if (scene === null) return () => {};
+    const path = `v1/scenes/${encodeURIComponent(scene)}/files`;
+    const made = () => meshSource((file) => api.url(`${path}/${encodeURIComponent(file)}`), api.key.headers);
+    const source = meshes.get(scene) ?? made();
+    meshes.set(scene, source);
+    return (file, into, tone) => {
+      const show = (mesh: Object3D) => {
+        mesh.traverse((node) => {
+          if (!(node instanceof Mesh)) return;
+          node.material = tone;
+          node.userData["isShared"] = true;
+        });
+        into.add(mesh);
+        view.draw();
+      };
+      source(file, tone).then(show, () => {});
+    };
+  }
+
   store.watch(["scene"], ({ scene }) => view.surround(extent(scene.objects)));
 }
 
 /** An object, red while it is in contact. */
-function drawn(object: SceneObject, state: Readonly<State>): Object3D {
+function drawn(
+  object: SceneObject,
+  state: Readonly<State>,
+  fetch: (file: string, into: Group, tone: Material) => void,
+): Object3D {
   const { shape } = object;
   const isTouched =
     state.contacts?.inCollision && state.contacts.pairs.some(({ a, b }) => [a, b].includes(object.name));
@@ -72,6 +101,7 @@ function drawn(object: SceneObject, state: Readonly<State>): Object3D {
     made.add(new Points(geometry, new PointsMaterial({ color: tone, size: 2 * shape.radius })));
   } else if (shape.type === "mesh") {
     made.add(label(object.name, "link"));
+    fetch(shape.file, made, new MeshLambertMaterial({ color: tone, side: DoubleSide, flatShading: true }));
   } else {
     const isWide = shape.type === "half_space";
     const opacity = isWide ? 0.25 : isTouched ? 0.8 : 0.65;
