@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numba
+import numpy as np
 import pytest
 from numba.core.compiler_lock import global_compiler_lock
 
@@ -21,7 +22,9 @@ from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.ik.verdict.result import InverseKinematics
 from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.robot import compilation
+from gelenk.robot.arrays import Array
 from gelenk.robot.compilation import clock, when_compiling
+from gelenk.robot.notations import rotations_from_zyz
 from tests.robots import robot
 
 COMPILING, LIMIT = 0.6, 0.3
@@ -129,3 +132,21 @@ def test_where_nothing_can_be_written_it_says_so_and_goes_on(is_set: bool, tmp_p
     assert run.returncode == 0, run.stderr
     assert run.stderr.count("\n") == 1
     assert f"nothing can be written to {nowhere}" in run.stderr
+
+
+@pytest.mark.skipif(compilation.STORE is None, reason="nothing is stored")
+def test_the_code_of_a_stored_kernel_is_unpacked_when_another_one_is_compiled_with_it() -> None:
+    angles = np.array([[0.1, 0.2, 0.3]])
+    expected = rotations_from_zyz(angles)
+    kernel: Any = rotations_from_zyz
+    (signature,) = kernel.signatures
+    stored = kernel._cache.load_overload(signature, kernel.targetctx)
+    assert isinstance(stored.library._packed, bytes)
+    kernel.overloads[signature].library._shared_module = stored.library._packed
+
+    def turned(angles: Array) -> Array:
+        return rotations_from_zyz(angles)
+
+    compile_function: Any = numba.njit
+    np.testing.assert_array_equal(compile_function(turned)(angles), expected)
+    assert not isinstance(kernel.overloads[signature].library._packed, bytes)

@@ -16,7 +16,7 @@ from gelenk.http.access.metrics import Metrics
 from gelenk.http.messages.openapi import documentation
 from gelenk.http.messages.payloads import JsonResponse
 from gelenk.http.messages.problems import problem
-from gelenk.kinematics.warm_up import warm_up
+from gelenk.kinematics.warm_up import quick
 from gelenk.pool.pool import WorkerPool
 from gelenk.robot.compilation import wait_for_others
 from gelenk.store import folders
@@ -61,7 +61,7 @@ class Readiness:
     def _prepare(self) -> None:
         try:
             wait_for_others()
-            warm_up()
+            quick()
             # What is loaded now stays: the garbage collector need not scan it repeatedly.
             gc.collect()
             gc.freeze()

@@ -70,11 +70,19 @@ from gelenk.trajectory.tool.singularity import regular
 @cache
 def warm_up() -> None:
     """Run every kernel once, so that all are compiled or loaded; nothing is left to do for a second call."""
+    quick()
+    _contacts()
+    note_stored()
+
+
+@cache
+def quick() -> None:
+    """Run the kernels of answers that the event loop computes itself: those about contacts come from workers."""
     basics()
     for part in PARTS:
-        part()
+        if part is not _contacts:
+            part()
     _answers()
-    note_stored()
 
 
 def basics() -> None:
