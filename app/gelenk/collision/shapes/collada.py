@@ -116,9 +116,9 @@ def _faces(faces: Element, find: _Find) -> Iterator[Array]:
             yield from (points[np.lib.stride_tricks.sliding_window_view(some, 3)] for some in corners)
         case "polylist":
             counted = faces.find("vcount")
-            yield from (points[some[fans(_integers(counted))]] for some in corners if counted is not None)
+            yield from (points[some[_fans(_integers(counted))]] for some in corners if counted is not None)
         case _:
-            yield from (points[some[fans(np.array([len(some)]))]] for some in corners)
+            yield from (points[some[_fans(np.array([len(some)]))]] for some in corners)
 
 
 def _points(source: Element, find: _Find) -> Array:
@@ -132,7 +132,7 @@ def _points(source: Element, find: _Find) -> Array:
     return points
 
 
-def fans(counts: Indices) -> Indices:
+def _fans(counts: Indices) -> Indices:
     """Return indices of the corners of triangles that make up polygons of so many corners each; shape (F, 3)."""
     triangles = np.maximum(counts - 2, 0)
     first = np.repeat(np.cumsum(counts) - counts, triangles)
