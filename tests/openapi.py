@@ -15,6 +15,10 @@ def example_of(content: Mapping[str, Any]) -> Any:
     return content.get("example", given[0] if given else None)
 
 
+NO_ANSWER = {"get_scene_file"}
+"""Operations whose example has no answer: the scene of the examples has no file."""
+
+
 @cache
 def document() -> dict[str, Any]:
     """The document; not to be changed."""

@@ -17,7 +17,8 @@ from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.endpoints import ENDPOINTS
 from gelenk.http import dispatch, pages
 from gelenk.http.access.audit_log import AuditLog
-from gelenk.http.access.keyring import KeyCheck, Keyring
+from gelenk.http.access.keyring import Keyring
+from gelenk.http.access.keys import KeyCheck
 from gelenk.http.access.metrics import Metrics
 from gelenk.http.access.middleware import AccessRule, Middleware, TracedId, exporter_variables, telemetry
 from gelenk.http.access.origins import Origins, TrustedHosts, repeated

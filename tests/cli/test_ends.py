@@ -229,9 +229,9 @@ def test_an_error_of_the_command_itself_is_no_verdict(shell: Shell, monkeypatch:
     def interrupted(*_: object) -> Any:
         raise ValueError("Error calling function `_given_alone`: KeyboardInterrupt: ")
 
-    monkeypatch.setattr("gelenk.cli.arms._pose_row", fails)
+    monkeypatch.setattr("gelenk.cli.arms._answer_at", fails)
     out, err = shell("fk", "planar_2r", "-q", "0 0", code=4)
     assert "ZeroDivisionError" in err
     assert err.endswith("gelenk: something went wrong in the command itself: see above\n")
-    monkeypatch.setattr("gelenk.cli.arms._pose_row", interrupted)
+    monkeypatch.setattr("gelenk.cli.arms._answer_at", interrupted)
     assert shell("fk", "planar_2r", "-q", "0 0", code=130) == (out, "")

@@ -23,7 +23,7 @@ from gelenk.client.operations import Operations
 from gelenk.client.refusals import Refused
 from tests.cli.conftest import Shell
 from tests.client.test_operations import NAMES as METHODS
-from tests.openapi import document, example_of
+from tests.openapi import NO_ANSWER, document, example_of
 from tests.test_serve import get
 
 NAMES = {**METHODS, "watch_job": "watch", "get_job_result": "workspace_result"}
@@ -73,8 +73,6 @@ def questions() -> Iterator[Question]:
             yield Question(operation["operationId"], method.upper(), path, given["path"], given["query"], body)
 
 
-NO_ANSWER = {"get_scene_file"}
-"""The scene of the example has no file."""
 ASKED = (question for question in questions() if question.id not in NO_ANSWER)
 QUESTIONS = sorted(ASKED, key=lambda one: (ORDER[one.method.lower()], one.id not in FIRST))
 Way: TypeAlias = Callable[[Question], Any]

@@ -188,7 +188,7 @@ def test_every_case_solves_as_the_core_does(
     latex(inverse_steps(asked))
 
 
-@pytest.mark.parametrize("name", get_args(ObjectiveName))
+@pytest.mark.parametrize("name", [name for name in get_args(ObjectiveName) if name != "clearance"])
 def test_the_gradient_is_that_of_the_objective_shown(name: ObjectiveName) -> None:
     """Differences of H, whose formula shares no code with the gradient's."""
     chain = robot("panda").chain(None, None)

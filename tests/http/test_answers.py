@@ -18,7 +18,7 @@ from pydantic import TypeAdapter
 from starlette.testclient import TestClient
 
 from tests.http.test_openapi import OPERATIONS
-from tests.openapi import example_of
+from tests.openapi import NO_ANSWER, example_of
 
 TOLERANCE = 1e-9
 """Of RᵀR - I, entry by entry, and of the length of a quaternion or an axis."""
@@ -98,6 +98,8 @@ def test_the_judge_sees_what_is_wrong() -> None:
 def test_the_answers_to_all_examples(client: TestClient) -> None:
     count = 0
     for path, method, operation in OPERATIONS:
+        if operation["operationId"] in NO_ANSWER:
+            continue
         for parameter in operation.get("parameters", []):
             example = str(next(iter(parameter["examples"].values()))["value"])
             path = path.replace(f"{{{parameter['name']}}}", example)  # noqa: PLW2901

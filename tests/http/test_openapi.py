@@ -14,7 +14,7 @@ from gelenk.contract.endpoints import ENDPOINTS as ALL_ENDPOINTS
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS
 from gelenk.http.messages.openapi import EXAMPLES
 from tests.corpus import npy
-from tests.openapi import document, example_of
+from tests.openapi import NO_ANSWER, document, example_of
 
 Operation = tuple[str, str, dict[str, Any]]
 _ORDER = {"post": 0, "get": 1, "put": 2, "delete": 3}
@@ -60,6 +60,8 @@ def test_a_generated_client_finds_a_name_for_everything() -> None:
 def test_every_example_runs_as_it_stands(client: TestClient) -> None:
     """In the order of the methods, so that what POST adds is there to be replaced and removed."""
     for path, method, operation in OPERATIONS:
+        if operation["operationId"] in NO_ANSWER:
+            continue
         query: dict[str, Any] = {}
         for parameter in operation.get("parameters", []):
             example = next(iter(parameter["examples"].values()))["value"]

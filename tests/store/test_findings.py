@@ -47,7 +47,7 @@ def test_a_broken_srdf_and_a_broken_mesh_are_warnings_of_the_upload(tmp_path: Pa
     loaded = stored(tmp_path, b"v 0 0 0\nf 1 2 3\n", b"<robot>\n<disable_collisions\n</robot>")
     mesh, srdf = loaded.record.file.findings
     assert {mesh, srdf} <= set(loaded.warnings)
-    assert mesh.startswith("mesh 'part.obj': it cannot be read as OBJ: 'a face has a corner that is not there'")
+    assert mesh.startswith("mesh 'part.obj': it cannot be read as OBJ: ")
     assert srdf.startswith("the SRDF is not read: line 3: ")
     with pytest.raises(InvalidMesh, match=r"mesh 'part\.obj'"):
         bodies_of(loaded)

@@ -18,6 +18,7 @@ export type Audit = {
   certificate: PoseCertificate;
   way_error: PathError | null;
   reasons: Reason[];
+  clearance?: MotionClearance | null;
 };
 
 export type BlockingJoint = { name: string; position: number; lower: number; upper: number; excess: number };
@@ -45,6 +46,32 @@ export type CircleSegment = {
   orientation?: "axis_angle" | "zyz" | "zyz_other";
 };
 
+export type ClosestPair = { a: string; b: string; distance: number; point_a: number[]; point_b: number[] };
+
+export type CollisionAnswer = {
+  joint_names: string[];
+  base_frame: string;
+  tip_frame: string;
+  root_frame: string;
+  results: CollisionResult[];
+  warnings: string[];
+  certificate: ContactCertificate;
+};
+
+export type CollisionBodies = { bodies: CollisionBody[]; warnings: string[] };
+
+export type CollisionBody = {
+  name: string;
+  link: string;
+  kind: "sphere" | "capsule" | "cylinder" | "box" | "convex";
+  size: number[];
+  points: number[][];
+  T_link_body: number[][];
+  excess: number | null;
+};
+
+export type CollisionResult = { in_collision: boolean; clearance?: number | null; pairs?: ContactPair[] | null };
+
 export type ColumnFormulas = {
   joint: string;
   axis: MatrixFormula;
@@ -54,6 +81,17 @@ export type ColumnFormulas = {
 };
 
 export type Configuration = number[] | JointValues;
+
+export type ContactCertificate = {
+  samples: number;
+  pairs: number;
+  max_distance_error: number;
+  touching: number;
+  tolerance: number;
+  seed: number;
+};
+
+export type ContactPair = { a: string; b: string; distance: number; point_a: number[]; point_b: number[] };
 
 export type Continuity = { position: Jump | null; velocity: Jump | null; acceleration: Jump | null; jerk: Jump | null };
 
@@ -257,12 +295,16 @@ export type InverseAnswer = {
   tip_frame: string;
   task: ("x" | "y" | "z" | "rx" | "ry" | "rz")[];
   closed_form: string | null;
+  warnings?: string[] | null;
+  certificate?: ContactCertificate | null;
   results: InverseResult[];
 };
 
 export type InverseRequest = {
   language?: "en" | "de";
   steps?: boolean;
+  scene?: string | Scene | null;
+  min_clearance?: number | null;
   base_frame?: string | null;
   tip_frame?: string | null;
   method?: "auto" | "analytic" | "newton" | "gradient" | "gradient_then_newton" | "damped_least_squares";
@@ -276,7 +318,7 @@ export type InverseRequest = {
   random_seed?: number;
   max_solutions?: number;
   windings?: boolean;
-  objective?: "posture" | "mid_range" | "limits" | "manipulability" | null;
+  objective?: "posture" | "mid_range" | "limits" | "manipulability" | "clearance" | null;
   step_size?: number | null;
   damping?: number | null;
   switch_error?: number;
@@ -290,7 +332,7 @@ export type InverseRequest = {
 };
 
 export type InverseResult = {
-  status: "solved" | "unreachable" | "outside_limits" | "singular" | "not_converged";
+  status: "solved" | "unreachable" | "outside_limits" | "singular" | "not_converged" | "in_collision";
   solutions: SolutionInfo[];
   reason: string | null;
   nearest?: NearestInfo | null;
@@ -453,6 +495,8 @@ export type MimicPayload = { joint: string; multiplier?: number; offset?: number
 
 export type MistakeInfo = { code: string; text: string };
 
+export type Moment = { value: number | null; time: number; joint_positions: number[]; pair: ClosestPair | null };
+
 export type Motion = {
   language?: "en" | "de";
   steps?: boolean;
@@ -486,6 +530,17 @@ export type Motion = {
   pose_format?: "quaternion_xyzw" | "quaternion_wxyz" | "rpy" | "zyz" | "rotation_vector" | "rotation" | "matrix";
 };
 
+export type MotionClearance = {
+  value: number | null;
+  time: number;
+  joint_positions: number[];
+  pair: ClosestPair | null;
+  lower_bound: number | null;
+  resolution: number;
+  certificate: ContactCertificate;
+  continuous: true;
+};
+
 export type MotionLimitsInfo = {
   joint_velocity: number[];
   joint_acceleration: number[];
@@ -512,7 +567,14 @@ export type MotionOptions = {
   acceleration_scale?: number | null;
 };
 
-export type NearestInfo = { joint_positions: number[]; pose: Pose; position_error: number; orientation_error: number };
+export type NearestInfo = {
+  joint_positions: number[];
+  pose: Pose;
+  position_error: number;
+  orientation_error: number;
+  clearance?: number | null;
+  pair?: ContactPair | null;
+};
 
 export type NearestSingularityInfo = {
   distance: number;
@@ -570,12 +632,14 @@ export type Peak = { ratio: number | null; value: number; joint: string | null; 
 export type PlaneInfo = { origin: number[]; normal: number[]; thickness: number };
 
 export type PlanningFailure = {
-  reason: "out_of_reach" | "joint_limit" | "singularity" | "branch_change";
+  reason: "out_of_reach" | "joint_limit" | "singularity" | "branch_change" | "collision";
   segment: number;
   time: number;
   position: number[];
   joint: string | null;
   detail: string;
+  first_contact?: Moment | null;
+  nearest?: Moment | null;
 };
 
 export type PolynomialsInfo = { breaks: number[]; coefficients: number[][][] };
@@ -638,6 +702,37 @@ export type RobotSummary = {
 };
 
 export type RunningMotion = { trajectory: Motion; time: number };
+
+export type Scene = { objects: SceneObject[] };
+
+export type SceneBox = { type: "box"; size: number[] };
+
+export type SceneCylinder = { type: "cylinder" | "capsule"; radius: number; length: number };
+
+export type SceneFile = { name: string; size: number };
+
+export type SceneHalfSpace = { type: "half_space"; normal: number[]; offset?: number };
+
+export type SceneInfo = { name: string; objects: SceneObject[]; files: SceneFile[] };
+
+export type SceneList = { scenes: SceneSummary[] };
+
+export type SceneMesh = { type: "mesh"; file: string };
+
+export type SceneObject = {
+  name: string;
+  shape: SceneBox | SceneSphere | SceneCylinder | SceneHalfSpace | SceneMesh | ScenePoints;
+  pose?: Pose | null;
+  attached_to?: string | null;
+  touch_links?: string[];
+  clearance?: number;
+};
+
+export type ScenePoints = { type: "points"; points?: number[][] | null; file?: string | null; radius: number };
+
+export type SceneSphere = { type: "sphere"; radius: number };
+
+export type SceneSummary = { name: string; objects: number; size: number };
 
 export type SegmentBlend = { radius: number; start_time: number; end_time: number; acceleration: number | null };
 
@@ -727,6 +822,9 @@ export type SolutionInfo = {
   branch: Record<string, string | number> | null;
   free_joints?: string[] | null;
   elbow_angle?: number | null;
+  in_collision?: boolean | null;
+  clearance?: number | null;
+  pair?: ContactPair | null;
 };
 
 export type SpaceInfo = {
@@ -834,6 +932,8 @@ export type TrajectoryLimits = {
 };
 
 export type TrajectoryRequest = {
+  scene?: string | Scene | null;
+  min_clearance?: number | null;
   language?: "en" | "de";
   steps?: boolean;
   limits?: TrajectoryLimits | null;
@@ -915,6 +1015,7 @@ export type WorkspaceAnswer = {
   tip_frame: string;
   kind: "cloud" | "grid" | "dexterity";
   samples: number;
+  samples_free?: number | null;
   samples_counted: number;
   plane: PlaneInfo | null;
   sequence: "random" | "low_discrepancy";
@@ -928,6 +1029,7 @@ export type WorkspaceAnswer = {
   array: ArrayInfo;
   notes: string[];
   certificate: WorkspaceCertificate;
+  contact_certificate?: ContactCertificate | null;
 };
 
 export type WorkspaceCertificate = {

@@ -4,7 +4,7 @@
 - `middleware`: passes requests through the checks, in order; adds the headers that all responses share, and
   optional OpenTelemetry.
 - `route_table`: finds the operation for a path.
-- `origins`, `keyring`: the checks, by the keys of the last one.
+- `origins`, `keys`: the checks; `keyring` holds the keys, and is loaded before what computes.
 - `audit_log`: the request log, and the audit log of writes.
 - `metrics`: counts for Prometheus.
 """
