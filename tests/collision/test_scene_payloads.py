@@ -21,6 +21,7 @@ SHAPES: list[dict[str, Any]] = [
     {"type": "mesh", "file": "shelf.stl"},
     {"type": "points", "points": [[0.1, 0.2, 0.3]], "radius": 0.01},
     {"type": "points", "file": "scan.npy", "radius": 0.01},
+    {"type": "height_map", "heights": [[0.0, 0.1], [0.2, 0.1]], "size": [1.0, 2.0], "base": -0.1},
 ]
 
 
@@ -47,6 +48,10 @@ def test_a_scene_is_a_name_or_objects() -> None:
         ({"type": "points", "points": [], "radius": 0.1}, ("points",)),
         ({"type": "points", "file": "scan.npz", "radius": 0.1}, ("file",)),
         ({"type": "mesh", "file": "../shelf.stl"}, ("file",)),
+        ({"type": "height_map", "heights": [[0.0, 0.1]], "size": [1.0, 1.0]}, ("heights",)),
+        ({"type": "height_map", "heights": [[0.0, 1e4], [0.0, 0.0]], "size": [1.0, 1.0]}, ("heights", 0, 1)),
+        ({"type": "height_map", "heights": [[0.0, 0.0], [0.0]], "size": [1.0, 1.0]}, ("heights", 1)),
+        ({"type": "height_map", "heights": [[0.0, 0.0], [0.0, 0.0]], "size": [1.0, 0.0]}, ("size", 1)),
         ({"type": "cone", "radius": 0.1}, ()),
     ],
 )

@@ -18,6 +18,7 @@ MAX_FILES = 100
 """Files of one scene."""
 
 Extent = Annotated[float, Field(ge=MIN_SIZE, le=MAX_SIZE)]
+Height = Annotated[float, Field(ge=-MAX_SIZE, le=MAX_SIZE)]
 SceneName = Annotated[
     str,
     Field(
@@ -87,8 +88,33 @@ class ScenePoints(Payload):
         return self
 
 
+class SceneHeightMap(Payload):
+    """Terrain: solid from a base up to heights at the corners of a grid about z; it counts as at most 2,000 boxes."""
+
+    type: Literal["height_map"] = Field(description="Which shape it is.")
+    heights: Annotated[
+        Vectors,
+        OnTheWire(
+            Annotated[
+                list[Annotated[list[Height], Field(min_length=2, max_length=1000, fail_fast=True)]],
+                Field(min_length=2, max_length=1000, fail_fast=True),
+            ]
+        ),
+    ] = Field(description="Rows from the least y to the largest, each from the least x to the largest, [m].")
+    size: Annotated[list[Extent], Field(min_length=2, max_length=2)] = Field(description="Along x and y, [m].")
+    base: Height | None = optional("Down to where it is solid, [m]; to its lowest height if left out.")
+
+    @model_validator(mode="after")
+    def _one_length(self) -> "SceneHeightMap":
+        for i, row in enumerate(self.heights):
+            if len(row) != len(self.heights[0]):
+                raise ValueError(f"`heights`: rows 0 and {i} have {len(self.heights[0])} and {len(row)} numbers")
+        return self
+
+
 Shape: TypeAlias = Annotated[
-    SceneBox | SceneSphere | SceneCylinder | SceneHalfSpace | SceneMesh | ScenePoints, Field(discriminator="type")
+    SceneBox | SceneSphere | SceneCylinder | SceneHalfSpace | SceneMesh | ScenePoints | SceneHeightMap,
+    Field(discriminator="type"),
 ]
 
 

@@ -12,6 +12,7 @@ from gelenk.collision.bodies import Body
 from gelenk.collision.scene import Obstacle, half_space
 from gelenk.collision.shapes.clouds import cloud_bodies
 from gelenk.collision.shapes.covers import covered_body
+from gelenk.collision.shapes.height_maps import height_map_bodies
 from gelenk.collision.shapes.meshes import read_triangles
 from gelenk.collision.shapes.pieces import pieces_of
 from gelenk.contract.scene import (
@@ -19,6 +20,7 @@ from gelenk.contract.scene import (
     SceneBox,
     SceneCylinder,
     SceneHalfSpace,
+    SceneHeightMap,
     SceneMesh,
     SceneObject,
     ScenePoints,
@@ -90,6 +92,11 @@ def _bodies(one: SceneObject, place: str, link: str, scene: Scene) -> tuple[tupl
             points = _points(cloud, scene)
             some, excess = cloud_bodies(name, link, points, radius, T)
             return tuple(some), _about_boxes(name, len(points), excess)
+        case SceneHeightMap(heights=rows, size=[x, y], base=base):
+            heights = np.array(rows, dtype=float)
+            low = heights.min() if base is None else base
+            some, excess = height_map_bodies(name, link, heights, (x, y), float(low), T)
+            return tuple(some), _about_terrain(name, excess)
     raise TypeError(type(one.shape))
 
 
@@ -113,6 +120,10 @@ def _about_boxes(name: str, points: int, excess: float) -> str | None:
         return None
     counts = f"{quoted(name)} counts as boxes around its {counted(points, 'point')}"
     return f"{counts}; they reach at most {excess:.3g} m beyond the points' spheres"
+
+
+def _about_terrain(name: str, excess: float) -> str | None:
+    return f"{quoted(name)} counts as boxes that reach at most {excess:.3g} m above its surface" if excess else None
 
 
 def _pose(one: SceneObject, place: str) -> Array:

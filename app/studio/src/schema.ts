@@ -713,6 +713,8 @@ export type SceneFile = { name: string; size: number };
 
 export type SceneHalfSpace = { type: "half_space"; normal: number[]; offset?: number };
 
+export type SceneHeightMap = { type: "height_map"; heights: number[][]; size: number[]; base?: number | null };
+
 export type SceneInfo = { name: string; objects: SceneObject[]; files: SceneFile[] };
 
 export type SceneList = { scenes: SceneSummary[] };
@@ -721,7 +723,7 @@ export type SceneMesh = { type: "mesh"; file: string };
 
 export type SceneObject = {
   name: string;
-  shape: SceneBox | SceneSphere | SceneCylinder | SceneHalfSpace | SceneMesh | ScenePoints;
+  shape: SceneBox | SceneSphere | SceneCylinder | SceneHalfSpace | SceneMesh | ScenePoints | SceneHeightMap;
   pose?: Pose | null;
   attached_to?: string | null;
   touch_links?: string[];

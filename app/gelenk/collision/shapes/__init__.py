@@ -3,5 +3,5 @@
 - `meshes` reads files of triangles, Collada's by `collada`.
 - `pieces` cuts their `surfaces` into nearly convex parts, and takes the `hulls` of these.
 - `covers` puts spheres around any piece, `balls` a single one.
-- `clouds` makes pieces of points.
+- `clouds` makes pieces of points, `height_maps` of terrain.
 """

@@ -34,7 +34,7 @@ def cloud_bodies(name: str, link: str, points: Array, radius: float, T_link_clou
     lows, highs = _boxes(points, _cells(points))
     # From a point of a box to the nearest of the points in it is at most the diagonal, and to its own box a corner.
     excess = float(np.linalg.norm(highs - lows, axis=1).max()) + (math.sqrt(3.0) - 1.0) * radius
-    return list(_box_bodies(name, link, lows - radius, highs + radius, T_link_cloud)), excess
+    return list(box_bodies(name, link, lows - radius, highs + radius, T_link_cloud)), excess
 
 
 def _cells(points: Array) -> Indices:
@@ -58,7 +58,7 @@ def _boxes(points: Array, cells: Indices) -> tuple[Array, Array]:
     return np.minimum.reduceat(points[order], starts), np.maximum.reduceat(points[order], starts)
 
 
-def _box_bodies(name: str, link: str, lows: Array, highs: Array, T_link_cloud: Array) -> Iterator[Body]:
+def box_bodies(name: str, link: str, lows: Array, highs: Array, T_link_cloud: Array) -> Iterator[Body]:
     """Yield boxes, each covered by one sphere: finer covers would take longer to find than they save."""
     for i, (low, high) in enumerate(zip(lows, highs, strict=True), 1):
         size, T = high - low, T_link_cloud @ transform((low + high) / 2, np.eye(3))

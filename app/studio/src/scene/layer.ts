@@ -130,7 +130,19 @@ function geometry(shape: Exclude<Shape, { type: "points" | "mesh" }>, unit: numb
       return new CapsuleGeometry(shape.radius, shape.length, 12, 32).rotateX(QUARTER);
     case "half_space":
       return new PlaneGeometry(2 * WIDE * unit, 2 * WIDE * unit);
+    case "height_map":
+      return terrain(shape.heights, shape.size as [number, number]);
   }
+}
+
+/** The surface of a height map, whose first row has the least y. */
+function terrain(heights: readonly (readonly number[])[], size: [number, number]): BufferGeometry {
+  const made = new PlaneGeometry(...size, heights[0]!.length - 1, heights.length - 1);
+  const positions = made.getAttribute("position");
+  // The plane begins at the largest y.
+  for (const [k, height] of heights.toReversed().flat().entries()) positions.setZ(k, height);
+  made.computeVertexNormals();
+  return made;
 }
 
 /** Put each object to its place, or to that of the frame it hangs on. */

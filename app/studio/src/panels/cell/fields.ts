@@ -53,6 +53,7 @@ function sizes({ type }: Shape): Row[] {
     case "half_space":
       return [one("offset", "Height")];
     case "mesh":
+    case "height_map":
       return [];
   }
 }
