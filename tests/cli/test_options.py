@@ -153,7 +153,8 @@ def test_an_option_is_its_field(
     told = answer(url, asked, fields)
     assert "detail" not in told, told
     assert told != answer(url, asked, {}), "it makes no difference"
-    out, err = shell.run("--format", "json", *asked.words, *option, code=None)  # an answer may be no
+    where = ["--server", url] if "--scene" in option else []  # which has the scene
+    out, err = shell.run(*where, "--format", "json", *asked.words, *option, code=None)  # an answer may be no
     assert err == ""
     assert json.loads(out) == told
 

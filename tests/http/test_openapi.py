@@ -105,9 +105,9 @@ def query_examples(field: dict[str, Any]) -> list[Any]:
         elif kind.get("type") == "object":
             found.append('{"panda_joint7": 0.5}')
         elif "$ref" in kind:
-            found.append('{"joint_velocity": 1.0}')  # the only model among these fields has the limits of a motion
+            found.append('{"objects": []}' if kind["$ref"].endswith("/Scene") else '{"joint_velocity": 1.0}')
         else:
-            found.append(words[0] if words else simple[kind["type"]])
+            found.append(words[0] if words else next(iter(kind.get("examples", [])), simple[kind["type"]]))
     return found
 
 

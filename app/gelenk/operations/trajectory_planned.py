@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -27,7 +27,6 @@ from gelenk.operations.trajectory_torques import torque_notes
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
-from gelenk.robot.result import Result
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.plan import plan
 from gelenk.trajectory.problem.problem import SegmentLimits, Trajectory
@@ -207,11 +206,11 @@ class PlannedTrajectory:
             **head(self.chain),
             "duration": found.motion.duration,
             "completed_fraction": found.completed_fraction,
-            "failure": found.failure and _given(found.failure, ("first_contact", "nearest")),
+            "failure": found.failure,
             **sampled,
             "tip_poses": sampled.get("tip_poses"),
             "segments": self._segments_json(),
-            "audit": _given(found.audit, ("clearance",)),
+            "audit": found.audit,
             "limits": limits_json(bounds.limits),
             "limit_sources": bounds.sources,
             "notes": self._notes(),
@@ -267,13 +266,6 @@ class PlannedTrajectory:
             title += f", {100.0 * found.completed_fraction:.3g} % done: {found.failure.reason}"
         lines = ProfileLines(chain.joint_names, units, (None, None, None), spans=spans)
         return profiles_picture(title, found.motion, lines, kind)
-
-
-def _given(result: Result, further: tuple[str, ...]) -> dict[str, Any]:
-    """Return a result's fields, further ones only if they have a value."""
-    names = (one.name for one in fields(result))  # type: ignore[arg-type]
-    known = {name: getattr(result, name) for name in names}
-    return {name: value for name, value in known.items() if value is not None or name not in further}
 
 
 def limits_json(limits: SegmentLimits) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import AsyncGenerator, Iterable, Mapping, Sequence
+from collections.abc import AsyncGenerator, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any, Self, TypeVar
 
@@ -247,11 +247,19 @@ def _object(text: str) -> Any:
 def _json_types(model: type[BaseModel]) -> dict[str, set[Any]]:
     schema = model.model_json_schema()
     fields, models = schema["properties"], schema.get("$defs", {})
-    choices = {name: field.get("anyOf") or field.get("oneOf") or [field] for name, field in fields.items()}
     return {
-        name: {models.get(choice.get("$ref", "").rpartition("/")[2], choice).get("type") for choice in these}
-        for name, these in choices.items()
+        name: {models.get(choice.get("$ref", "").rpartition("/")[2], choice).get("type") for choice in _choices(field)}
+        for name, field in fields.items()
     }
+
+
+def _choices(field: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """Yield the schemas of which a value of a field needs to follow one."""
+    if choices := field.get("anyOf") or field.get("oneOf"):
+        for choice in choices:
+            yield from _choices(choice)
+    else:
+        yield field
 
 
 def read_query(model: type[_Model], query: QueryParams) -> _Model:
@@ -270,7 +278,8 @@ def read_query(model: type[_Model], query: QueryParams) -> _Model:
         elif len(given) > 1:
             raise InvalidPayload(True, [{"pointer": f"#/{quoted(key)[1:-1]}", "detail": "it is given twice"}], 1)
         else:
-            values[key] = _object(given[0]) if "object" in types else given[0]
+            is_json = "object" in types and ("string" not in types or given[0].startswith("{"))
+            values[key] = _object(given[0]) if is_json else given[0]
     try:
         return model.model_validate(values, strict=False)
     except ValidationError as error:

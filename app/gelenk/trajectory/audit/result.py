@@ -206,7 +206,7 @@ class Audit(Result):
         certificate: Of poses along the motion, recomputed through Pinocchio.
         way_error: Difference of these three from those of the exact tip path; null without one.
         reasons: Why the motion fails the audit.
-        clearance: Of all links, and of what is around and attached; only if the request has `scene` or
+        clearance: Of all links, and of what is around and attached; null unless the request has `scene` or
             `min_clearance`.
     """
 
