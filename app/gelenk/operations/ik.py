@@ -11,10 +11,10 @@ from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS
 from gelenk.ik.search.task import Task
 from gelenk.ik.solve import solve, solve_quickly
 from gelenk.ik.verdict.result import InverseKinematics
-from gelenk.operations.cells import cell_of
+from gelenk.operations.cells import cell_of, has_cell
 from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolved_headers
 from gelenk.operations.ik_contacts import certify_table, contacts_of
-from gelenk.operations.ik_request import TargetLimits, has_table, is_in_cell, parse, task_of
+from gelenk.operations.ik_request import TargetLimits, has_table, parse, task_of
 from gelenk.operations.outcome import Limits, Outcome, RequestCounts, WarmUp
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -55,7 +55,7 @@ def _bounds(limits: Limits) -> TargetLimits:
 def is_heavy(call: InverseRequest) -> bool:
     """Check whether a request takes the event loop more than about a millisecond."""
     one_by_search = (
-        not is_in_cell(call)
+        not has_cell(call)
         and call.method in {"auto", "analytic"}
         and call.elbow_angle is None
         and call.fixed_joints is None

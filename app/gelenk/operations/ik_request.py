@@ -12,6 +12,7 @@ from gelenk.ik.search.bounds import mid_range
 from gelenk.ik.search.problem import DescentRule, Objective, Options, TargetProblem
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.ik.search.words import DIRECTIONS, Direction, StepMethod
+from gelenk.operations.cells import has_cell
 from gelenk.operations.pose_arrays import poses_from
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -127,16 +128,11 @@ def _check_size(call: InverseRequest, targets: int, joints: int, bounds: TargetL
         raise TooLarge("targets that are followed or worked out step by step", targets, bounds.stepwise)
     rows = call.max_solutions if call.solutions == "all" else MAX_TRACE if call.trace else 1
     # The sweeps of families together have at most as many configurations as there may be solutions.
-    contact = NUMBERS_OF_CONTACT * is_in_cell(call)
+    contact = NUMBERS_OF_CONTACT * has_cell(call)
     each = joints + 4 + contact + joints * (call.solutions == "all")
     numbers = targets * (each * rows + NUMBERS_OF_STEPS * call.steps)
     if bounds.numbers is not None and numbers > bounds.numbers:
         raise TooLarge("numbers in the answer", numbers, bounds.numbers)
-
-
-def is_in_cell(call: InverseRequest) -> bool:
-    """Check whether contacts are looked at."""
-    return call.scene is not None or call.min_clearance is not None
 
 
 def is_stepwise(call: InverseRequest) -> bool:
@@ -170,7 +166,7 @@ def _check_options(call: InverseRequest) -> None:
         raise InvalidField("step_size", "only for the methods `gradient` and `gradient_then_newton`")
     if call.damping is not None and call.method != "damped_least_squares":
         raise InvalidField("damping", "only for the method `damped_least_squares`")
-    if call.objective == "clearance" and not is_in_cell(call):
+    if call.objective == "clearance" and not has_cell(call):
         raise InvalidField("objective", "`clearance` needs a `scene`, or a `min_clearance` from the robot itself")
     if call.objective is not None and call.method != "auto":
         raise InvalidField("objective", "only for the method `auto`")
