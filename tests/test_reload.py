@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from gelenk.robot.compilation import STORE
 from tests.test_faults import wait_for
 from tests.test_serve import HOST, free_port, get
 
@@ -17,9 +18,11 @@ def test_a_change_starts_it_again_and_a_mistake_does_not_end_it(tmp_path: Path) 
     package, port = tmp_path / "gelenk", free_port()
     shutil.copytree("app/gelenk", package, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree("robots", package / "robots")
-    file = package / "contract" / "health.py"
+    file = package / "contract" / "problem.py"
     right = file.read_text()
     environment = {**os.environ, "PYTHONPATH": str(tmp_path), "GELENK_DATA_DIR": str(tmp_path / "data")}
+    if STORE is not None:
+        environment["NUMBA_CACHE_DIR"] = str(STORE.parent)  # its kernels are the same
     command = [sys.executable, "-m", "gelenk.serve", "--port", str(port), "--reload"]
 
     def version() -> str:

@@ -52,7 +52,7 @@ export function showScene(view: View, store: Store<State>, api: Api): void {
     for (const object of state.scene.objects) objects.add(drawn(object, state, fetched(state.scene.name)));
     place(objects, state);
     dispose(touching);
-    if (state.contacts) touching.add(...marks(state.contacts, state));
+    for (const mark of state.contacts ? marks(state.contacts, state) : []) touching.add(mark);
     view.draw();
   });
   store.watch(["positions"], (state) => {

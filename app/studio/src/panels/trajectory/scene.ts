@@ -54,7 +54,8 @@ export class MotionMarks {
   showPlaces(chain: ShownChain, motion: Motion, plan: Plan | null, unit: number, open: number | null): void {
     erase(this.#places);
     if (motion.path) {
-      this.#places.add(...wayPoints(motion.path, plan?.motion.path === motion.path ? plan : null, unit));
+      const planned = plan?.motion.path === motion.path ? plan : null;
+      for (const place of wayPoints(motion.path, planned, unit)) this.#places.add(place);
       if (!motion.approach) return this.follow(chain);
     }
     this.#place(chain, motion.start, unit * (open === -1 ? OPEN : 1), "start");
