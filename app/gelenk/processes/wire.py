@@ -65,11 +65,9 @@ def _parts(content: Any) -> Iterator[bytes | memoryview]:
     head = pickle.dumps(content, protocol=pickle.HIGHEST_PROTOCOL, buffer_callback=buffers.append)
     parts = [memoryview(head), *(buffer.raw() for buffer in buffers)]
     lengths = struct.pack(f"!I{len(parts)}Q", len(parts), *(part.nbytes for part in parts))
-    if sum(part.nbytes for part in parts) <= _SMALL:
-        yield b"".join((lengths, *parts))
-        return
-    yield lengths
-    yield from parts
+    first = len(parts) if sum(part.nbytes for part in parts) <= _SMALL else 1
+    yield b"".join((lengths, *parts[:first]))
+    yield from parts[first:]
 
 
 def _read(connection: socket.socket, size: int) -> bytearray:
@@ -84,12 +82,16 @@ def _read(connection: socket.socket, size: int) -> bytearray:
 
 
 async def _read_async(connection: socket.socket, size: int) -> bytearray:
-    loop = asyncio.get_running_loop()
     content = bytearray(size)
     view = memoryview(content)
     while view:
-        count = await loop.sock_recv_into(connection, view)
+        try:  # uvloop waits for a turn of its loop before each read, even if there is data.
+            count = connection.recv_into(view)
+        except BlockingIOError:
+            count = await asyncio.get_running_loop().sock_recv_into(connection, view)
         if not count:
             raise EOFError
         view = view[count:]
+        if size > PIECE:  # it can arrive as fast as it is read: other tasks run in between
+            await asyncio.sleep(0)
     return content
