@@ -23,6 +23,8 @@ from gelenk.collision.contact.world import build_world
 from gelenk.collision.robot_bodies import RobotBodies
 from gelenk.collision.scene import Obstacle
 from gelenk.collision.shapes.covers import covered_body
+from gelenk.collision.shapes.planes import best_plane
+from gelenk.collision.shapes.surfaces import parts_of, surface_of
 from gelenk.dh.tables.convert import describe_dh
 from gelenk.ik.closed.closed_form import closed_form
 from gelenk.ik.closed.nearest_branch import nearest_branch
@@ -174,7 +176,7 @@ def _motions() -> None:
 
 
 def _contacts() -> None:
-    """Find the contacts of an arm with a ball on its tip and a box at its base."""
+    """Find the contacts of an arm with a ball on its tip and a box at its base, and cut a mesh."""
     robot, chain, qs = _small_arm()
     held = (covered_body("held", chain.tip_frame, "sphere", (0.1,), np.eye(4)),)
     near = (covered_body("near", chain.base_frame, "box", (0.1, 0.1, 0.1), np.eye(4)),)
@@ -189,6 +191,8 @@ def _contacts() -> None:
     soft_clearances(world, qs, 0.01)
     always_in_contact(world, qs, np.zeros(1, dtype=np.int64), 1)
     least_slack(world, pieces_of(PiecewisePolynomial(np.arange(2.0), qs[None])), 1.0)
+    (triangle,) = parts_of(surface_of(np.eye(3)[None]))
+    best_plane(triangle, np.eye(3))
 
 
 def _answers() -> None:

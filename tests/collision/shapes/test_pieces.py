@@ -4,11 +4,14 @@ import math
 
 import numpy as np
 import pytest
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import ConvexHull
 
-from gelenk.collision.shapes import surfaces
-from gelenk.collision.shapes.pieces import MAX_PIECES, pieces_of
-from gelenk.collision.shapes.surfaces import cut, enclosed_volume, parts_of, surface_of
+from gelenk.collision.shapes import planes, surfaces
+from gelenk.collision.shapes.pieces import MAX_PIECES, _Chunk, pieces_of
+from gelenk.collision.shapes.planes import best_plane
+from gelenk.collision.shapes.surfaces import Surface, cut, enclosed_volume, parts_of, surface_of
 from gelenk.robot.arrays import Array
 from gelenk.robot.notations import rotations_from_vectors
 
@@ -101,6 +104,40 @@ def test_parts_share_no_corner() -> None:
     parts = parts_of(surface_of(boxes[np.random.default_rng(0).permutation(48)]))
     assert [(len(part.points), len(part.faces)) for part in parts] == [(8, 12)] * 4
     assert [enclosed_volume(part) for part in parts] == pytest.approx([1.0] * 4)
+
+
+def test_corners_of_chains_of_triangles_are_one_part() -> None:
+    faces = np.random.default_rng(2).permutation(600)[:540].reshape(-1, 3)
+    faces[:60, 1] = faces[60:120, 2]
+    edges = np.concatenate((faces[:, :2], faces[:, 1:]))
+    graph = coo_matrix((np.ones(len(edges)), edges.T), shape=(600, 600))
+    expected = connected_components(graph)[1][faces[:, 0]]
+    found = parts_of(Surface(np.arange(1800.0).reshape(-1, 3), faces))
+    assert sorted(len(part.faces) for part in found) == sorted(np.unique(expected, return_counts=True)[1])
+
+
+def test_a_plane_parts_a_bracket_at_its_corner() -> None:
+    axis, offset = best_plane(surface_of(BRACKET), np.eye(3))
+    assert axis in {0, 1}
+    assert offset == pytest.approx(0.1, abs=1e-5)
+
+
+def test_reaches_are_those_of_both_sides_of_a_plane() -> None:
+    surface, offsets = surface_of(ring() @ TURN.T), np.array([-0.5, 0.1, 0.4])
+    along, heights = surface.points[:, 0].copy(), surface.points @ TURN
+    within, cuts = planes._reaches(along, np.searchsorted(offsets, along), heights, surface.faces, offsets)
+    for k, offset in enumerate(offsets):
+        for side, own in zip(cut(surface, np.eye(3)[0], offset), (within[: k + 1], within[k + 1 :]), strict=True):
+            np.testing.assert_allclose(np.maximum(own.max(axis=0), cuts[k]), (side.points @ TURN).max(axis=0))
+
+
+def test_what_cuts_can_save_is_what_is_outside_of_a_closed_part() -> None:
+    whole = _Chunk(0, surface_of(ring()), TURN.T, np.zeros((3, 2), dtype=bool))
+    sides = [part for half in whole.middles for part in half.halves]
+    within = [part.hull.volume - part.could_save for part in (whole, *sides)]
+    assert within[0] == pytest.approx(enclosed_volume(surface_of(ring())))
+    assert within[0] == pytest.approx(sum(within[1:]))
+    assert all(part.saved <= part.could_save for part in (whole, *sides))
 
 
 def test_many_parts_are_cut_as_one() -> None:

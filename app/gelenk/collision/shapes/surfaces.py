@@ -6,9 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.compilation import compiled
 
 _HASH = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64)
 """Odd numbers: points of the same coordinates have the same key, and others hardly ever."""
+_XYZ = np.eye(3)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,22 +44,29 @@ def distinct(points: Array) -> tuple[Array, Indices]:
 
 def parts_of(surface: Surface) -> list[Surface]:
     """Split a surface into parts that share no corner."""
-    labels = _components(surface.faces)
+    labels = _components(surface.faces.ravel())
     part = labels[surface.faces[:, 0]]
     order = np.argsort(part, kind="stable")
     groups = np.split(surface.faces[order], np.flatnonzero(np.diff(part[order])) + 1)
     return [used(surface.points, faces) for faces in groups]
 
 
-def _components(faces: Indices) -> Indices:
-    """Label each corner by the smallest one that it is connected with; shape (V,)."""
-    labels = np.arange(faces.max() + 1)
-    while True:
-        before = labels.copy()
-        np.minimum.at(labels, faces, labels[faces].min(axis=1, keepdims=True))
-        labels = labels[labels]
-        if np.array_equal(labels, before):
-            return labels
+@compiled
+def _components(corners: Indices) -> Indices:
+    """Label each corner by the smallest one that it is connected with, given those of triangles, (3F,); shape (V,).
+
+    Rem's algorithm (Dijkstra, "A discipline of programming", 1976, ch. 23): labels lead down to the smallest.
+    """
+    labels = np.arange(corners.max() + 1)
+    for i in range(len(corners)):
+        a, b = corners[i], corners[i - i % 3]
+        while labels[a] != labels[b]:
+            if labels[a] > labels[b]:
+                a, b = b, a
+            labels[b], b = labels[a], labels[b]
+    for i in range(len(labels)):
+        labels[i] = labels[labels[i]]
+    return labels
 
 
 def cut(surface: Surface, normal: Array, offset: float) -> tuple[Surface, Surface]:
@@ -107,7 +116,8 @@ def enclosed_volume(surface: Surface) -> float:
     return volume_within(surface)
 
 
-def volume_within(surface: Surface) -> float:
-    """Return the volume within a closed surface, [m³]."""
-    a, b, c = np.moveaxis((surface.points - surface.points.mean(axis=0))[surface.faces], 1, 0)
-    return abs(float(np.einsum("ij,ij->", a, np.cross(b, c)))) / 6.0
+def volume_within(surface: Surface, axes: Array = _XYZ) -> float:
+    """Return the volume within a surface, [m³]; it may be open below and at sides along the last axis, of the rows."""
+    x, y, z = (surface.points @ axes.T)[surface.faces].T
+    areas = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
+    return abs(float(areas @ (z.mean(axis=0) - z.min()))) / 2.0
