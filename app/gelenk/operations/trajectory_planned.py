@@ -143,10 +143,10 @@ class PlannedTrajectory:
         Raises InvalidInput, which names the field; TooLarge; AuditFailed for a motion that fails its audit.
         """
         chain, question = checked(robot, call, bounds)
-        cell = None if bodies is None else bodies.cell(robot, chain, call.min_clearance)
-        return cls(
-            robot, chain, call, question, plan(robot, chain, replace(question.problem, cell=cell)), bounds, bodies
-        )
+        problem = question.problem
+        if bodies is not None:
+            problem = replace(problem, cell=bodies.cell(robot, chain, call.min_clearance))
+        return cls(robot, chain, call, question, plan(robot, chain, problem), bounds, bodies)
 
     @property
     def further(self) -> list[str]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import cast
 
 import numpy as np
@@ -120,7 +121,8 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedL
     segments = call.segments or ()
     segment, place = segments[index], f"segments.{index}"
     left_open = None if _task(call).has_rotations else OPEN
-    part = Part(
+    part = partial(
+        Part,
         segment.type,
         _tip_law(call, segment.law, f"{place}.law") if _is_tip_path(segment) else segment.law or call.law,
         bounds.limits,
@@ -131,12 +133,11 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedL
         case JointSegment():
             if isinstance(segment.target, Pose):
                 anyhow = None if left_open is None else np.eye(3)
-                return replace(part, pose=_matrix(segment.target, f"{place}.target", anyhow))
-            return replace(part, configuration=_within(chain, segment.target, f"{place}.target"))
+                return part(pose=_matrix(segment.target, f"{place}.target", anyhow))
+            return part(configuration=_within(chain, segment.target, f"{place}.target"))
         case LineSegment():
             _check_blend(segments, index)
-            return replace(
-                part,
+            return part(
                 pose=_matrix(segment.target, f"{place}.target", left_open),
                 blend_radius=segment.blend_radius or 0.0,
                 blend_acceleration=segment.blend_acceleration,
@@ -145,18 +146,17 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedL
             )
         case CircleSegment():
             _check_blend(segments, index)
-            return replace(
-                part,
+            return part(
                 blend_radius=segment.blend_radius or 0.0,
                 via=_matrix(segment.via, f"{place}.via", left_open),
                 pose=_matrix(segment.target, f"{place}.target", left_open),
                 orientation=segment.orientation,
             )
         case SplineSegment():
-            _check_blends(segment, part, place)
-            ways = _ways(chain, own, {"": call, f"{place}.": segment}, segment, part)
-            part = replace(part, boundary=segment.boundary, blends=segment.blends, ways=ways)
-            return _spline(chain, segment, part, place, left_open)
+            spline = part(boundary=segment.boundary, blends=segment.blends)
+            _check_blends(segment, spline, place)
+            ways = _ways(chain, own, {"": call, f"{place}.": segment}, segment, spline)
+            return _spline(chain, segment, replace(spline, ways=ways), place, left_open)
 
 
 def _stated(bounds: SourcedLimits) -> Array | None:
