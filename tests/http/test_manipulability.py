@@ -3,6 +3,7 @@
 import time
 from io import BytesIO
 from typing import Any
+from unittest.mock import AsyncMock
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from scipy.linalg import null_space
 from starlette.testclient import TestClient
 
 from gelenk.contract.manipulability import MAX_DETAILED, ManipulabilityAnswer
-from gelenk.http.messages.payloads import JSON, NPY, PNG, SVG, preferred_type
+from gelenk.http.messages.payloads import JSON, NPY, PNG, SVG, Bodies, BoundedRequest, preferred_type
 
 READY = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 PATH = "/v1/robots/{}/manipulability"
@@ -279,6 +280,14 @@ def test_what_is_no_array_does_not_go_as_npy(client: TestClient, options: dict[s
 )
 def test_the_media_type_by_weights(accept: str, wanted: str) -> None:
     assert preferred_type(accept, (JSON, NPY, SVG, PNG)) == wanted
+
+
+@pytest.mark.parametrize("accept", [*(JSON, NPY, SVG, PNG), "*/*", ""])
+def test_a_single_type_is_understood_at_once_as_a_list_would_be(accept: str) -> None:
+    scope = {"type": "http", "headers": [(b"accept", accept.encode())]}
+    for offered in ((JSON, NPY, SVG, PNG), (SVG, PNG)):
+        request = BoundedRequest(scope, AsyncMock(), AsyncMock(), 0, Bodies(0))
+        assert request.preferred(offered) == preferred_type(accept, offered)
 
 
 def test_a_long_header_is_read_in_no_time() -> None:

@@ -48,7 +48,6 @@ _FIRST = 64 * 1024
 
 _JSON_TYPE = b"content-type", JSON.encode()
 _WEIGHT = re.compile(r"0(\.\d{0,3})?|1(\.0{0,3})?", re.ASCII)
-_ANYTHING = frozenset({b"", b"*/*", b"application/json"})
 
 _Model = TypeVar("_Model", bound=Payload)
 
@@ -94,10 +93,10 @@ class BoundedRequest(Request):
 
     def preferred(self, offered: Sequence[str]) -> str:
         """Return the media type of the response, among those offered; see `preferred_type`."""
-        accept = self._fields.get(b"accept", b"")
-        # What nearly every client sends names no other type than the first.
-        is_first = accept in _ANYTHING and offered[0] == JSON
-        return JSON if is_first else preferred_type(accept.decode("latin-1"), offered)
+        accept = self._fields.get(b"accept", b"*/*").decode("latin-1")
+        if accept in offered:  # nearly every client names a single type
+            return accept
+        return offered[0] if accept == "*/*" else preferred_type(accept, offered)
 
     @property
     def length(self) -> int:
