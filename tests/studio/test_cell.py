@@ -7,6 +7,7 @@ import pytest
 
 from tests.studio.browser import Studio
 from tests.studio.inverse import SOLVED
+from tests.studio.test_robot import DROP
 from tests.test_serve import get
 
 READY = "0,-0.785,0,-2.356,0,1.571,0.785,0"
@@ -83,8 +84,36 @@ def test_a_motion_in_a_scene_has_its_clearance_as_a_curve(studio: Studio) -> Non
     said_then = studio.page.locator(".clearance").locator("xpath=..").text_content() or ""
     assert abs(float(said_then.split(": ")[1].split(" ")[0]) - 1000.0 * nearest["value"]) < 1.0
     blocked = {**post, "pose": {"position": [0.25, 0.17, 0.45]}}
-    studio.run("(objects) => studio.store.set({scene: {name: null, objects}})", [blocked])
+    studio.run("(objects) => studio.store.set({scene: {name: null, objects, origin: null}})", [blocked])
     studio.button("Plan").click()
     studio.until("studio.store.value.plan.answer.failure?.reason === 'collision'")
     studio.button("Show the contact").click()
     studio.until("studio.store.value.contacts && Math.abs(studio.store.value.contacts.clearance) < 1e-4")
+
+
+TETRAHEDRON = b"v 0 0 0\nv 0.2 0 0\nv 0 0.2 0\nv 0 0 0.2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+
+
+@pytest.mark.slow
+def test_a_mesh_dropped_on_the_page_becomes_an_object_that_is_moved_and_removed(
+    studio: Studio, refusals: set[int]
+) -> None:
+    studio.open("pose", q=READY)
+    studio.run(DROP, ["my wedge.obj", list(TETRAHEDRON)])
+    studio.until("studio.store.value.scene.objects.length === 1 && studio.store.value.panel === 'cell'")
+    name = studio.state("scene")["name"]
+    assert studio.page.request.get(f"{studio.url}/v1/scenes/{name}/files/my_wedge.obj").body() == TETRAHEDRON
+    studio.until("studio.view.scene.getObjectByName('my wedge 1').getObjectByProperty('isMesh', true)")
+    studio.type("Position z", "0.6")
+    studio.type("Position x", "0.25")
+    studio.until(f"{KNOWN}?.inCollision && studio.store.value.scene.name === {json.dumps(name)}")
+    assert get(f"{studio.url}/v1/scenes/{name}")[1]["objects"][0]["pose"]["position"] == [0.25, 0, 0.6]
+    refusals.add(422)
+    studio.run(DROP, ["broken.stl", list(b"solid nothing")])
+    problem = studio.page.locator(".problem:visible")
+    problem.wait_for()
+    assert "broken.stl" in (problem.text_content() or "")
+    assert len(studio.state("scene")["objects"]) == 1
+    studio.page.locator(".object").click()
+    studio.button("Remove").click()
+    studio.until(f"{KNOWN} && !{KNOWN}.inCollision && studio.store.value.scene.objects.length === 0")

@@ -31,7 +31,11 @@ export function read(hash: string): Address {
   linked.inverse = inverseOptions(json<unknown>(given.get("ik")));
   linked.writing = writing(given.get("worked")?.split(",") ?? []);
   linked.motion = asMotion(json(given.get("motion")));
-  linked.scene = { name: given.get("scene"), objects: asObjects(json(given.get("objects"))) };
+  linked.scene = {
+    name: given.get("scene"),
+    origin: given.get("scene"),
+    objects: asObjects(json(given.get("objects"))),
+  };
   const shown = new Set((given.get("show") ?? "").split(","));
   for (const flag of FLAGS) linked[flag] = shown.has(flag);
   linked.options = Object.fromEntries([...given].filter(([key]) => OPTION.test(key)));

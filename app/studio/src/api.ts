@@ -7,8 +7,8 @@ export interface Call {
   /** Below the service's address, without a slash in front. */
   path: string;
   body?: unknown;
-  /** Fields of a form that carries an archive, in the place of a body. */
-  form?: { fields: Record<string, string>; archive: File };
+  /** Fields of a form that carries files, in the place of a body, and under which name it does. */
+  form?: { fields: Record<string, string>; part: "archive" | "files"; files: readonly File[] };
   /** The form of the answer that is wanted, where it is not JSON. */
   accept?: string;
 }
@@ -113,7 +113,7 @@ function content(call: Call): { body: BodyInit | null; headers: Record<string, s
   if (call.form) {
     const body = new FormData();
     for (const [name, value] of Object.entries(call.form.fields)) body.set(name, value);
-    body.set("archive", call.form.archive);
+    for (const file of call.form.files) body.append(call.form.part, file);
     return { body, headers: accept };
   }
   if (call.body === undefined) return { body: null, headers: accept };

@@ -1,9 +1,11 @@
 /** Files dropped anywhere on the page. */
 
+import { dropMesh } from "./panels/cell/meshes.ts";
 import { drop } from "./panels/robot/upload.ts";
+import { isMesh } from "./scene/stored.ts";
 
-/** @param open shows where a dropped file goes. */
-export function acceptDrops(sign: HTMLElement, open: () => void): void {
+/** @param open shows the panel that a dropped file goes to. */
+export function acceptDrops(sign: HTMLElement, open: (panel: "cell" | "robot") => void): void {
   const hasFile = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;
   window.addEventListener("dragover", (event) => {
     if (!hasFile(event)) return;
@@ -19,7 +21,8 @@ export function acceptDrops(sign: HTMLElement, open: () => void): void {
     sign.hidden = true;
     const file = event.dataTransfer?.files[0];
     if (!file) return;
-    drop(file);
-    open();
+    if (isMesh(file)) dropMesh(file);
+    else drop(file);
+    open(isMesh(file) ? "cell" : "robot");
   });
 }

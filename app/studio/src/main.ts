@@ -15,7 +15,7 @@ import { Loader } from "./robot/load.ts";
 import { showBodies } from "./scene/bodies.ts";
 import { followContacts } from "./scene/contacts.ts";
 import { showScene } from "./scene/layer.ts";
-import { followStored } from "./scene/stored.ts";
+import { followFiles, followStored } from "./scene/stored.ts";
 import { initial } from "./state.ts";
 import { Store } from "./store.ts";
 import { askForKey, listenForHelp } from "./ui/dialogs.ts";
@@ -54,6 +54,7 @@ function start(): void {
   }
   followContacts(store, api);
   followStored(store, api);
+  followFiles(store, api);
   furnish(
     {
       tabs: place("tabs"),
@@ -76,10 +77,10 @@ function start(): void {
     if (isSame && model)
       store.set({ positions: model.complete(address.positions, model.ends.base_frame, model.ends.tip_frame) });
   });
-  acceptDrops(place("drop"), () => {
-    showPart("upload");
+  acceptDrops(place("drop"), (panel) => {
+    if (panel === "robot") showPart("upload");
     store.set({ panel: "" });
-    store.set({ panel: "robot" });
+    store.set({ panel });
   });
   // For the console, and for scripts that drive the page.
   Object.assign(globalThis, { studio });

@@ -30,6 +30,7 @@ export async function upload(api: Api, file: File, name: string, replace: boolea
     ? { method: "PUT", path: `v1/robots/${encodeURIComponent(name)}` }
     : { method: "POST", path: "v1/robots" };
   const named: Record<string, string> = replace ? {} : { name };
-  if (isArchive(file)) return api.call<RobotInfo>({ ...target, form: { fields: named, archive: file } });
+  if (isArchive(file))
+    return api.call<RobotInfo>({ ...target, form: { fields: named, part: "archive", files: [file] } });
   return api.call<RobotInfo>({ ...target, body: { ...named, urdf: await file.text() } });
 }

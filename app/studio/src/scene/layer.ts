@@ -49,7 +49,7 @@ export function showScene(view: View, store: Store<State>, api: Api): void {
   view.scene.add(objects, touching);
   store.watch(["scene", "contacts", "unit", "dark", "chosen", "model"], (state) => {
     dispose(objects);
-    for (const object of state.scene.objects) objects.add(drawn(object, state, fetched(state.scene.name)));
+    for (const object of state.scene.objects) objects.add(drawn(object, state, fetched(state.scene.origin)));
     place(objects, state);
     dispose(touching);
     for (const mark of state.contacts ? marks(state.contacts, state) : []) touching.add(mark);

@@ -12,9 +12,11 @@ export interface Scene {
   /** Under which the service keeps it as it is; null for one that has been changed, or that it does not keep. */
   name: string | null;
   objects: readonly SceneObject[];
+  /** The stored scene that it comes from, which has the files of its objects. */
+  origin: string | null;
 }
 
-export const EMPTY: Scene = { name: null, objects: [] };
+export const EMPTY: Scene = { name: null, objects: [], origin: null };
 
 /** Shapes that can be added, and their sizes for a robot whose marks are so long, [m]. */
 export const ADDED: readonly { kind: Kind; text: string; shape: (unit: number) => Shape }[] = [
@@ -28,10 +30,23 @@ export const ADDED: readonly { kind: Kind; text: string; shape: (unit: number) =
   { kind: "half_space", text: "Floor", shape: () => ({ type: "half_space", normal: [0, 0, 1], offset: 0 }) },
 ];
 
-/** The field `scene` of a call; nothing where there is no object. */
-export function sceneField({ name, objects }: Scene): { scene?: string | ApiScene } {
+/** The field `scene` of a call; nothing where there is no object. Files are read of a stored scene alone, so that for a
+ * changed one with files it is that which it comes from, until it is stored itself. */
+export function sceneField(scene: Scene): { scene?: string | ApiScene } {
+  const { name, objects, origin } = scene;
   if (objects.length === 0) return {};
-  return { scene: name ?? { objects: [...objects] } };
+  return { scene: name ?? (filesOf(scene).length ? origin : null) ?? { objects: [...objects] } };
+}
+
+/** Names of the files that the objects are read from. */
+export function filesOf({ objects }: Pick<Scene, "objects">): string[] {
+  const files = objects.flatMap(({ shape }) => ("file" in shape && shape.file ? [shape.file] : []));
+  return [...new Set(files)];
+}
+
+/** The scene with other objects. */
+export function changed({ origin }: Scene, objects: readonly SceneObject[]): Scene {
+  return { name: null, objects, origin };
 }
 
 /** T_frame_shape, the frame being the root or that which it is attached to. */
@@ -45,8 +60,11 @@ export function moved(object: SceneObject, T: Matrix4): SceneObject {
 }
 
 /** The scene with another object in the place of one; null takes it away. */
-export function replaced({ objects }: Scene, name: string, by: SceneObject | null): Scene {
-  return { name: null, objects: objects.flatMap((one) => (one.name === name ? (by ?? []) : one)) };
+export function replaced(scene: Scene, name: string, by: SceneObject | null): Scene {
+  return changed(
+    scene,
+    scene.objects.flatMap((one) => (one.name === name ? (by ?? []) : one)),
+  );
 }
 
 /** A name that no other object has, nor a link. */

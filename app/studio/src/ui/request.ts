@@ -76,7 +76,7 @@ function curl(url: string, call: Call, hasKey: boolean): string {
   if (hasKey) parts.push(`-H "Authorization: Bearer $GELENK_KEY"`);
   if (call.form) {
     for (const [name, value] of Object.entries(call.form.fields)) parts.push(`-F ${quoted(`${name}=${value}`)}`);
-    parts.push(`-F ${quoted(`archive=@${call.form.archive.name}`)}`);
+    for (const file of call.form.files) parts.push(`-F ${quoted(`${call.form.part}=@${file.name}`)}`);
   } else if (call.body !== undefined) {
     parts.push(`-H 'Content-Type: application/json'`);
     if (call.accept) parts.push(`-H ${quoted(`Accept: ${call.accept}`)}`);
@@ -95,13 +95,12 @@ function python(url: string, call: Call, hasKey: boolean): string {
       ...(hasKey ? ["import os", ""] : []),
       "import requests",
       "",
-      `with open(${literal(call.form.archive.name)}, "rb") as archive:`,
-      `    answer = requests.${call.method.toLowerCase()}(`,
-      `        ${literal(url)},`,
-      `        data=${literal(call.form.fields)},`,
-      `        files={"archive": archive},`,
-      ...(hasKey ? [`        headers={${KEY}},`] : []),
-      "    )",
+      `answer = requests.${call.method.toLowerCase()}(`,
+      `    ${literal(url)},`,
+      `    data=${literal(call.form.fields)},`,
+      `    files=[${call.form.files.map(({ name }) => `("${call.form!.part}", open(${literal(name)}, "rb"))`).join(", ")}],`,
+      ...(hasKey ? [`    headers={${KEY}},`] : []),
+      ")",
       "print(answer.json())",
     ].join("\n");
   }
@@ -131,7 +130,10 @@ function python(url: string, call: Call, hasKey: boolean): string {
 
 function json(_: string, call: Call): string {
   const head = `${call.method} /${call.path}`;
-  if (call.form) return `${head}\n\n${indented(call.form.fields)}\n+ archive: ${call.form.archive.name}`;
+  if (call.form) {
+    const { fields, part, files } = call.form;
+    return `${head}\n\n${indented(fields)}\n+ ${part}: ${files.map(({ name }) => name).join(", ")}`;
+  }
   return call.body === undefined ? head : indented(call.body);
 }
 

@@ -5,7 +5,7 @@ import "../../styles/cell.css";
 import { asProblem } from "../../api.ts";
 import { shownChain } from "../../robot/chain.ts";
 import { call } from "../../scene/contacts.ts";
-import { ADDED, EMPTY, freeName } from "../../scene/objects.ts";
+import { ADDED, changed, EMPTY } from "../../scene/objects.ts";
 import { keepScene, sceneNames, storedScene } from "../../scene/stored.ts";
 import { button, Choice, element, section, titled } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
@@ -15,6 +15,7 @@ import { whileKept } from "../kept.ts";
 import type { Panel, Studio } from "../panel.ts";
 import { ObjectFields } from "./fields.ts";
 import { chosenObject, Handles } from "./handles.ts";
+import { inFront, meshAdder } from "./meshes.ts";
 
 export const cellPanel: Panel = {
   id: "cell",
@@ -33,7 +34,12 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const problem = new ProblemView();
   const edited = titled("Object", modes ? [modes] : [], fields.host);
   host.append(
-    section("Scene", element("div", { class: "bar" }, ...adders(studio)), list, kept(studio, problem)),
+    section(
+      "Scene",
+      element("div", { class: "bar" }, ...adders(studio), meshAdder(studio, problem)),
+      list,
+      kept(studio, problem),
+    ),
     edited,
     section("Contact", verdict, problem.host),
     request.host,
@@ -61,13 +67,10 @@ function open(host: HTMLElement, studio: Studio): () => void {
 function adders({ store }: Studio): HTMLElement[] {
   return ADDED.map(({ kind, text, shape }) =>
     button(text, () => {
-      const { scene, unit, model } = store.value;
-      const taken = new Set([...scene.objects.map(({ name }) => name), ...(model?.links ?? [])]);
-      const name = freeName(text.toLowerCase(), taken);
-      const at = [5, 0, 1].map((steps) => Number((steps * unit).toFixed(2)));
-      const pose = kind === "half_space" ? {} : { pose: { position: at, rpy: [0, 0, 0] } };
-      const added = { name, shape: shape(unit), ...pose };
-      store.set({ scene: { name: null, objects: [...scene.objects, added] }, chosen: name });
+      const { scene, unit } = store.value;
+      const { pose, ...added } = inFront(store.value, text.toLowerCase(), shape(unit));
+      const object = kind === "half_space" ? added : { ...added, pose };
+      store.set({ scene: changed(scene, [...scene.objects, object]), chosen: object.name });
     }),
   );
 }
