@@ -82,12 +82,9 @@ def random_start(table: Table, rng: np.random.Generator) -> Array | None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kinds", ["RRRRRR", "PRRRRR", "RRPRRR"])
-@pytest.mark.parametrize("arms", [2, pytest.param(10, marks=pytest.mark.slow)])
-def test_peaks_differ_from_those_of_the_exact_way_by_no_more_than_is_stated(
-    client: TestClient, kinds: str, arms: int
-) -> None:
+def test_peaks_differ_from_those_of_the_exact_way_by_no_more_than_is_stated(client: TestClient, kinds: str) -> None:
     """Lines of random arms that shift and turn the tip, at any tolerance."""
-    rng, done = np.random.default_rng([arms, len(kinds.split("P", maxsplit=1)[0])]), 0
+    rng, done = np.random.default_rng(len(kinds.split("P", maxsplit=1)[0])), 0
     for number in count():
         table = random_arm(rng, kinds)
         start = random_start(table, rng)
@@ -98,7 +95,7 @@ def test_peaks_differ_from_those_of_the_exact_way_by_no_more_than_is_stated(
             way = line_way(table, start, shift, turn)
         except ArithmeticError:
             continue
-        name = f"{kinds.lower()}-{arms}-{number}"
+        name = f"{kinds.lower()}-{number}"
         upload(client, name, zip(table.rows, table.slides, strict=True))
         T = table.pose(start)
         rotation = Rotation.from_rotvec(turn) * Rotation.from_matrix(T[:3, :3])
@@ -121,5 +118,5 @@ def test_peaks_differ_from_those_of_the_exact_way_by_no_more_than_is_stated(
             rel = 1e-5 + judged["way_error"][quantity] / judged[quantity]["ratio"]
             assert timing[f"{quantity}_factor"] == pytest.approx(float((peaks / limit).max()), rel=rel)
         done += 1
-        if done == arms:
+        if done == 4:
             break
