@@ -131,7 +131,9 @@ def test_the_dexterity_of_three_planar_links(client: TestClient) -> None:
 @pytest.mark.slow
 def test_two_planar_links_cannot_be_dexterous(client: TestClient) -> None:
     """What a lattice and some angles have in common is no volume."""
-    summary = client.get(finished(client, {"kind": "dexterity", "voxel_size": 0.1, "orientations": 4}, "planar_2r")).json()
+    summary = client.get(
+        finished(client, {"kind": "dexterity", "voxel_size": 0.1, "orientations": 4}, "planar_2r")
+    ).json()
     WorkspaceAnswer.model_validate(summary)
     dexterity = summary["dexterity"]
     assert dexterity["reached_count"] > 0
