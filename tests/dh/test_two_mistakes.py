@@ -187,7 +187,7 @@ def test_a_mistake_is_named(arm: str, name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("arm", TABLES)
+@pytest.mark.parametrize("arm", list(TABLES)[::3])
 def test_every_mistake_is_named(arm: str) -> None:
     for seed, name in enumerate(MAKERS):
         assert explained(TABLES[arm], (name,), seed) in {"named", None}, (name, seed)
@@ -206,7 +206,7 @@ def test_two_mistakes_are_named(names: tuple[str, str], arm: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize(("number", "arm"), list(enumerate(TABLES)))
 def test_any_two_mistakes_are_named(number: int, arm: str) -> None:
-    """Half of all pairs, each on one of the tables."""
-    said = Counter(explained(TABLES[arm], names, number) for names in TOGETHER[number :: 2 * len(TABLES)])
+    """A quarter of all pairs, each on one of the tables."""
+    said = Counter(explained(TABLES[arm], names, number) for names in TOGETHER[number :: 4 * len(TABLES)])
     assert said["nothing"] == 0
     assert said["named"] >= 0.5 * (said.total() - said[None])

@@ -12,20 +12,6 @@ from tests.ik.arms import limited, poses
 
 CLOSE = 1e-3
 OFFSETS = tuple(10.0**-k for k in range(1, 10))
-SOME = (
-    "crx 0",
-    "jaco 2, 60 degrees",
-    "gen3 lite",
-    "arc welder",
-    "axes 1 2 3 parallel, 0",
-    "axes 4 5 6 parallel, 0",
-    "square wrist off by 2.5e-05 m",
-    "axes 2 3 4 off by 0.0001 rad",
-    "offset wrist 0",
-    "general 0",
-    "general PRRRRR",
-    "general RRRPPR",
-)
 
 
 def drawn(arm: Arm, each: int, seed: int) -> Array:
@@ -54,15 +40,6 @@ def doubts_of(answer: InverseKinematics) -> Flags:
     assert all(reasons[i] for i in np.flatnonzero(doubtful).tolist())
     assert not set(answer.doubts) - set(np.flatnonzero(doubtful).tolist())
     return doubtful
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", SOME)
-def test_no_complete_answer_lacks_a_known_solution(name: str) -> None:
-    arm = six_joint_arms.arm(name)
-    qs = drawn(arm, 2, seed=7)
-    answer = every(arm, qs)
-    assert not (missed(arm, qs, answer) & ~doubts_of(answer)).any()
 
 
 @pytest.mark.quick(1)
@@ -137,7 +114,7 @@ def test_an_arm_that_is_only_nearly_of_a_closed_form_keeps_its_own_branches() ->
 @pytest.mark.parametrize("name", six_joint_arms.TABLES)
 def test_targets_of_all_arms(name: str) -> None:
     arm = six_joint_arms.arm(name)
-    qs = drawn(arm, 4, 1000)
+    qs = drawn(arm, 2, 1000)
     answer = every(arm, qs)
     lost = missed(arm, qs, answer)
     assert not (lost & ~doubts_of(answer)).any()

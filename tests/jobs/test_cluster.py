@@ -325,7 +325,6 @@ def test_the_end_of_the_driver_fails_what_is_under_way_and_nothing_else(address:
     [
         ("node", 0, signal.SIGKILL),
         ("node", 1, signal.SIGSTOP),
-        ("head", 0, signal.SIGKILL),
         ("head", 0, signal.SIGSTOP),
     ],
 )
