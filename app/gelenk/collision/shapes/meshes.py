@@ -16,9 +16,6 @@ MAX_BYTES = 64 * 1024 * 1024
 MAX_TRIANGLES = 1_000_000
 MAX_EXTENT = 1e6
 """Largest coordinate allowed, [m]."""
-_HEADER = 84
-"""Bytes before the facets of a binary STL; the last four are their number."""
-_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attributes", "<u2")])
 
 
 def read_triangles(name: str, content: bytes) -> Array:
@@ -48,18 +45,9 @@ def read_triangles(name: str, content: bytes) -> Array:
 
 
 def _read(kind: str, content: bytes) -> Array:
-    count = int.from_bytes(content[80:_HEADER], "little")
-    if kind == "stl" and len(content) == _HEADER + count * _FACET.itemsize:  # A binary one.
-        triangles = np.frombuffer(content, _FACET, count, _HEADER)["corners"].astype(float)
-    else:
-        triangles = _read_by_trimesh(kind, content)
-    if len(triangles) > MAX_TRIANGLES:
-        raise ValueError(f"it has more than {MAX_TRIANGLES} triangles")
-    return triangles
-
-
-def _read_by_trimesh(kind: str, content: bytes) -> Array:
-    import trimesh  # noqa: PLC0415 - it takes a second, and most meshes do not need it
+    import trimesh  # noqa: PLC0415 - only robots with meshes need it
 
     mesh: Any = trimesh.load_mesh(BytesIO(content), file_type=kind, process=False, skip_materials=True)
+    if len(mesh.faces) > MAX_TRIANGLES:
+        raise ValueError(f"it has more than {MAX_TRIANGLES} triangles")
     return np.asarray(mesh.vertices.view(np.ndarray)[mesh.faces], dtype=float)
