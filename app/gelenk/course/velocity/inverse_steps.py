@@ -1,4 +1,4 @@
-"""The worked solution of an inverse velocity: the equation, its inverse by cases, J#, J#, J#, J#, J#, J#, J#, J#, J#, J#, J#, J#, J#, J#, J#, J#, damping, null space, residual."""
+"""The worked solution of an inverse velocity: the equation, its inverse by cases, J#, damping, null space, residual."""
 
 import numpy as np
 
