@@ -27,7 +27,7 @@ NEVER_ONE = {
     *("len(value) characters", "len(grounds) links", "peak.ratio times", "enforced.ratio times", "count waypoints"),
     *("factor times", "bound.ratio times", "jerk.ratio times", "ratios[k, j] times"),
     *("len(names) meshes", "len(parts) - 1 folders", "len(path.trace) configurations", "voxels voxels"),
-    *("len(row) numbers", "rotations orientations", "hard files", "10.0 ** abs(power) times"),
+    *("len(row) numbers", "tried solutions", "rotations orientations", "hard files", "10.0 ** abs(power) times"),
 }
 """Numbers that are two or more, or a limit, or zero; and those whose sentence has a form for one."""
 

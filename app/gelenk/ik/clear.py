@@ -8,7 +8,6 @@ import numpy as np
 
 from gelenk.collision.cell import Cell
 from gelenk.collision.contact.gradient import soft_clearances
-from gelenk.errors import counted
 from gelenk.ik.analytic import joined
 from gelenk.ik.search.bounds import target_rows
 from gelenk.ik.search.null_space import settled
@@ -223,5 +222,5 @@ def _explained(
 def _count(tried: int, is_all: bool) -> str:
     if tried == 1:
         return "the only solution is in contact" if is_all else "the solution found is in contact"
-    solutions = f"{counted(tried, 'solution')} {'' if is_all else 'found '}"
-    return f"all {'' if is_all else 'the '}{solutions}are in contact, the best of them like this"
+    which = "all" if is_all else "all the"
+    return f"{which} {tried} solutions{'' if is_all else ' found'} are in contact, the best of them like this"

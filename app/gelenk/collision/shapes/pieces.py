@@ -46,10 +46,11 @@ class _Chunk:
     @cached_property
     def could_save(self) -> float:
         """The most that cuts can save, [m³]: what of the hull is not known to be within the surface."""
-        for axis in np.flatnonzero(~self.is_open.all(axis=1)):
-            up = np.roll(self.axes, 2 - axis, axis=0) * (-1.0 if self.is_open[axis, 1] else 1.0)
-            return self.hull.volume - volume_within(self.surface, up)
-        return self.hull.volume
+        closed = np.flatnonzero(~self.is_open.all(axis=1))
+        if not len(closed):
+            return self.hull.volume
+        up = np.roll(self.axes, 2 - closed[0], axis=0) * (-1.0 if self.is_open[closed[0], 1] else 1.0)
+        return self.hull.volume - volume_within(self.surface, up)
 
     @cached_property
     def halves(self) -> tuple["_Chunk", "_Chunk"]:
@@ -109,7 +110,7 @@ def _decomposed(parts: list[_Chunk]) -> list[_Chunk]:
         best = max(waiting, key=lambda part: part.saved)
         halves = best.halves
         if best.saved < worth:
-            best = max(waiting, key=lambda part: part.could_save > 3.0 * worth and part.saved_later)
+            best = max(waiting, key=lambda part: part.saved_later if part.could_save > 3.0 * worth else 0.0)
             halves = best.middles
             if best.saved_later < 3.0 * worth:
                 break

@@ -117,7 +117,12 @@ def enclosed_volume(surface: Surface) -> float:
 
 
 def volume_within(surface: Surface, axes: Array = _XYZ) -> float:
-    """Return the volume within a surface, [m³]; it may be open below and at sides along the last axis, of the rows."""
+    """Return the volume within a surface, [m³].
+
+    Args:
+        surface: Closed, or open at flat ends only: below, and at sides parallel to the last axis.
+        axes: Orthonormal, as rows, shape (3, 3).
+    """
     x, y, z = (surface.points @ axes.T)[surface.faces].T
     areas = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
     return abs(float(areas @ (z.mean(axis=0) - z.min()))) / 2.0
