@@ -23,7 +23,7 @@ EXERCISES = list(exercises().values())
 IDS = [one.id for one in EXERCISES]
 each = pytest.mark.parametrize("exercise", EXERCISES, ids=IDS)
 QUICK = 20
-MANY = max(QUICK, -(-1_500 // len(EXERCISES)))
+MANY = 10
 """Ten thousand in all are tried by `python -m tests.exercises.figures 150`."""
 
 
