@@ -47,9 +47,10 @@ def fail(text: str) -> int:
 
 
 def note(line: str) -> str:
-    """Leave a line in a file, the part before the colon."""
+    """Leave a line in a file, the part before the colon; wait while the number in `gate` beside it is not above it."""
     path, _, text = line.partition(":")
-    time.sleep(0.05)
+    while int(text) >= int(Path(path).with_name("gate").read_text()):
+        time.sleep(0.01)
     with Path(path).open("a") as file:
         file.write(f"{text}\n")
     return text

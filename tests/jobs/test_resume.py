@@ -73,6 +73,11 @@ def finished(folder: Path) -> Runner:
     return runner
 
 
+def opened_up_to(notes: Path, progress: float) -> None:
+    """Let the parts that note something go on as far as this, and the others wait."""
+    notes.with_name("gate").write_text(str(round(progress * PARTS)))
+
+
 def left(folder: Path, kind: str, request: dict[str, bytes]) -> None:
     """A job that its process has not begun."""
     store = JobStore(folder, JobLimits())
@@ -85,12 +90,14 @@ def test_a_job_goes_on_after_its_last_finished_part(tmp_path: Path) -> None:
     jobs, notes = tmp_path / "jobs", tmp_path / "notes"
     left(jobs, "parts", made_by("note", [f"{notes}:{k}" for k in range(PARTS)]))
     seen = []
-    for progress in (0.25, 0.6):
+    for progress in (0.25, 0.625):
+        opened_up_to(notes, progress)
         killed(jobs, progress)
         job = JobStore(jobs, JobLimits()).get("mine")
         assert (job.state, job.attempts) == ("queued", 1)
         assert job.progress >= progress
         seen.append(job.progress)
+    opened_up_to(notes, 1.0)
     runner = finished(jobs)
     job = runner.store.get("mine")
     assert (job.state, job.progress) == ("succeeded", 1.0)
@@ -107,10 +114,12 @@ def test_a_job_goes_on_after_its_last_finished_part(tmp_path: Path) -> None:
 def test_a_part_that_the_machine_has_lost_is_computed_again(tmp_path: Path) -> None:
     jobs, notes = tmp_path / "jobs", tmp_path / "notes"
     left(jobs, "parts", made_by("note", [f"{notes}:{k}" for k in range(PARTS)]))
+    opened_up_to(notes, 0.5)
     killed(jobs, 0.5)
     lost, missing = (next((jobs / "mine").glob(f"part-*-all-{k}")) for k in (0, 2))
     lost.write_bytes(b"")
     missing.unlink()
+    opened_up_to(notes, 1.0)
     runner = finished(jobs)
     assert runner.result("mine", "result.txt").read_text().startswith("['0', '1', '2', '3', ")
     counts = Counter(notes.read_text().split())
