@@ -77,3 +77,10 @@ def test_texts_are_the_same_up_to_rounding() -> None:
     assert not same("x: 1.27", "x: 1.28")
     assert not same("x: 1.27", "y: 1.27")
     assert not same("1 2", "1")
+
+
+def test_where_rounding_is_largest_differs_between_processors() -> None:
+    peak = '{{"value": {}, "joint": "joint_{}", "time": {}}}'
+    assert same(peak.format("2.2e-16", 1, 0.3), peak.format("1.1e-16", 2, 0.4))
+    assert not same(peak.format("2.2e-6", 1, 0.3), peak.format("2.2e-6", 1, 0.4))
+    assert not same(peak.format("2.2e-6", 1, 0.3), peak.format("2.2e-6", 2, 0.3))
