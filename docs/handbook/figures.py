@@ -9,6 +9,8 @@ from gelenk.plots.figure import INK, QUIET, RULE, TEXT, as_bytes, font
 
 _LONG = re.compile(r"(?<![\w.])-?\d+\.\d{2,}(?!\w)")
 _HASHED = re.compile(r"\b([mp])([0-9a-f]{10})\b")
+_AGAIN = re.compile(r"(L (\S+ \S+) )(?:L \2 )+")
+"""A point of a line that is there twice; on which processors, rounding decides."""
 _METADATA = re.compile(r"<metadata>.*?</metadata>", re.DOTALL)
 
 
@@ -17,7 +19,7 @@ def compact(drawing: str) -> str:
     names: dict[str, str] = {}
     short = _LONG.sub(lambda number: f"{float(number[0]):.1f}" if abs(float(number[0])) > 2 else number[0], drawing)
     short = _HASHED.sub(lambda name: names.setdefault(name[2], f"{name[1]}{len(names)}"), _METADATA.sub("", short))
-    return " ".join(short.split()).replace("> <g", ">\n<g") + "\n"
+    return _AGAIN.sub(r"\1", " ".join(short.split())).replace("> <g", ">\n<g") + "\n"
 
 
 def svg(figure: Figure) -> bytes:
