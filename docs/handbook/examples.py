@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterator
+from typing import Any
 
 from docs.handbook.operations import compact
 from docs.handbook.session import service
@@ -11,23 +12,24 @@ from gelenk.contract.endpoints import BY_NAME
 from gelenk.http.messages.openapi import EXAMPLES
 
 
-def made() -> str:
-    """The file of examples with every answer made anew; a job has none."""
-    found = json.loads(EXAMPLES.read_text(encoding="utf-8"))
+def made() -> dict[str, Any]:
+    """The examples with every answer made anew; a job has none."""
+    found: dict[str, Any] = json.loads(EXAMPLES.read_text(encoding="utf-8"))
     for name, example in found.items():
         if not BY_NAME[name].is_job:
             body = json.dumps(example["request"]).encode()
             call = Call("POST", f"v1/robots/planar_2r/{name}", lambda response: json.loads(response.content), body=body)
             example["answer"] = service().send(call)
-    return compact(found) + "\n"
+    return found
 
 
 def renew_examples(write: bool) -> Iterator[str]:
     """What is wrong with the file, in a sentence, unless it can be written."""
-    text = made()
-    if same(EXAMPLES.read_text(encoding="utf-8"), text):
+    examples = made()
+    # Not as laid out: the length of a number, which decides over a new line, differs between processors.
+    if same(json.dumps(json.loads(EXAMPLES.read_text(encoding="utf-8"))), json.dumps(examples)):
         return
     if write:
-        EXAMPLES.write_text(text, encoding="utf-8")
+        EXAMPLES.write_text(compact(examples) + "\n", encoding="utf-8")
     else:
         yield f"{EXAMPLES.name} is not current: ./dev handbook --write"
