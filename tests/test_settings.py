@@ -28,12 +28,14 @@ def test_settings_of_several_values() -> None:
             "GELENK_TRUSTED_HOSTS": "Lab.example.org, *.example.net [fe80::1]",
             "GELENK_ALLOWED_ORIGINS": "https://lab.example.org:8443,http://[::1]:5173",
             "GELENK_TRUSTED_PROXIES": "10.0.0.5,fd00::/8",
+            "GELENK_FRAME_ANCESTORS": "http://localhost:8888",
             "GELENK_OPEN_ACCESS": "yes",
         }
     )
     assert settings.trusted_hosts == ("lab.example.org", "*.example.net", "[fe80::1]")
     assert settings.allowed_origins == ("https://lab.example.org:8443", "http://[::1]:5173")
     assert settings.trusted_proxies == ("10.0.0.5", "fd00::/8")
+    assert settings.frame_ancestors == ("http://localhost:8888",)
     assert settings.open_access
 
 
@@ -48,6 +50,7 @@ def test_settings_of_several_values() -> None:
         ("GELENK_TRUSTED_HOSTS", "lab*.example.org"),
         ("GELENK_ALLOWED_ORIGINS", "lab.example.org"),
         ("GELENK_ALLOWED_ORIGINS", "https://lab.example.org/"),
+        ("GELENK_FRAME_ANCESTORS", "'self'"),
         ("GELENK_TRUSTED_PROXIES", "proxy"),
         ("GELENK_LOG_LEVEL", "loud"),
         ("GELENK_OTLP_ENDPOINT", "collector:4318"),

@@ -4,7 +4,7 @@
 - `reload`: restarts it when a source file changes. `supervisor`: starts the worker processes, and replaces them.
 - `connections`: HTTP connections with bounds on time, size and number.
 - `preload`: loads what all processes share; `processes`: processes forked from the one that has loaded it.
-- `engine`: the core as a library, `gelenk.Robot`. `client`: the service as a library.
+- `engine`: the core as a library, `gelenk.Robot`. `client`: the service as a library; `gelenk.show`.
 - `logs`: the log, as lines of JSON.
 - `prune`: removes from a container image what the service never opens.
 - `http`: the HTTP layer. `contract`: the operations and their payloads. `store`: robots on disk.
@@ -22,15 +22,20 @@ Imports lead only downwards; `./dev lint` checks it.
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from gelenk.client.show import show as show
     from gelenk.engine import Robot as Robot
 
 
 def __getattr__(name: str) -> Any:
-    """Return `gelenk.__version__` or `gelenk.Robot`, loaded on first use."""
+    """Return `gelenk.__version__`, `gelenk.show` or `gelenk.Robot`, loaded on first use."""
     if name == "__version__":
         from importlib.metadata import version  # noqa: PLC0415  (half of what an import of this package would take)
 
         return version("gelenk")
+    if name == "show":
+        from gelenk.client.show import show  # noqa: PLC0415
+
+        return show
     if name == "Robot":
         try:
             from gelenk.engine import Robot  # noqa: PLC0415  (takes a second, which a client need not wait for)

@@ -145,7 +145,7 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     app.include_router(jobs_router(runner))
     app.include_router(pictures_router(pool_client))
     app.include_router(service_router(readiness, metrics))
-    pages.install(app)
+    pages.install(app, settings.frame_ancestors)
     openapi.describe(app, bool(settings.api_keys))
     openapi.publish(app, lambda: pool.run(document, settings, seconds))
     app.entry = _middleware(app, settings, metrics, audit)

@@ -80,6 +80,8 @@ class Settings:
         trusted_hosts: Host names that it accepts besides this machine's own, without ports: `lab.example.org`,
             `*.example.org`, or `*` for any (`GELENK_TRUSTED_HOSTS`).
         allowed_origins: Origins whose pages may call it, such as `https://lab.example.org` (`GELENK_ALLOWED_ORIGINS`).
+        frame_ancestors: Origins whose pages may show a robot in a frame, by `/embed`: such as `http://localhost:8888`
+            for a notebook, or `*` for any (`GELENK_FRAME_ANCESTORS`).
         trusted_proxies: Addresses or networks of proxies that are trusted to report a request's origin
             (`GELENK_TRUSTED_PROXIES`).
     """
@@ -119,6 +121,7 @@ class Settings:
     otlp_endpoint: str = ""
     trusted_hosts: tuple[str, ...] = ()
     allowed_origins: tuple[str, ...] = ()
+    frame_ancestors: tuple[str, ...] = ()
     trusted_proxies: tuple[str, ...] = ()
 
     @classmethod
@@ -147,6 +150,7 @@ _ENDPOINT = re.compile(r"https?://[A-Za-z0-9.\[\]:-]+(/[\x21-\x7e]*)?")
 _LISTS = {
     "trusted_hosts": (_HOST, "lab.example.org or *.example.org, without a port"),
     "allowed_origins": (_ORIGIN, "https://lab.example.org, without a path"),
+    "frame_ancestors": (_ORIGIN, "https://lab.example.org, without a path"),
     "trusted_proxies": (re.compile(r"\*|[0-9a-f:.]+(/\d{1,3})?"), "10.0.0.5 or 10.0.0.0/8"),
 }
 """Settings with several values: what each must be, and an example."""

@@ -4,6 +4,7 @@
 - `arrays`: operations on large batches as arrays; `jobs`: operations as jobs.
 - `call`: a call, and how a description becomes a method; `exchange`: its JSON and its arrays.
 - `responses`: turns a response into an answer or an exception, or says when to send the call again.
+- `show`: a robot in a notebook.
 - `refusals`: turns a problem from the service back into the core's own exception.
 """
 

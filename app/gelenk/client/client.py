@@ -37,7 +37,7 @@ URL_VARIABLE = "GELENK_SERVER"
 KEY_VARIABLE = "GELENK_KEY"
 DEFAULT_URL = "http://127.0.0.1:8000"
 
-_PAGES = re.compile(r"/*(/(docs|redoc|v1)/*)?$")
+_PAGES = re.compile(r"/*(/(docs|redoc|embed|v1)/*)?$")
 """The end of an address that was copied from a page of the service."""
 _LAST_PORT = 65_535
 _BETWEEN_STREAMS = 1.0
@@ -48,8 +48,7 @@ class _Service(Operations):
     """Address of the service, and what every request to it needs."""
 
     def __init__(self, url: str | None, key: str | None, transport: Any) -> None:
-        self.url = _PAGES.sub("", (url or os.environ.get(URL_VARIABLE) or DEFAULT_URL).strip())
-        _check_address(self.url)
+        self.url = service_url(url)
         key = (key or os.environ.get(KEY_VARIABLE) or "").strip()
         if not (key.isascii() and key.isprintable()):
             raise InvalidField("key", "it has characters that a key cannot contain")
@@ -73,13 +72,16 @@ def _request(http: httpx2.Client | httpx2.AsyncClient, call: Call[Any]) -> httpx
     return http.build_request(call.method, call.path, params=call.query or None, headers=call.headers, **content)
 
 
-def _check_address(url: str) -> None:
+def service_url(url: str | None) -> str:
+    """Return the address of the service, without the page that it was copied from; raises InvalidField for none."""
+    url = _PAGES.sub("", (url or os.environ.get(URL_VARIABLE) or DEFAULT_URL).strip())
     try:
         parsed = httpx2.URL(url)
     except httpx2.InvalidURL:
         parsed = httpx2.URL()
     if parsed.scheme not in {"http", "https"} or not parsed.host or (parsed.port or 1) > _LAST_PORT:
         raise InvalidField("url", f"{quoted(url)} is not the address of a service, such as {DEFAULT_URL}")
+    return url
 
 
 class _Track:

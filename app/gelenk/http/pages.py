@@ -6,6 +6,7 @@ and ReDoc; the studio's files come from `app/studio`, the handbook's from `docs`
 whether one has changed.
 """
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import fastapi_offline
@@ -21,6 +22,13 @@ STUDIO_POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; font-src 'self'; "
     "connect-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
+
+
+def embed_policy(ancestors: Sequence[str]) -> str:
+    """Return the studio's policy for its page in a frame, which pages of these origins may have."""
+    return STUDIO_POLICY.replace("ancestors 'none'", f"ancestors {' '.join(ancestors)}") if ancestors else STUDIO_POLICY
+
+
 HANDBOOK_POLICY = (
     "default-src 'none'; script-src 'self' 'sha256-ySvT2PEZeueHGC1y2crNuNTfphBynFPP7i+U21fEgX0='; "
     "style-src 'self' 'unsafe-inline'; img-src 'self' data:; font-src 'self'; connect-src 'self'; base-uri 'none'; "
@@ -86,8 +94,11 @@ class _PageFiles(StaticFiles):
         return response
 
 
-def install(app: FastAPI) -> None:
-    """Serve the studio at `/` and its files below `/studio`; `/docs` to try calls, `/redoc` and `/handbook` to read."""
+def install(app: FastAPI, frame_ancestors: Sequence[str] = ()) -> None:
+    """Serve the studio at `/` and its files below `/studio`; `/docs` to try calls, `/redoc` and `/handbook` to read.
+
+    `/embed` is the studio's picture alone, for frames in pages of `frame_ancestors`.
+    """
     files = _PageFiles(STUDIO, STUDIO_POLICY)
     app.mount("/documentation/bundles", StaticFiles(directory=_BUNDLES))
     app.mount("/documentation/own", StaticFiles(directory=_OWN))
@@ -109,6 +120,14 @@ def install(app: FastAPI) -> None:
     @app.get("/", include_in_schema=False)
     async def page(request: Request) -> Response:
         return await files.get_response("index.html", request.scope)
+
+    framed = {"Content-Security-Policy": embed_policy(frame_ancestors)}
+
+    @app.get("/embed", include_in_schema=False)
+    async def embed(request: Request) -> Response:
+        response = await files.get_response("index.html", request.scope)
+        response.headers.update(framed)
+        return response
 
 
 def _install_handbook(app: FastAPI) -> None:

@@ -7,6 +7,7 @@ import "katex/dist/katex.min.css";
 import { mirror, read } from "./address.ts";
 import { Api } from "./api.ts";
 import { acceptDrops } from "./dropping.ts";
+import { embed, isEmbedded } from "./embed.ts";
 import { Key } from "./key.ts";
 import { followTheme, furnish, keySwitch } from "./page.ts";
 import type { Studio } from "./panels/panel.ts";
@@ -28,7 +29,6 @@ const place = (id: string): HTMLElement => document.getElementById(id)!;
 function start(): void {
   const { linked, positions } = read(location.hash);
   const store = new Store(initial(linked));
-  const tools = place("tools");
   const key = new Key(askForKey, ({ isWanted }) => (keyTool.hidden = !isWanted));
   const keyTool = keySwitch(key);
   const api = new Api(new URL(".", document.baseURI), key);
@@ -55,18 +55,8 @@ function start(): void {
   followContacts(store, api);
   followStored(store, api);
   followFiles(store, api);
-  furnish(
-    {
-      tabs: place("tabs"),
-      panel: place("panel"),
-      heading: place("heading"),
-      marks: place("marks"),
-      tools,
-    },
-    studio,
-  );
-  tools.prepend(keyTool);
-  listenForHelp();
+  if (isEmbedded) embed(place("view").parentElement!, store);
+  else furnishAll(studio, keyTool);
   loader.follow(positions);
   mirror(store, (address) => {
     loader.startAt(address.positions);
@@ -77,13 +67,21 @@ function start(): void {
     if (isSame && model)
       store.set({ positions: model.complete(address.positions, model.ends.base_frame, model.ends.tip_frame) });
   });
-  acceptDrops(place("drop"), (panel) => {
-    if (panel === "robot") showPart("upload");
-    store.set({ panel: "" });
-    store.set({ panel });
-  });
   // For the console, and for scripts that drive the page.
   Object.assign(globalThis, { studio });
+}
+
+/** All that stands around the picture. */
+function furnishAll(studio: Studio, keyTool: HTMLElement): void {
+  const [tabs, panel, heading, marks, tools] = ["tabs", "panel", "heading", "marks", "tools"].map(place);
+  furnish({ tabs: tabs!, panel: panel!, heading: heading!, marks: marks!, tools: tools! }, studio);
+  tools!.prepend(keyTool);
+  listenForHelp();
+  acceptDrops(place("drop"), (panelOfFile) => {
+    if (panelOfFile === "robot") showPart("upload");
+    studio.store.set({ panel: "" });
+    studio.store.set({ panel: panelOfFile });
+  });
 }
 
 function makeView(host: HTMLElement): View | null {

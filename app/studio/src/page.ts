@@ -6,6 +6,7 @@ import type { Studio } from "./panels/panel.ts";
 import { shownChain } from "./robot/chain.ts";
 import type { State } from "./state.ts";
 import type { Store } from "./store.ts";
+import { share } from "./share.ts";
 import { askForKey, showShortcuts } from "./ui/dialogs.ts";
 import { button, element, toggle } from "./ui/dom.ts";
 
@@ -33,7 +34,8 @@ export function furnish(places: Places, studio: Studio): void {
   const help = button("Help", showShortcuts, { class: "tool", title: "What the keyboard does (?)" });
   const pages = { handbook: "Handbook", docs: "API" };
   const links = Object.entries(pages).map(([href, name]) => element("a", { class: "tool", href }, name));
-  places.tools.append(help, themeSwitch(studio), ...links);
+  const shared = button("Share", () => share(studio), { class: "tool", title: "A link, a frame, the picture" });
+  places.tools.append(shared, help, themeSwitch(studio), ...links);
 }
 
 function tabs({ tabs: host, panel }: Places, studio: Studio): void {

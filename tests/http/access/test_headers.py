@@ -63,6 +63,17 @@ def test_pages_keep_their_own_policies() -> None:
     assert "sandbox" in (urdf.header("content-security-policy") or "")
 
 
+@pytest.mark.parametrize(
+    ("origins", "named"),
+    [((), "'none'"), (("http://localhost:8888", "*"), "http://localhost:8888 *")],
+)
+def test_only_pages_of_named_origins_may_frame_the_picture(origins: tuple[str, ...], named: str) -> None:
+    app = application(frame_ancestors=origins)
+    policy = ask(app, "/embed").header("content-security-policy") or ""
+    assert policy == pages.STUDIO_POLICY.replace("frame-ancestors 'none'", f"frame-ancestors {named}")
+    assert ask(app, "/").header("content-security-policy") == pages.STUDIO_POLICY
+
+
 def test_an_unexpected_error_carries_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object) -> None:
         raise RuntimeError("boom")

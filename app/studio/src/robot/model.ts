@@ -135,14 +135,17 @@ export class RobotModel {
     return { ...others, ...Object.fromEntries(moved) };
   }
 
-  /** One value for each joint: a given one where it is a number of this robot, else home. */
+  /** One value for each joint: a given one where it is a number of this robot or of its chain alone, else home. */
   complete(given: Positions | readonly number[] | null, base: string, tip: string): Positions {
     const home = this.home(base, tip);
     if (given && !Array.isArray(given))
       return this.#each((joint) => (given as Positions)[joint.name] ?? home[joint.name]!);
     const numbers = given as readonly number[] | null;
-    if (numbers?.length !== this.joints.length) return home;
-    return Object.fromEntries(this.joints.map((joint, index) => [joint.name, numbers[index]!]));
+    const named = (joints: readonly Joint[]) =>
+      Object.fromEntries(joints.map((joint, index) => [joint.name, numbers![index]!]));
+    if (numbers?.length === this.joints.length) return named(this.joints);
+    const chain = this.chain(base, tip);
+    return numbers?.length === chain.length ? { ...home, ...named(chain) } : home;
   }
 
   #each(value: (joint: Joint) => number): Positions {

@@ -107,7 +107,7 @@ export function listenForHelp(): void {
 }
 
 /** A dialog in front of the page; gone when it is closed, by Escape too. */
-function dialog(title: string, closed: () => void, ...children: HTMLElement[]): HTMLDialogElement {
+export function dialog(title: string, closed: () => void, ...children: (HTMLElement | null)[]): HTMLDialogElement {
   const made = element(
     "dialog",
     {

@@ -129,6 +129,15 @@ export class View {
     });
   }
 
+  /** What is drawn, as a PNG; without the labels, which are elements above it. */
+  picture(): Promise<Blob> {
+    // What has been drawn is gone with the frame of the screen.
+    this.#renderer.render(this.scene, this.camera);
+    return new Promise((done, fail) =>
+      this.canvas.toBlob((png) => (png ? done(png) : fail(new Error("the browser made no picture")))),
+    );
+  }
+
   /** Meshes of the robot that are on the screen, primitives included. */
   countMeshes(): number {
     let count = 0;
