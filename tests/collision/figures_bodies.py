@@ -10,16 +10,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import numpy as np
-from scipy.spatial import ConvexHull
-
 from gelenk.collision.bodies import Body
+from gelenk.collision.shapes.cover_excess import volume_of, volume_of_union
 from gelenk.operations.robot_bodies import stored_or_found
-from gelenk.robot.arrays import Array
 from gelenk.settings import Settings
 from gelenk.store.library import Library
-
-RAYS = 100
 
 
 def main(names: list[str]) -> None:
@@ -47,22 +42,8 @@ def main(names: list[str]) -> None:
 def excess_of_covers(bodies: Sequence[Body]) -> float:
     """Return the volume of the spheres of all hulls over that of the hulls, less one; 0 without hulls."""
     hulls = [body for body in bodies if body.kind == "convex"]
-    inside = sum(ConvexHull(body.points).volume for body in hulls)
+    inside = sum(volume_of(body) for body in hulls)
     return sum(volume_of_union(body.spheres) for body in hulls) / inside - 1.0 if hulls else 0.0
-
-
-def volume_of_union(spheres: Array) -> float:
-    """Return the volume of spheres x, y, z, radius, (K, 4), to about 1e-3 of it: along rays on a grid of x and y."""
-    low, high = (spheres[:, :2] - spheres[:, 3:]).min(axis=0), (spheres[:, :2] + spheres[:, 3:]).max(axis=0)
-    steps = (np.arange(RAYS) + 0.5) / RAYS
-    x, y = (low + steps[:, None] * (high - low)).T
-    apart = (x.reshape(-1, 1, 1) - spheres[:, 0]) ** 2 + (y.reshape(1, -1, 1) - spheres[:, 1]) ** 2
-    half = np.sqrt(np.maximum(spheres[:, 3] ** 2 - apart, 0.0)).reshape(-1, len(spheres))
-    order = np.argsort(spheres[:, 2] - half, axis=1)
-    starts = np.take_along_axis(spheres[:, 2] - half, order, axis=1)
-    ends = np.maximum.accumulate(np.take_along_axis(spheres[:, 2] + half, order, axis=1), axis=1)
-    before = np.column_stack((starts[:, 0], ends[:, :-1]))
-    return float(np.maximum(ends - np.maximum(starts, before), 0.0).sum() * np.prod((high - low) / RAYS))
 
 
 if __name__ == "__main__":

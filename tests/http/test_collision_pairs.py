@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
@@ -89,6 +90,12 @@ def test_the_bodies_are_those_that_contacts_are_computed_of(client: TestClient) 
     pairs = client.get("/v1/robots/planar_2r/collision-pairs").json()["pairs"]
     assert {body.link for body in bodies} == {link for pair in pairs for link in (pair["a"], pair["b"])}
     assert all(body.size and not body.points and body.excess == 0.0 for body in bodies)
+    for body in bodies:
+        spheres = np.array(body.cover.spheres)
+        in_link = np.array(body.T_link_body) @ [0.0, 0.0, 0.0, 1.0]
+        assert (np.linalg.norm(spheres[:, :3] - in_link[:3], axis=1) <= spheres[:, 3]).any()
+        assert body.cover.excess is not None and body.cover.excess > 0.0  # none of these links is a ball
+        assert 0.0 < body.cover.protrusion < spheres[:, 3].max()
     assert client.get("/v1/robots/nobody/collision-bodies").status_code == 404
 
 
@@ -118,6 +125,7 @@ def test_bodies_are_found_once_and_then_read_from_disk(tmp_path: Path, monkeypat
         assert (one.name, one.kind, one.size, one.link) == (other.name, other.kind, other.size, other.link)
         assert one.T_link_body.tobytes() == other.T_link_body.tobytes()
         assert one.spheres.tobytes() == other.spheres.tobytes()
+        assert (one.cover_excess, one.protrusion) == (other.cover_excess, other.protrusion)
 
 
 def test_damaged_bodies_are_found_again_and_old_ones_removed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

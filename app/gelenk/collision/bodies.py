@@ -1,5 +1,6 @@
 """Convex pieces: what the links of a robot and the objects around it are made of where contacts are computed."""
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -24,6 +25,8 @@ class Body:
             None of a half-space.
         excess: Volume of the piece over that of the mesh it contains, less one; 0 for others, NaN where a mesh is not
             closed and so has no volume.
+        cover_excess: Volume of all spheres over that of the piece, less one; NaN of a flat piece, and of objects.
+        protrusion: Largest distance of a point of the spheres from the piece, [m]; NaN of objects.
     """
 
     name: str
@@ -34,3 +37,5 @@ class Body:
     T_link_body: Array
     spheres: Array
     excess: float = 0.0
+    cover_excess: float = math.nan
+    protrusion: float = math.nan

@@ -1,7 +1,7 @@
 """What of a robot can touch anything: the convex pieces of its links, and which pairs of links are looked at."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import TypeAlias
 
@@ -10,6 +10,7 @@ import numpy as np
 from gelenk.collision.bodies import Body, PieceKind
 from gelenk.collision.link_pairs import find_pairs
 from gelenk.collision.pairs import LinkPair
+from gelenk.collision.shapes.cover_excess import excess_of_cover, protrusion
 from gelenk.collision.shapes.covers import NO_POINTS, covered_body
 from gelenk.collision.shapes.meshes import read_triangles
 from gelenk.collision.shapes.pieces import pieces_of
@@ -92,7 +93,8 @@ def _bodies(link: str, shapes: Sequence[Shape], pieces_of: _Pieces) -> Iterator[
     placed = [piece for shape in shapes for piece in _placed(shape, pieces_of)]
     for number, (kind, size, points, excess, T) in enumerate(placed, 1):
         name = f"{link} {number}" if len(placed) > 1 else link
-        yield covered_body(name, link, kind, size, T, points, excess)
+        body = covered_body(name, link, kind, size, T, points, excess)
+        yield replace(body, cover_excess=excess_of_cover(body), protrusion=protrusion(body))
 
 
 def _placed(shape: Shape, pieces_of: _Pieces) -> Iterator[tuple[PieceKind, tuple[float, ...], Array, float, Array]]:

@@ -8,6 +8,19 @@ from gelenk.contract.common import Answer
 from gelenk.contract.kinematics import Matrix
 
 
+class SphereCover(Answer):
+    """Spheres around a piece: what touches none of them does not touch the piece."""
+
+    spheres: list[list[float]] = Field(
+        description="Centre x, y, z in the link and radius of each, [m]: every point of the piece is in one of them."
+    )
+    excess: float | None = Field(
+        description="Volume of all spheres together over that of the piece, less one, to about a thousandth of the "
+        "spheres'; no unit. Null where the piece is flat."
+    )
+    protrusion: float = Field(description="Largest distance of a point of the spheres from the piece, [m].")
+
+
 class CollisionBody(Answer):
     """A convex piece, fixed to a link."""
 
@@ -26,6 +39,7 @@ class CollisionBody(Answer):
         description="Its volume over that of the part of a mesh that it contains, less one; no unit. Null where the "
         "mesh is not closed."
     )
+    cover: SphereCover = Field(description="Spheres around it, by which many a contact is ruled out.")
 
 
 class CollisionBodies(Answer):

@@ -113,5 +113,5 @@ def read_body(stored: Mapping[str, Any]) -> Body:
     """Return a body that was stored as JSON; raises as `read_bodies` does."""
     arrays = {"points": (-1, 3), "T_link_body": (4, 4), "spheres": (-1, 4)}
     read = {name: np.array(stored[name], dtype=float).reshape(shape) for name, shape in arrays.items()}
-    excess = math.nan if stored["excess"] is None else stored["excess"]
-    return Body(**{**stored, **read, "size": tuple(stored["size"]), "excess": excess})
+    unknown = {name: math.nan for name in ("excess", "cover_excess", "protrusion") if stored[name] is None}
+    return Body(**{**stored, **read, **unknown, "size": tuple(stored["size"])})

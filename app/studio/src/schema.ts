@@ -68,6 +68,7 @@ export type CollisionBody = {
   points: number[][];
   T_link_body: number[][];
   excess: number | null;
+  cover: SphereCover;
 };
 
 export type CollisionResult = { in_collision: boolean; clearance?: number | null; pairs?: ContactPair[] | null };
@@ -837,6 +838,8 @@ export type SpaceInfo = {
   force_unit: string;
   measure_unit: string;
 };
+
+export type SphereCover = { spheres: number[][]; excess: number | null; protrusion: number };
 
 export type SplineSegment = {
   limits?: TrajectoryLimits | null;

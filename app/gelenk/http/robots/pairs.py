@@ -56,10 +56,21 @@ def _bodies(context: Context, task_request: TaskRequest) -> Response:
 
 def _body(body: Body) -> CollisionBody:
     numbers = {"points": body.points.tolist(), "T_link_body": body.T_link_body.tolist(), "size": list(body.size)}
-    excess = None if math.isnan(body.excess) else body.excess
+    cover = {"spheres": body.spheres.tolist(), "excess": _known(body.cover_excess), "protrusion": body.protrusion}
     return CollisionBody.model_validate(
-        {"name": body.name, "link": body.link, "kind": body.kind, **numbers, "excess": excess}
+        {
+            "name": body.name,
+            "link": body.link,
+            "kind": body.kind,
+            **numbers,
+            "excess": _known(body.excess),
+            "cover": cover,
+        }
     )
+
+
+def _known(number: float) -> float | None:
+    return None if math.isnan(number) else number
 
 
 def _listed(context: Context, task_request: TaskRequest) -> Response:
