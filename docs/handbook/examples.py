@@ -15,7 +15,8 @@ from gelenk.http.messages.openapi import EXAMPLES
 def made() -> dict[str, Any]:
     """The examples with every answer made anew; a job has none."""
     found: dict[str, Any] = json.loads(EXAMPLES.read_text(encoding="utf-8"))
-    for name, example in found.items():
+    for key, example in found.items():
+        name = key.partition("/")[0]
         if not BY_NAME[name].is_job:
             body = json.dumps(example["request"]).encode()
             call = Call("POST", f"v1/robots/planar_2r/{name}", lambda response: json.loads(response.content), body=body)

@@ -81,11 +81,21 @@ def test_each_operation_on_a_robot_has_the_course_s_arm_as_an_example_with_its_a
     path = f"/{endpoint.path}"
     operation = document()["paths"][path]["post"]
     content = operation["requestBody"]["content"]["application/json"]["examples"]
-    answer = client.post(path.format(robot="planar_2r"), json=content["planar_2r"]["value"])
-    assert answer.status_code == (202 if endpoint.is_job else 200), answer.text
-    if not endpoint.is_job:
-        shown = operation["responses"]["200"]["content"]["application/json"]["examples"]["planar_2r"]["value"]
-        assert same(json.dumps(shown), json.dumps(answer.json())), "./dev handbook --write"
+    assert list(content)[:2] == ["panda", "planar_2r"]
+    for name in list(content)[1:]:
+        answer = client.post(path.format(robot="planar_2r"), json=content[name]["value"])
+        assert answer.status_code == (202 if endpoint.is_job else 200), answer.text
+        if not endpoint.is_job:
+            shown = operation["responses"]["200"]["content"]["application/json"]["examples"][name]["value"]
+            assert same(json.dumps(shown), json.dumps(answer.json())), "./dev handbook --write"
+
+
+def test_inverse_kinematics_has_an_example_in_a_cell_where_one_branch_is_free() -> None:
+    operation = document()["paths"]["/v1/robots/{robot}/ik"]["post"]
+    assert "scene" in operation["requestBody"]["content"]["application/json"]["examples"]["in_cell"]["value"]
+    shown = operation["responses"]["200"]["content"]["application/json"]["examples"]["in_cell"]["value"]
+    (result,) = shown["results"]
+    assert [solution["in_collision"] for solution in result["solutions"]] == [False, True]
 
 
 def test_the_examples_add_little_to_the_document() -> None:

@@ -69,9 +69,16 @@ _NAMED: dict[str, tuple[dict[str, Any], str]] = {
 
 _RESOURCES = {resource.name: resource for resource in RESOURCES}
 EXAMPLES = pathlib.Path(__file__).with_name("planar_2r.json")
-"""A request of each operation on a robot for the course's two-link arm, with its answer, made by `./dev handbook`."""
+"""A request of each operation on a robot for the course's two-link arm, with its answer, made by `./dev handbook`.
+
+A further example follows its operation's name, as in `ik/in_cell`.
+"""
 PLANAR_2R = json.loads(EXAMPLES.read_text(encoding="utf-8"))
-_TITLES = {"panda": "Panda", "planar_2r": "Two-link arm (robot: planar_2r)"}
+_TITLES = {
+    "panda": "Panda",
+    "planar_2r": "Two-link arm (robot: planar_2r)",
+    "in_cell": "Two-link arm beside a post (robot: planar_2r)",
+}
 
 _SCHEME = {
     "type": "http",
@@ -289,14 +296,20 @@ def _add_refusals(operation: dict[str, Any], has_keys: bool) -> None:
 def _add_examples(operation: dict[str, Any]) -> None:
     """Add the examples on the two-link arm; here because FastAPI leaves out what is null in an answer."""
     route = ROUTES[operation["operationId"]]
-    if isinstance(route, RobotEndpoint) and (small := PLANAR_2R.get(route.name)):
+    if isinstance(route, RobotEndpoint) and route.name in PLANAR_2R:
+        small = {"planar_2r": PLANAR_2R[route.name]}
+        small |= {key.partition("/")[2]: one for key, one in PLANAR_2R.items() if key.startswith(f"{route.name}/")}
         body = operation["requestBody"]["content"][JSON]
-        body["examples"] = _examples(panda=body.pop("example"), planar_2r=small["request"])
-        if "answer" in small:
-            operation["responses"]["200"]["content"][JSON]["examples"] = _examples(planar_2r=small["answer"])
+        body["examples"] = _examples({"panda": body.pop("example"), **_parts(small, "request")})
+        if answers := _parts(small, "answer"):
+            operation["responses"]["200"]["content"][JSON]["examples"] = _examples(answers)
 
 
-def _examples(**values: Any) -> dict[str, Any]:
+def _parts(examples: dict[str, Any], part: str) -> dict[str, Any]:
+    return {name: example[part] for name, example in examples.items() if part in example}
+
+
+def _examples(values: dict[str, Any]) -> dict[str, Any]:
     return {name: {"summary": _TITLES[name], "value": value} for name, value in values.items()}
 
 
