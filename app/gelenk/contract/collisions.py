@@ -1,6 +1,6 @@
 """Contacts of a robot with itself and a scene: request, answer, operation."""
 
-from typing import Annotated, Literal
+from typing import Literal
 
 from pydantic import Field
 
@@ -9,7 +9,7 @@ from gelenk.contract.common import Answer, ChainOptions, optional
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import AboutChain
 from gelenk.contract.options import BatchRequest
-from gelenk.contract.scene import SceneOrName
+from gelenk.contract.scene import OtherJoints, SceneOrName
 
 
 class CollisionOptions(ChainOptions):
@@ -27,9 +27,7 @@ class CollisionRequest(BatchRequest, CollisionOptions):
     """Contacts at a batch of configurations."""
 
     scene: SceneOrName | None = optional("What is around the robot: objects, or the name of a stored scene.")
-    other_joints: Annotated[dict[str, float], Field(max_length=128)] | None = optional(
-        "Where joints stand that the chain does not move, by name, [rad or m]; those left out at 0."
-    )
+    other_joints: OtherJoints = None
 
 
 class ContactPair(Answer):

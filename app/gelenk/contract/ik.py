@@ -279,7 +279,7 @@ ENDPOINT = RobotEndpoint(
     With `scene` or `min_clearance` only configurations without contact are solutions: of all branches the nearest
     to the seed, or of a redundant arm the nearest that the first successful round of starts finds, first around the
     solution in contact, then everywhere, until the budget is used up. The robot must not touch itself either. A seed
-    may be in contact. Joints off the chain stand at 0.
+    may be in contact. Joints off the chain, such as those of a gripper, stand where `other_joints` says, or at 0.
 
     Closed forms: arms whose last three axes meet in a point, or whose first three do (decoupling: the position of the
     wrist first, then the orientation by the spherical wrist; any three joints besides, turning or sliding); six

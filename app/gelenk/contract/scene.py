@@ -3,7 +3,7 @@
 from typing import Annotated, Any, Literal, TypeAlias
 
 import numpy as np
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import Discriminator, Field, Tag, ValidationInfo, field_validator, model_validator
 
 from gelenk.contract.common import Answer, FrameName, OnTheWire, Payload, Vectors, optional
 from gelenk.contract.pose import Pose, Vector3
@@ -244,6 +244,15 @@ SceneOrName = Annotated[
     Field(description="What is around the robot: the name of a stored scene, or its objects."),
 ]
 
+OtherJoints = Annotated[
+    Annotated[dict[str, float], Field(max_length=128)] | None,
+    Field(
+        description="Where joints stand that the chain does not move, such as a gripper's, by name, [rad or m]; those "
+        "left out at 0."
+    ),
+]
+"""Positions of joints off the chain, as far as contacts depend on them."""
+
 
 class InCell(Payload):
     """Asks that the robot stay clear of itself and of what is around it."""
@@ -258,3 +267,11 @@ class InCell(Payload):
         ge=0.0,
         le=MAX_SIZE,
     )
+    other_joints: OtherJoints = None
+
+    @field_validator("other_joints")
+    @classmethod
+    def _among_contacts(cls, value: dict[str, float] | None, info: ValidationInfo) -> dict[str, float] | None:
+        if value is not None and all(info.data.get(name) is None for name in ("scene", "min_clearance")):
+            raise ValueError("is about contacts, which count with a `scene` or a `min_clearance` only")
+        return value

@@ -99,7 +99,7 @@ ENDPOINT = RobotEndpoint(
     that one, by code independent of the planner: exact peaks of the joints, jumps where pieces meet, the ends; the tip
     and the singular values are sampled less densely, and searched between samples. A motion that cannot be done, as
     one to a target beyond the joint limits, or through something of a `scene`, has a `reason`, and the others are not
-    affected. For the samples of one of them ask `trajectory`.
+    affected; joints off the chain stand where `other_joints` says. For the samples of one of them ask `trajectory`.
     """,
     batch="targets",
     options=MotionsOptions,

@@ -28,9 +28,10 @@ ENDPOINT = RobotEndpoint(
     also an answer: the motion as far as it goes, to rest, with `completed_fraction` and `failure`.
 
     With a `scene`, or with `min_clearance` alone, nothing may touch, or come nearer, at any time: neither the robot
-    what is around it, nor one of its links another. This is proved for all times, not only for samples. A path of the
-    tip that would touch something ends before, and any other segment is not begun; `failure` has the `reason`
-    `collision`, when, which pair and how deep it would be. `audit.clearance` says how near the motion comes.
+    what is around it, nor one of its links another; joints off the chain stand where `other_joints` says. This is
+    proved for all times, not only for samples. A path of the tip that would touch something ends before, and any other
+    segment is not begun; `failure` has the `reason` `collision`, when, which pair and how deep it would be.
+    `audit.clearance` says how near the motion comes.
 
     Every motion is a list of polynomials. Before it is sent, code independent of the planner checks exact peaks
     against the limits, jumps where pieces meet, and the tip against its path, also between samples; its poses are

@@ -373,9 +373,9 @@ class RunningMotion(Payload):
     """A motion that is being carried out, by the request that it was planned from, and a time in it."""
 
     trajectory: Motion = Field(
-        description="The former request, with its `start`, and without its `scene` and `min_clearance`; it is planned "
-        "again, and nothing needs to be stored. Of a motion that began with `at` itself, give the start with its "
-        "velocities and accelerations."
+        description="The former request, with its `start`, and without its `scene`, `min_clearance` and "
+        "`other_joints`; it is planned again, and nothing needs to be stored. Of a motion that began with `at` itself, "
+        "give the start with its velocities and accelerations."
     )
     time: float = Field(ge=0.0, le=1e6, description="Since its start, [s].")
 

@@ -285,7 +285,8 @@ ENDPOINT = RobotEndpoint(
     smallest singular value and the velocity limits; joints weighted on request, and a motion (I - J#J) ξ in the null
     space added. `tip_accelerations` and `tip_jerks` are inverted likewise, less what the given rates already make.
     Each entry has its residual, the joints that are too fast, and how near the configuration is to a singularity;
-    with a `scene` or `min_clearance` also the clearance, its gradient, and how fast it changes.
+    with a `scene` or `min_clearance` also the clearance, its gradient, and how fast it changes, joints off the chain
+    being where `other_joints` says.
     Where metres and radians are mixed, J#, damping and condition number depend on the unit of length: choose a `task`
     of one kind, or give a `characteristic_length`.
 

@@ -241,7 +241,7 @@ ENDPOINT = RobotEndpoint(
     a sample of it agrees with Pinocchio), as npy the positions or voxels, as SVG or PNG a picture.
 
     With `scene` or `min_clearance` only configurations count at which the robot touches neither itself nor what is
-    around it; joints off the chain stand at 0.
+    around it; joints off the chain stand where `other_joints` says, or at 0.
 
     The same request gives the same result, whatever the number of processes. Samples are uniform in joint space:
     regions that few configurations lead to need more of them, and `late_share` shows whether there were enough. For

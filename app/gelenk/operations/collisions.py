@@ -8,16 +8,11 @@ from gelenk.collision.contact.judge import PairContacts, certify_clearances, cer
 from gelenk.collision.contact.kernels import all_contacts, first_contacts, nearest_pairs, pair_distances
 from gelenk.collision.contact.world import World
 from gelenk.contract.collisions import CollisionRequest
-from gelenk.errors import InvalidField, listed, quoted
-from gelenk.operations.cells import world_of
+from gelenk.operations.cells import bodies_in
 from gelenk.operations.chains import check_numbers, head
 from gelenk.operations.outcome import Limits, Outcome
-from gelenk.operations.robot_bodies import bodies_of
-from gelenk.operations.scene_objects import obstacles_of
 from gelenk.robot.arrays import Array
-from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import configurations
-from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot
 
 _NUMBERS = 9
@@ -29,9 +24,8 @@ def run(loaded: LoadedRobot, call: CollisionRequest, limits: Limits) -> Outcome:
     chain = loaded.robot.chain(call.base_frame, call.tip_frame)
     qs = configurations(chain, call.joint_positions)
     check_numbers(len(qs) * _NUMBERS, limits)
-    own, obstacles = bodies_of(loaded), obstacles_of(call.scene, loaded.robot.description.root)
-    world = world_of(loaded.robot, chain, own, obstacles, _others(loaded.robot, chain, call.other_joints or {}))
-    warnings = [*own.warnings, *(one.note for one in obstacles if one.note)]
+    bodies = bodies_in(loaded, call)
+    world = bodies.world(loaded.robot, chain)
     if call.clearance:
         slacks, pairs, points = nearest_pairs(world.flat, qs)
         touching, distances = slacks <= 0.0, slacks + np.append(world.flat.margins, 0.0)[pairs]
@@ -63,7 +57,7 @@ def run(loaded: LoadedRobot, call: CollisionRequest, limits: Limits) -> Outcome:
                 result["pairs"] = _by_name(world, contacts(row))
                 count += len(result["pairs"])
                 check_numbers(count * _NUMBERS, limits)
-        about = {"root_frame": loaded.robot.description.root, "warnings": warnings, "certificate": certificate}
+        about = {"root_frame": loaded.robot.description.root, "warnings": bodies.warnings, "certificate": certificate}
         return head(chain) | about | {"results": results}
 
     return Outcome(content, lambda: (np.column_stack((touching, slacks)), {}))
@@ -72,16 +66,6 @@ def run(loaded: LoadedRobot, call: CollisionRequest, limits: Limits) -> Outcome:
 def is_heavy(_: CollisionRequest) -> bool:
     """Return True: the first call about a robot or a scene prepares it, which takes long."""
     return True
-
-
-def _others(robot: RobotModel, chain: Chain, given: dict[str, float]) -> tuple[tuple[str, float], ...]:
-    """Return the positions of joints off the chain; raises InvalidField for a joint that is not one."""
-    allowed = tuple(joint.name for joint in robot.description.movable if joint.name not in chain.joint_names)
-    for name in given:
-        if name not in allowed:
-            reason = f"{quoted(name)} is no independent joint off the chain; those are {listed(allowed)}"
-            raise InvalidField("other_joints", reason)
-    return tuple(given.items())
 
 
 def _every_pair(world: World, q: Array) -> PairContacts:

@@ -306,6 +306,7 @@ export type InverseRequest = {
   steps?: boolean;
   scene?: string | Scene | null;
   min_clearance?: number | null;
+  other_joints?: JointValues | null;
   base_frame?: string | null;
   tip_frame?: string | null;
   method?: "auto" | "analytic" | "newton" | "gradient" | "gradient_then_newton" | "damped_least_squares";
@@ -939,6 +940,7 @@ export type TrajectoryLimits = {
 export type TrajectoryRequest = {
   scene?: string | Scene | null;
   min_clearance?: number | null;
+  other_joints?: JointValues | null;
   language?: "en" | "de";
   steps?: boolean;
   limits?: TrajectoryLimits | null;

@@ -22,7 +22,7 @@ from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
-from gelenk.operations.cells import cell_bodies, read_cell_bodies
+from gelenk.operations.cells import IN_BODIES, cell_bodies, read_cell_bodies
 from gelenk.operations.ik_answer import PlainResults, plain_results, results_to_json, table, to_json, unsolved_headers
 from gelenk.operations.ik_contacts import contacts_of
 from gelenk.operations.ik_request import (
@@ -70,7 +70,7 @@ def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[
     cell = None if bodies is None else bodies.cell(loaded.robot, problem.chain, call.min_clearance)
     _check_room(limits.job_bytes, problem, call, cell)
     fixed = {"base_frame": problem.chain.base_frame, "tip_frame": problem.chain.tip_frame}
-    rest = call.model_copy(update={"targets": [], "seeds": None, "scene": None, **fixed})
+    rest = call.model_copy(update={"targets": [], "seeds": None, **IN_BODIES, **fixed})
     files = {_CALL: rest.model_dump_json().encode(), _SEEDS: npy_file(problem.seeds)}
     if bodies:
         files[_CELL] = bodies.to_bytes()

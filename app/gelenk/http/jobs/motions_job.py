@@ -16,7 +16,7 @@ from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
 from gelenk.kinematics.judge.words import PoseCertificate
-from gelenk.operations.cells import cell_bodies, read_cell_bodies
+from gelenk.operations.cells import IN_BODIES, cell_bodies, read_cell_bodies
 from gelenk.operations.outcome import Limits
 from gelenk.operations.trajectories import parse, results_json, table
 from gelenk.robot.arrays import Array
@@ -35,7 +35,7 @@ def _request(loaded: LoadedRobot, call: MotionsRequest, _: Limits) -> dict[str, 
     """Check a call and return its files; starts and targets are one array from here on."""
     batch = parse(loaded.robot, call, MAX_JOB_MOTIONS)
     ends = {"base_frame": batch.chain.base_frame, "tip_frame": batch.chain.tip_frame}
-    rest = call.model_copy(update={"starts": None, "targets": [], "scene": None, **ends})
+    rest = call.model_copy(update={"starts": None, "targets": [], **IN_BODIES, **ends})
     rows = np.stack((np.broadcast_to(batch.starts, batch.targets.shape), batch.targets), axis=1)
     files = {CALL: rest.model_dump_json(exclude_none=True).encode(), _ENDS: npy_file(rows)}
     bodies = cell_bodies(loaded, call)

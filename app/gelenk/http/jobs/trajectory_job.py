@@ -16,7 +16,7 @@ from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
-from gelenk.operations.cells import cell_bodies, read_cell_bodies
+from gelenk.operations.cells import IN_BODIES, cell_bodies, read_cell_bodies
 from gelenk.operations.outcome import Limits, PictureFormat
 from gelenk.operations.rows import csv_head, csv_rows
 from gelenk.operations.trajectory_planned import SAMPLED, PlannedTrajectory, TrajectorySizeLimits, checked
@@ -46,7 +46,7 @@ def _request(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> di
     if bounds.may_be_exceeded(call, chain, shortest_duration(question.problem)):
         bounds.check(call, chain, plan(loaded.robot, chain, question.problem).motion.duration)
     whole = call.model_copy(update={"base_frame": chain.base_frame, "tip_frame": chain.tip_frame})
-    files = {_CALL: whole.model_dump_json(exclude_unset=True, exclude={"scene"}).encode()}
+    files = {_CALL: whole.model_dump_json(exclude_unset=True, exclude=set(IN_BODIES)).encode()}
     bodies = cell_bodies(loaded, call)
     if bodies is None:
         return files

@@ -12,7 +12,7 @@ from gelenk.jobs.runner import Work
 from gelenk.jobs.workspace import work_of
 from gelenk.jobs.workspace_request import WorkspaceWork, check_size, workspace_work
 from gelenk.kinematics.workspace.survey import POINT_COLUMNS
-from gelenk.operations.cells import CellBodies, cell_bodies, read_cell_bodies
+from gelenk.operations.cells import IN_BODIES, CellBodies, cell_bodies, read_cell_bodies
 from gelenk.operations.outcome import Limits
 from gelenk.robot.robot import RobotModel
 from gelenk.store.folders import read_plain
@@ -37,7 +37,7 @@ def _request(loaded: LoadedRobot, call: WorkspaceRequest, limits: Limits) -> dic
     bodies = cell_bodies(loaded, call)
     check_size(_planned(loaded.record.name, loaded.robot, call, bodies))
     ends = {"base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
-    files = {CALL: call.model_copy(update={**ends, "scene": None}).model_dump_json().encode()}
+    files = {CALL: call.model_copy(update={**ends, **IN_BODIES}).model_dump_json().encode()}
     return files if bodies is None else {**files, _CELL: bodies.to_bytes()}
 
 
