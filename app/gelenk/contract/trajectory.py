@@ -31,7 +31,8 @@ ENDPOINT = RobotEndpoint(
     what is around it, nor one of its links another; joints off the chain stand where `other_joints` says. This is
     proved for all times, not only for samples. A path of the tip that would touch something ends before, and any other
     segment is not begun; `failure` has the `reason` `collision`, when, which pair and how deep it would be.
-    `audit.clearance` says how near the motion comes.
+    `audit.clearance` says how near the motion comes. A `joint` segment to a pose leads to the nearest configuration
+    that touches nothing there, as `ik` finds it; if there is none, it is not begun.
 
     Every motion is a list of polynomials. Before it is sent, code independent of the planner checks exact peaks
     against the limits, jumps where pieces meet, and the tip against its path, also between samples; its poses are

@@ -143,7 +143,8 @@ class JointSegment(SegmentOptions):
     type: Literal["joint"] = Field(description="All joints together.")
     target: Target = Field(
         description="A configuration, one number per joint or by joint name, [rad or m]; or a pose of `tip_frame` in "
-        "`base_frame`, for which the solution nearest to the segment's start is used."
+        "`base_frame`, for which the solution nearest to the segment's start is used, with a `scene` the nearest that "
+        "touches nothing."
     )
 
 

@@ -9,9 +9,10 @@ import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.ik.closed.closed_form import closed_form
+from gelenk.ik.search.problem import Options, TargetProblem
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import Status
-from gelenk.ik.solve import Options, inverse_kinematics
+from gelenk.ik.solve import solve
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -40,6 +41,7 @@ _REASONS: dict[Status, StopReason] = {
     "outside_limits": "joint_limit",
     "singular": "singularity",
     "not_converged": "out_of_reach",
+    "in_collision": "collision",
 }
 _MARGIN = 1e-9
 """Extra slowdown, because the sampled peaks of the tip may be slightly too low."""
@@ -115,17 +117,26 @@ def _moving(chain: Chain, start: Array, target: Array | None, segment: Segment, 
 def _solved(
     robot: RobotModel, chain: Chain, start: Array, segment: Segment, index: int, problem: TrajectoryProblem
 ) -> Array | PlanningFailure:
-    """Return the target's configuration nearest to the start (for a redundant arm, the one that iteration finds)."""
-    following = problem.following
+    """Return the target's configuration nearest to the start (for a redundant arm, the one that iteration finds).
+
+    In a cell, if that touches something, return the nearest that touches nothing; raises CertificationFailed if Coal
+    contradicts that there is none.
+    """
+    task, cell = problem.following.task, problem.cell
     T = cast(Array, segment.pose)
-    target = Poses(T[None, :3, 3], T[None, :3, :3])
-    form = closed_form(chain, following.task)
+    form = closed_form(chain, task)
     every = form is not None and not form.has_free_elbow
-    options = Options(task=following.task, every=every, most=1, windings=every)
-    answer = inverse_kinematics(robot, chain, target, start[None], options)
+    options = Options(task=task, every=every, most=1, windings=every)
+    target = TargetProblem(robot, chain, Poses(T[None, :3, 3], T[None, :3, :3]), start[None], options)
+    answer = solve(target)
+    if cell is not None and len(answer.qs) and cell.touching(answer.qs)[0]:
+        answer = solve(replace(target, options=Options(task=task)), cell)
     if len(answer.qs):
         return cast(Array, answer.qs[0])
     failure = answer.failures[0]
+    if cell is not None and failure.status == "in_collision":
+        at = failure.nearest[None]
+        cell.certified_nearest(at, cell.nearest(at))
     blocking = failure.blocking_joints
     reason, joint = _REASONS[answer.statuses[0]], blocking[0].name if blocking else None
     return PlanningFailure(reason, index, 0.0, _position(chain, start), joint, failure.reason)

@@ -50,8 +50,8 @@ class PlanningFailure(Result):
         joint: The joint at its limit.
         detail: An explanation in one sentence, with numbers.
         first_contact: With `collision`, the moment at which the motion as requested would first come nearer than it
-            may; the motion ends before.
-        nearest: With `collision`, the moment at which the motion as requested would come nearest, or deepest.
+            may; the motion ends before. Null if the pose that a `joint` segment leads to is reached in contact only.
+        nearest: With `collision`, the moment at which the motion as requested would come nearest, or deepest; likewise.
     """
 
     reason: StopReason
