@@ -114,7 +114,6 @@ def test_a_description_is_a_text_a_file_or_a_table(tmp_path: Path, client: Clien
         (lambda ur5: ur5.ik(np.eye(3)), errors.InvalidArray, r"\(3, 3\)"),
         (lambda ur5: ur5.ik(np.eye(4), solution="all"), errors.InvalidField, "'solution'.*known are.* solutions"),
         (lambda ur5: ur5.ik(np.eye(4), solutions="some"), errors.InvalidField, "'one' or 'all'"),
-        (lambda ur5: ur5.ik(np.eye(4), min_clearance=0.0), errors.InvalidField, "min_clearance.*in the service"),
         (lambda ur5: ur5.trajectory(Q[0], [{"type": "leap"}]), errors.InvalidField, "segments.*joint, line"),
         (lambda ur5: ur5.trajectory(Q[0][:5], []), errors.InvalidField, "segments"),
         (lambda ur5: ur5.trajectory([9.0] * 6, [{"type": "joint", "target": Q[0]}]), errors.OutsideLimits, "limit"),

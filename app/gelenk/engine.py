@@ -10,7 +10,9 @@ linear before angular.
 """
 
 import os
+import warnings
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Self, TypeAlias, TypeVar, cast
@@ -18,6 +20,7 @@ from typing import Any, Self, TypeAlias, TypeVar, cast
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
+from gelenk.collision.cell import Cell, Contacts
 from gelenk.contract.common import as_lists
 from gelenk.contract.dh import DhTablePayload
 from gelenk.contract.ik import InverseRequest
@@ -33,6 +36,8 @@ from gelenk.kinematics.judge.words import Reference
 from gelenk.kinematics.poses.forward import ForwardKinematics, forward_kinematics
 from gelenk.kinematics.velocity.jacobian import Jacobians, Representation, jacobians
 from gelenk.operations import trajectory_request
+from gelenk.operations.cells import cell_of
+from gelenk.operations.ik_contacts import contacts_of
 from gelenk.operations.ik_request import TargetLimits, parse
 from gelenk.package_data import catalogue
 from gelenk.robot import robot as core
@@ -40,7 +45,8 @@ from gelenk.robot.arrays import Array, Configuration
 from gelenk.robot.configuration import configurations
 from gelenk.robot.dh import Convention
 from gelenk.robot.urdf import read_urdf
-from gelenk.store.records import describe, load, read_record
+from gelenk.store.local import local_robot
+from gelenk.store.records import LoadedRobot, describe, load, read_record
 from gelenk.trajectory.plan import plan
 from gelenk.trajectory.problem.problem import Trajectory
 
@@ -59,8 +65,15 @@ class Robot:
         core: The whole robot, as these functions take it.
     """
 
-    def __init__(self, robot: core.RobotModel, base_frame: str | None = None, tip_frame: str | None = None) -> None:
-        self.core, self.chain = robot, robot.chain(base_frame, tip_frame)
+    def __init__(
+        self,
+        robot: core.RobotModel | LoadedRobot,
+        base_frame: str | None = None,
+        tip_frame: str | None = None,
+    ) -> None:
+        self._loaded = robot if isinstance(robot, LoadedRobot) else local_robot(robot)
+        self.core = self._loaded.robot
+        self.chain = self.core.chain(base_frame, tip_frame)
         self.joint_names = self.chain.joint_names
 
     def __repr__(self) -> str:
@@ -83,7 +96,7 @@ class Robot:
         record = read_record(catalogue() / name, "catalogue") if name in cls.names() else None
         if record is None:
             raise UnknownRobot(name, tuple(get_close_matches(name, cls.names())))
-        return cls(load(record).robot, base_frame, tip_frame)
+        return cls(load(record), base_frame, tip_frame)
 
     @classmethod
     def from_urdf(
@@ -97,7 +110,7 @@ class Robot:
         """Read the robot that a URDF describes; frames default to those of the longest chain.
 
         Args:
-            urdf: Path of a file, or the text itself.
+            urdf: Path of a file, or the text itself. Meshes, which count in a scene, are found from the file's folder.
             base_frame: Base of the chain.
             tip_frame: Tip of the chain.
             strict: Whether to refuse faults that do not affect kinematics too.
@@ -108,10 +121,9 @@ class Robot:
             OSError: The file cannot be read.
         """
         if isinstance(urdf, str) and urdf.lstrip("\ufeff \t\r\n").startswith("<"):
-            description = read_urdf(urdf, strict)
-        else:
-            description, *_ = describe(Path(urdf).stem, "urdf", Path(urdf).read_bytes(), strict)
-        return cls(core.RobotModel(description), base_frame, tip_frame)
+            return cls(core.RobotModel(read_urdf(urdf, strict)), base_frame, tip_frame)
+        description, *_ = describe(Path(urdf).stem, "urdf", Path(urdf).read_bytes(), strict)
+        return cls(local_robot(core.RobotModel(description), Path(urdf)), base_frame, tip_frame)
 
     @classmethod
     def from_dh(
@@ -138,7 +150,7 @@ class Robot:
         """
         places = {name: {"matrix": T} for name, T in (("base", base), ("tool", tool)) if T is not None}
         table = _checked(DhTablePayload, {"convention": convention, "joints": joints, **places}).table()
-        return cls(core.RobotModel(describe_dh("robot", table)))
+        return cls(local_robot(core.RobotModel(describe_dh("robot", table)), table=table))
 
     def fk(self, q: Configurations, frames: Sequence[str] = ()) -> ForwardKinematics:
         """Compute poses of the tip, `poses`, and of other frames on the chain, `frames`, at each configuration.
@@ -200,12 +212,14 @@ class Robot:
             targets: One pose or several: matrices of shape (4, 4), rows `x y z qx qy qz qw`, or the API's poses such
                 as `{"position": [0.4, 0.1, 0.5], "rpy": [3.0, 0.2, 0.4]}`.
             seed: Where to start, and what solutions should be near to: one configuration, or one per target.
-            options: Options of the API, such as `solutions="all"`, `task`, `method`, `respect_limits`, `fixed_joints`.
+            options: Options of the API, such as `solutions="all"`, `task`, `method`, `respect_limits`, `fixed_joints`,
+                `scene`; in a scene `touching` flags solutions in contact, if all are requested.
 
         Raises:
             InvalidField: An option is unknown, or excluded by another one.
             InvalidPose: A target is not a pose.
             InvalidArray: The targets are an array of another shape.
+            CertificationFailed: Coal contradicts a contact.
         """
         call = _checked(InverseRequest, {"targets": [], **self._ends(), **options})
         fields: dict[str, object] = {} if seed is None else {"seeds": _several(seed)}
@@ -216,8 +230,10 @@ class Robot:
             array = np.asarray(given, dtype=float)
             fields["targets"] = array[None] if array.shape in {(7,), (4, 4)} else array
         call = call.model_copy(update=fields)  # arrays do not go number by number through pydantic
-        _refuse_cell(call)
-        return solve(parse(self.core, call, _UNBOUNDED, call.time_limit))
+        cell, problem = self._cell(call), parse(self.core, call, _UNBOUNDED, call.time_limit)
+        found = solve(problem, cell)
+        contacts_of(cell, found)  # refuses what Coal does not confirm
+        return found
 
     def trajectory(self, start: Configuration, segments: Sequence[Mapping[str, object]], **options: Any) -> Trajectory:
         """Plan a motion from rest to rest: its polynomials are `motion`, and `audit` is the check that it passed.
@@ -228,7 +244,7 @@ class Robot:
         Args:
             start: Configuration at the start.
             segments: As in the API, such as `{"type": "joint", "target": q}` or `{"type": "line", "target": pose}`.
-            options: The API's options for the motion, such as `law`, `limits`, `duration`, `near_singularity`.
+            options: The API's options for the motion, such as `law`, `limits`, `duration`, `near_singularity`, `scene`.
 
         Raises:
             InvalidField: A segment or an option is unknown or contradicts another one, or its duration is too short.
@@ -236,8 +252,40 @@ class Robot:
             AuditFailed: The motion does not pass its audit.
         """
         call = _checked(TrajectoryRequest, {**self._ends(), "start": start, "segments": segments, **options})
-        _refuse_cell(call)
-        return plan(self.core, self.chain, trajectory_request.parse(self.core, self.chain, call).problem)
+        problem = trajectory_request.parse(self.core, self.chain, call).problem
+        return plan(self.core, self.chain, replace(problem, cell=self._cell(call)))
+
+    def collisions(
+        self,
+        q: Configurations,
+        scene: Mapping[str, object] | None = None,
+        other_joints: Mapping[str, float] | None = None,
+    ) -> Contacts:
+        """Find the nearest pair at each configuration: of links, and of a link and an object of the scene.
+
+        The first time a robot's bodies are found, which takes seconds if it has meshes.
+
+        Args:
+            q: See `fk`.
+            scene: Objects as in the API: `{"objects": [{"name": "table", "shape": {...}, "pose": {...}}]}`.
+            other_joints: Where joints stand that the chain does not move, by name, [rad or m]; else at 0.
+
+        Raises:
+            InvalidField: The scene, or a joint, is not what it should be.
+            InvalidMesh: A mesh of the robot cannot be read.
+            CertificationFailed: Coal's distances differ.
+        """
+        fields = {"scene": scene, "min_clearance": 0.0, "other_joints": other_joints}
+        return cast(Cell, self._cell(_checked(InCell, fields))).contacts(self._rows(q))
+
+    def _cell(self, call: InCell) -> Cell | None:
+        """Return what is around the robot in a request, warning of what has no body; None if contacts do not count."""
+        found = cell_of(self._loaded, self.chain, call)
+        if found is None:
+            return None
+        for text in found[1]:
+            warnings.warn(text, stacklevel=3)
+        return found[0]
 
     def _ends(self) -> dict[str, str]:
         return {"base_frame": self.chain.base_frame, "tip_frame": self.chain.tip_frame}
@@ -255,16 +303,11 @@ def _several(q: Configurations) -> Sequence[Configuration] | Array:
     return cast(Sequence[Configuration], [q] if is_one else q)
 
 
-def _refuse_cell(call: InCell) -> None:
-    for name in ("scene", "min_clearance"):
-        if getattr(call, name) is not None:
-            raise InvalidField(name, "counts in the service, which has the bodies of its robots")
-
-
 def _checked(model: type[_Payload], fields: Mapping[str, object]) -> _Payload:
     try:
         return model.model_validate(as_lists(fields))
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         known = f"; known are {', '.join(model.model_fields)}" if first["loc"][1:] == () else ""
-        raise InvalidField(".".join(map(str, first["loc"])), f"{first['msg']}{known}") from None
+        place = ".".join(part for part in map(str, first["loc"]) if not part.startswith("<"))
+        raise InvalidField(place, f"{first['msg']}{known}") from None

@@ -37,6 +37,27 @@ class Nearest(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Contacts:
+    """The nearest pair of bodies at each of N configurations.
+
+    Attributes:
+        in_collision: Whether anything is in contact, or nearer than its object demands; shape (N,).
+        clearances: Smallest distance of all pairs less what an object demands, infinite without pairs; (N,), [m].
+        pairs: Names of the nearest two, in contact of the deepest; None without pairs.
+        distances: Of these two, negative by how far they overlap; shape (N,), [m].
+        points: Their nearest or deepest points in the root frame; shape (N, 2, 3), [m].
+        certificate: How Coal has checked them.
+    """
+
+    in_collision: Flags
+    clearances: Array
+    pairs: list[tuple[str, str] | None]
+    distances: Array
+    points: Array
+    certificate: ContactCertificate
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Cell:
     """A world whose pairs all count as in contact up to a distance.
 
@@ -90,6 +111,14 @@ class Cell:
     def certified_nearest(self, qs: Array, nearest: Nearest) -> ContactCertificate:
         """Check nearest pairs by Coal: all of a few, a sample of many; raises CertificationFailed."""
         return certify_clearances(self.world, qs, nearest.clearances - self.min_clearance, nearest.contact)
+
+    def contacts(self, qs: Array) -> Contacts:
+        """Return the nearest pairs by name, checked by Coal; raises CertificationFailed."""
+        found = self.nearest(qs)
+        certificate = self.certified_nearest(qs, found)
+        names = [self.names(pair) if pair >= 0 else None for pair in found.pairs.tolist()]
+        touching = found.clearances <= self.min_clearance
+        return Contacts(touching, found.clearances, names, found.distances, found.points.reshape(-1, 2, 3), certificate)
 
     def gradients(self, qs: Array, nearest: Nearest) -> Array:
         """Return the gradients of the nearest pairs' distances; shape (N, n), [m/rad or 1], 0 without pairs."""
