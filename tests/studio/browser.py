@@ -36,7 +36,8 @@ def chromium() -> str | None:
 class Pages:
     """Pages of one browser profile, each used by a test after the other: a new one costs several times its studio.
 
-    The studio keeps nothing in the browser but a key for a service that wants one, and a test begins at an empty page.
+    The studio keeps in the browser a key for a service that wants one, and what a person prefers, which is forgotten
+    here; a test begins at an empty page.
     """
 
     def __init__(self, browser: Browser, *, is_certificate_checked: bool = True) -> None:
@@ -53,6 +54,7 @@ class Pages:
         """A page that a test has left, as it left it; one that no longer answers is not used again."""
         try:
             page.unroute_all(behavior="ignoreErrors")
+            page.evaluate("() => { try { localStorage.clear() } catch { /* a page of no service has none */ } }")
             page.goto("about:blank")
         except Error:
             page.close()

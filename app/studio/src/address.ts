@@ -1,10 +1,12 @@
 /** The state in the address bar, behind `#`: readable, exact to the last digit, and never sent to a server. */
 
 import { asMotion } from "./panels/trajectory/link.ts";
+import { asTheme, type Prefs } from "./prefs.ts";
 import { FIRST, type Linked, type State, type Writing } from "./state.ts";
 import { asObjects } from "./scene/objects.ts";
 import type { Store } from "./store.ts";
 import { isPose } from "./robot/pose.ts";
+import { asLook } from "./view/looking.ts";
 import { type DhTable, DIRECTIONS, type InverseOptions } from "./types.ts";
 
 const FLAGS = ["degrees", "frames", "axes", "names", "dh", "bodies"] as const;
@@ -18,7 +20,8 @@ export interface Address {
   positions: number[] | null;
 }
 
-export function read(hash: string): Address {
+/** What a link says; of what it leaves to whoever opens it, their preferences. */
+export function read(hash: string, prefs: Pick<Prefs, "theme" | "degrees">): Address {
   const given = new URLSearchParams(hash.replace(/^#/, ""));
   const linked: Linked = { ...FIRST };
   linked.panel = given.get("panel") ?? FIRST.panel;
@@ -38,6 +41,9 @@ export function read(hash: string): Address {
   };
   const shown = new Set((given.get("show") ?? "").split(","));
   for (const flag of FLAGS) linked[flag] = shown.has(flag);
+  linked.degrees ||= prefs.degrees;
+  linked.theme = asTheme(given.get("theme")) ?? prefs.theme;
+  linked.camera = asLook(given.get("camera")?.split(",").map(Number) ?? []);
   linked.options = Object.fromEntries([...given].filter(([key]) => OPTION.test(key)));
   const numbers = given.get("q")?.split(",").map(Number) ?? null;
   return { linked, positions: numbers?.every(Number.isFinite) ? numbers : null };
@@ -60,6 +66,8 @@ export function write(state: Readonly<State>): string {
   else if (state.scene.objects.length) parts.push(["objects", JSON.stringify(state.scene.objects)]);
   const shown = FLAGS.filter((flag) => state[flag]);
   if (shown.length) parts.push(["show", shown.join(",")]);
+  if (state.theme !== "auto") parts.push(["theme", state.theme]);
+  if (state.camera) parts.push(["camera", [...state.camera.eye, ...state.camera.at].join(",")]);
   parts.push(...Object.entries(state.options).sort());
   return "#" + parts.map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
 }
@@ -96,6 +104,8 @@ export function mirror(store: Store<State>, restore: (address: Address) => void)
       "model",
       "loading",
       "options",
+      "theme",
+      "camera",
       ...FLAGS,
     ],
     () => {
@@ -107,7 +117,7 @@ export function mirror(store: Store<State>, restore: (address: Address) => void)
     if (location.hash === written) return;
     clearTimeout(timer);
     written = location.hash;
-    restore(read(location.hash));
+    restore(read(location.hash, store.value));
     place = placeOf(store.value);
   };
   window.addEventListener("popstate", follow);

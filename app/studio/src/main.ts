@@ -6,12 +6,14 @@ import "katex/dist/katex.min.css";
 
 import { mirror, read } from "./address.ts";
 import { Api } from "./api.ts";
+import { divide } from "./divider.ts";
 import { acceptDrops } from "./dropping.ts";
 import { embed, isEmbedded } from "./embed.ts";
 import { Key } from "./key.ts";
 import { followTheme, furnish, keySwitch } from "./page.ts";
 import type { Studio } from "./panels/panel.ts";
 import { showPart } from "./panels/robot/index.ts";
+import { preferred } from "./prefs.ts";
 import { Loader } from "./robot/load.ts";
 import { showBodies } from "./scene/bodies.ts";
 import { followContacts } from "./scene/contacts.ts";
@@ -21,14 +23,16 @@ import { initial } from "./state.ts";
 import { Store } from "./store.ts";
 import { askForKey, listenForHelp } from "./ui/dialogs.ts";
 import { element } from "./ui/dom.ts";
+import { followCamera } from "./view/looking.ts";
 import { mark } from "./view/marks.ts";
 import { View } from "./view/view.ts";
 
 const place = (id: string): HTMLElement => document.getElementById(id)!;
 
 function start(): void {
-  const { linked, positions } = read(location.hash);
-  const store = new Store(initial(linked));
+  const prefs = preferred();
+  const { linked, positions } = read(location.hash, prefs);
+  const store = new Store(initial(linked, prefs.width));
   const key = new Key(askForKey, ({ isWanted }) => (keyTool.hidden = !isWanted));
   const keyTool = keySwitch(key);
   const api = new Api(new URL(".", document.baseURI), key);
@@ -42,16 +46,15 @@ function start(): void {
     store.set({ meshes: store.value.meshes + 1 });
   });
   store.watch(["positions"], ({ model, positions: wanted }) => model?.place(wanted));
-  store.watch(["model"], ({ model }) => {
-    if (model) view?.show(model);
-    measure();
-  });
   if (view) {
+    followCamera(view, store);
+    store.watch(["model"], measure);
     store.watch(["dark"], () => view.dress());
     mark(view, store);
     showScene(view, store, api);
     showBodies(view, store, api);
   }
+  divide(place("divider"), place("main"), store);
   followContacts(store, api);
   followStored(store, api);
   followFiles(store, api);

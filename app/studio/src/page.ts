@@ -4,6 +4,7 @@ import type { Key } from "./key.ts";
 import { PANELS } from "./panels/index.ts";
 import type { Studio } from "./panels/panel.ts";
 import { shownChain } from "./robot/chain.ts";
+import { prefer } from "./prefs.ts";
 import type { State } from "./state.ts";
 import type { Store } from "./store.ts";
 import { share } from "./share.ts";
@@ -17,6 +18,8 @@ const MARKS = [
   { key: "dh", text: "DH frames", title: "The frames of the chain's DH table, with a and d" },
   { key: "bodies", text: "Bodies", title: "What contacts are computed of" },
 ] as const;
+
+const DARK = matchMedia("(prefers-color-scheme: dark)");
 
 export interface Places {
   tabs: HTMLElement;
@@ -132,15 +135,14 @@ function marks(host: HTMLElement, { store, view }: Studio): void {
 
 /** Follow the system, or be light or dark whatever it says; first of all, because others read the colours. */
 export function followTheme(store: Store<State>): void {
-  const system = matchMedia("(prefers-color-scheme: dark)");
   const follow = () => {
     const { theme } = store.value;
     if (theme === "auto") delete document.documentElement.dataset["theme"];
     else document.documentElement.dataset["theme"] = theme;
-    store.set({ dark: theme === "auto" ? system.matches : theme === "dark" });
+    store.set({ dark: theme === "auto" ? DARK.matches : theme === "dark" });
   };
   store.watch(["theme"], follow);
-  system.addEventListener("change", follow);
+  DARK.addEventListener("change", follow);
 }
 
 /** Another key in the place of the one that is used; only where the service wants any. */
@@ -159,7 +161,12 @@ export function keySwitch(key: Key): HTMLElement {
 }
 
 function themeSwitch({ store }: Studio): HTMLElement {
-  const flip = button("", () => store.set({ theme: store.value.dark ? "light" : "dark" }), { class: "tool" });
+  const change = () => {
+    const wanted = store.value.dark ? "light" : "dark";
+    // What the system has anyhow is followed, also when that changes.
+    prefer(store, { theme: wanted === (DARK.matches ? "dark" : "light") ? "auto" : wanted });
+  };
+  const flip = button("", change, { class: "tool" });
   store.watch(["dark"], ({ dark }) => {
     flip.textContent = dark ? "Light" : "Dark";
     flip.title = `Change to ${dark ? "light" : "dark"} colours`;

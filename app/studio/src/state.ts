@@ -2,12 +2,14 @@
 
 import type { Problem } from "./api.ts";
 import type { Plan } from "./panels/trajectory/answer.ts";
+import { type Theme, USUAL } from "./prefs.ts";
 import type { Motion } from "./panels/trajectory/motion.ts";
 import type { RobotModel } from "./robot/model.ts";
 import type { ChainTable } from "./robot/table.ts";
 import type { Contacts } from "./scene/contacts.ts";
 import { EMPTY, type Scene } from "./scene/objects.ts";
 import type { DhTable, InverseOptions, Pose } from "./types.ts";
+import type { Look } from "./view/looking.ts";
 
 export type Positions = Readonly<Record<string, number>>;
 
@@ -38,6 +40,9 @@ export interface Linked {
   motion: Motion | null;
   /** What stands around the robot. */
   scene: Scene;
+  theme: Theme;
+  /** Where the picture is looked at from; null where the whole robot is fitted into it. */
+  camera: Look | null;
   /** Whether angles are shown and typed in degrees; calls are always in radians. */
   degrees: boolean;
   frames: boolean;
@@ -74,7 +79,8 @@ export interface State extends Linked {
   joint: string | null;
   /** Length that suits marks on the robot on the screen, [m]. */
   unit: number;
-  theme: "auto" | "light" | "dark";
+  /** Width of the panel beside the picture, [px]; null for the usual one. */
+  width: number | null;
   /** What the theme comes to on this system. */
   dark: boolean;
 }
@@ -90,7 +96,9 @@ export const FIRST: Linked = {
   writing: { part: "transforms", notation: "short", symbolic: true },
   motion: null,
   scene: EMPTY,
-  degrees: false,
+  theme: USUAL.theme,
+  camera: null,
+  degrees: USUAL.degrees,
   frames: false,
   axes: false,
   names: false,
@@ -99,7 +107,7 @@ export const FIRST: Linked = {
   options: {},
 };
 
-export function initial(linked: Linked): State {
+export function initial(linked: Linked, width: number | null): State {
   return {
     ...linked,
     positions: {},
@@ -114,7 +122,7 @@ export function initial(linked: Linked): State {
     chosen: null,
     joint: null,
     unit: 0.1,
-    theme: "auto",
+    width,
     dark: false,
   };
 }

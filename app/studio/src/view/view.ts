@@ -22,6 +22,7 @@ import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
 
 import type { RobotModel } from "../robot/model.ts";
 import { colour } from "./colours.ts";
+import type { Look } from "./looking.ts";
 
 const DIRECTION = new Vector3(1.05, -1.35, 0.75).normalize();
 const CELLS = 20;
@@ -40,7 +41,10 @@ export class View {
   #grid = new Group();
   #floor = { level: 0, cell: 0.1 };
   #asked = false;
-  #isMoved = false;
+  /** Where it is looked at from, where that has been chosen; else the whole robot is fitted. */
+  #look: Look | null = null;
+  /** Is told of each choice. */
+  looked: (look: Look | null) => void = () => {};
 
   /** Throws where the browser has no WebGL. */
   constructor(host: HTMLElement) {
@@ -56,8 +60,7 @@ export class View {
     host.append(this.canvas, this.#labels.domElement);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.canvas);
-    this.controls.addEventListener("change", () => this.draw());
-    this.controls.addEventListener("start", () => (this.#isMoved = true));
+    this.#listen();
     this.canvas.addEventListener("keydown", (event) => this.#key(event));
     this.canvas.addEventListener("dblclick", () => this.fit());
     this.#light();
@@ -72,16 +75,39 @@ export class View {
     const before = this.#model;
     this.#model = model;
     this.scene.add(model.root);
-    const isSame = before !== null && before.name === model.name;
     if (before && before !== model) dispose(before.root);
-    if (!isSame) this.#isMoved = false;
     this.settle();
   }
 
   /** The scene of the robot has got another size: a mesh has arrived, or another configuration is far away. */
   settle(): void {
-    if (!this.#isMoved) this.fit();
+    this.#aim();
     this.draw();
+  }
+
+  /** Look from there; null for the whole robot. */
+  look(look: Look | null): void {
+    if (look === this.#look) return;
+    this.#look = look;
+    this.settle();
+  }
+
+  /** Keep the camera where a hand has put it, also while it is held: meshes may arrive meanwhile. */
+  #listen(): void {
+    let held = false;
+    let before: Look | null = null;
+    this.controls.addEventListener("start", () => {
+      held = true;
+      before = this.#look;
+    });
+    this.controls.addEventListener("change", () => {
+      if (held) this.#look = this.#here();
+      this.draw();
+    });
+    this.controls.addEventListener("end", () => {
+      held = false;
+      if (this.#look !== before) this.looked(this.#look);
+    });
   }
 
   /** What is to be seen besides the robot, in the world; null for nothing. */
@@ -92,8 +118,13 @@ export class View {
 
   /** Look at the whole robot from the usual side. */
   fit(): void {
+    this.#look = null;
+    this.settle();
+    this.looked(null);
+  }
+
+  #aim(): void {
     if (!this.#model) return;
-    this.#isMoved = false;
     const box = extent(this.#model);
     const size = Math.max(box.getSize(new Vector3()).length(), 0.05);
     // Meshes that arrive change the size a little; marks stay as they are until it has changed much.
@@ -106,6 +137,10 @@ export class View {
     this.camera.far = size * 60;
     this.controls.target.copy(centre);
     this.camera.position.copy(centre).addScaledVector(DIRECTION, distance);
+    if (this.#look) {
+      this.controls.target.set(...this.#look.at);
+      this.camera.position.set(...this.#look.eye);
+    }
     this.camera.updateProjectionMatrix();
     this.controls.update();
     this.#lay(box, size);
@@ -205,10 +240,19 @@ export class View {
     }
     event.preventDefault();
     if (event.key === "Home") return;
-    this.#isMoved = true;
     this.camera.position.copy(this.controls.target).add(offset);
     this.controls.update();
     this.draw();
+    this.#look = this.#here();
+    this.looked(this.#look);
+  }
+
+  /** Where the camera stands, to so many digits as a link has. */
+  #here(): Look {
+    const [eye, at] = [this.camera.position, this.controls.target].map(
+      (point) => point.toArray().map((value) => Number(value.toPrecision(5))) as [number, number, number],
+    );
+    return { eye: eye!, at: at! };
   }
 }
 

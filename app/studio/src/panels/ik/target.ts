@@ -2,6 +2,7 @@
 
 import type { Matrix4 } from "three";
 
+import { prefer } from "../../prefs.ts";
 import { shownChain } from "../../robot/chain.ts";
 import { asPose, formatOf, straightened } from "../../robot/pose.ts";
 import type { State } from "../../state.ts";
@@ -34,7 +35,7 @@ export function targetPart(studio: Studio, solver: Solver): Part {
       { value: "rad", text: "rad" },
       { value: "deg", text: "deg" },
     ],
-    (chosen) => store.set({ degrees: chosen === "deg" }),
+    (chosen) => prefer(store, { degrees: chosen === "deg" }),
   );
   const modes = gizmo && dragModes(gizmo);
   const spring = element("span", { class: "spring" });

@@ -1,5 +1,6 @@
 /** Pose: move the joints, read where the tip is, and see that browser and service agree. */
 
+import { prefer } from "../../prefs.ts";
 import { shownChain, type ShownChain } from "../../robot/chain.ts";
 import type { Positions } from "../../state.ts";
 import { Choice, button, element, section } from "../../ui/dom.ts";
@@ -25,7 +26,7 @@ function open(host: HTMLElement, studio: Studio): () => void {
       { value: "rad", text: "rad" },
       { value: "deg", text: "deg" },
     ],
-    (chosen) => store.set({ degrees: chosen === "deg" }),
+    (chosen) => prefer(store, { degrees: chosen === "deg" }),
   );
   host.append(
     section(

@@ -1,0 +1,38 @@
+/** From where the picture is looked at, as the state has it. */
+
+import type { State } from "../state.ts";
+import type { Store } from "../store.ts";
+import type { View } from "./view.ts";
+
+/** A point, in the world, [m]. */
+type Point = readonly [number, number, number];
+
+export interface Look {
+  eye: Point;
+  at: Point;
+}
+
+const FARTHEST = 1e4; // m
+
+/** Six numbers of a link; null where they say nothing that can be looked at. */
+export function asLook(numbers: readonly number[]): Look | null {
+  if (numbers.length !== 6 || !numbers.every((number) => Math.abs(number) <= FARTHEST)) return null;
+  const [x, y, z, u, v, w] = numbers as [number, number, number, number, number, number];
+  return Math.hypot(x - u, y - v, z - w) > 1e-3 ? { eye: [x, y, z], at: [u, v, w] } : null;
+}
+
+/** Keep camera and state alike. Another robot than the one that a camera was chosen for is looked at as a whole. */
+export function followCamera(view: View, store: Store<State>): void {
+  let robot = store.value.robot;
+  view.looked = (camera) => store.set({ camera });
+  store.watch(["camera"], (state) => {
+    robot = state.robot;
+    view.look(state.camera);
+  });
+  store.watch(["model"], (state) => {
+    if (!state.model) return;
+    view.show(state.model);
+    if (state.robot !== robot) store.set({ camera: null });
+    robot = state.robot;
+  });
+}
