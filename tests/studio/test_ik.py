@@ -144,6 +144,18 @@ def test_the_verdict_where_there_is_none(studio: Studio) -> None:
     assert chain_positions(studio, answer["joint_names"]) == result["nearest"]["joint_positions"]
     assert studio.run(IS_THERE, "nearest") < 1e-12
     assert not studio.run("studio.view.scene.getObjectByName('nearest').visible")
+    # The box no longer offers what has been done, until the robot has left again.
+    assert studio.button("Move to nearest").count() == 0
+    assert studio.button("The robot is there").get_attribute("aria-disabled") == "true"
+    studio.run("studio.store.set({positions: {...studio.store.value.positions, panda_joint1: 0.5}})")
+    assert studio.button("Move to nearest").get_attribute("aria-disabled") == "false"
+    # One method from one start does not know what is nearest, only where it stopped.
+    studio.field("Method").select_option("gradient")
+    studio.until("document.querySelector('.verdict-failure').textContent.includes('the method stopped')")
+    assert studio.button("Move to nearest").count() == 0
+    assert studio.button("Move to where it stopped").is_visible()
+    studio.field("Method").select_option("auto")
+    studio.until("!document.querySelector('.verdict-failure').textContent.includes('the method stopped')")
     # A joint in the way is named with its limit; without limits the target is reached.
     studio.run("studio.store.set({target: {position: [0, -0.1, 0.6], rpy: [1, 0, 0]}})")
     studio.until("document.querySelector('.verdict-failure').textContent.includes('outside the limits')")

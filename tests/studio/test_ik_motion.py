@@ -125,9 +125,16 @@ def test_newton_and_the_gradient_walk_to_the_target(studio: Studio, robot: str) 
         result = trace(studio, robot, method)
         steps = result["trace"]
         lengths.append(len(steps))
-        assert f"converged after {len(steps) - 1} iterations" in said[len(lengths) - 1]
+        found = result["solutions"][0]
+        end = f"{found['position_error']:.1e}"  # the service's own figure, at the end and not at the start
+        digits, power = end.split("e")
+        raised = "".join("⁰¹²³⁴⁵⁶⁷⁸⁹"[int(c)] if c.isdigit() else "⁻" for c in str(int(power)))
+        assert f"converged after {len(steps) - 1} iterations, {digits}·10{raised} m" in said[len(lengths) - 1]
+        assert said[len(lengths) - 1].endswith(" off at the end")
         for k in (1, len(steps) // 2, len(steps) - 1):
             distance, angle = way(studio, method, k)
+            now = studio.page.locator(f"[data-method={method}] .way-now").inner_text()
+            assert now.startswith(f"Iteration {k}: ")
             # The service mixes metres and radians into one number; the browser has them apart.
             mixed = math.hypot(distance, angle) if robot == "panda" else distance
             assert mixed == pytest.approx(steps[k]["error"], rel=1e-6, abs=1e-13)

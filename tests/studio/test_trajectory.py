@@ -688,6 +688,59 @@ def test_task_blends_and_the_shortest_time(studio: Studio) -> None:
 
 
 @pytest.mark.slow
+def test_a_law_that_a_blend_replaces_is_said_above_the_result(studio: Studio) -> None:
+    """What was taken is what the service says, not what the page thinks of blends; a law that is kept needs no word."""
+    panda(studio)
+    add(studio, "Line", ABOVE)
+    add(studio, "Line", ASIDE)
+    answer = plan(studio)
+    said = studio.page.get_by_role("list", name="Laws that were replaced")
+    assert {segment["law"] for segment in answer["segments"]} == {"trapezoidal"}
+    assert said.is_hidden()
+    blend = "studio.store.set({motion: {...%s, segments: %s.segments.map((one, i) => i ? one : {...one, ...%s})}})"
+    motion = "studio.store.value.motion"
+    studio.run(blend % (motion, motion, "{blend_radius: 0.02}"))
+    answer = plan(studio)
+    assert {segment["law"] for segment in answer["segments"]} == {"time_optimal"}
+    assert said.inner_text() == "Segments 1, 2: Time-optimal in place of trapezoidal; the notes say why."
+    assert any("in place of `trapezoidal`" in note for note in answer["segments"][0]["notes"])
+    studio.run(f"studio.store.set({{motion: {{...{motion}, law: 'quintic'}}}})")
+    answer = plan(studio)
+    assert {segment["law"] for segment in answer["segments"]} == {"quintic"}
+    assert said.is_hidden()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("size", [(1440, 900), (390, 844)])
+def test_a_plan_comes_into_sight_with_the_keyboard(another: Callable[..., Studio], size: tuple[int, int]) -> None:
+    """The result's title is seen and has the focus; whoever has gone on to a field meanwhile is left there."""
+    studio = another(width=size[0], height=size[1])
+    panda(studio)
+    for configuration in (ABOVE, ASIDE, FAR):
+        add(studio, "Joint target", configuration)
+    studio.page.get_by_text("Law and limits").click()
+    studio.button("Plan").click()
+    studio.until("studio.store.value.plan", COLD)
+    focus = "document.activeElement.textContent"
+    studio.until(f"{focus}.startsWith('Motion of')")
+    top = "document.activeElement.getBoundingClientRect().top"
+    below = "document.querySelector('#panel').getBoundingClientRect()"
+    studio.until(f"{top} >= {below}.top && {top} < {below}.top + 60")
+    studio.run("studio.store.set({plan: null})")
+    held: list[Route] = []
+    studio.page.route("**/trajectory", lambda route: held.append(route))
+    studio.button("Plan").click()
+    assert studio.run(focus) == "Cancel"
+    studio.field("Sample period").focus()
+    studio.until("document.activeElement.tagName === 'INPUT'")
+    while not held:  # the page hands its call over in its own time
+        studio.page.wait_for_timeout(20)
+    held[0].continue_()
+    studio.until("studio.store.value.plan", COLD)
+    assert studio.run("document.activeElement.tagName") == "INPUT"
+
+
+@pytest.mark.slow
 def test_a_circle_is_blended_into_a_line_by_its_radius(studio: Studio) -> None:
     """The circle of three places, 0.2 m around one in the middle, then a line; no picture of a fly-over is offered."""
     places = ([0.9, 0.9, 0.0], [0.7, 1.1, 0.0], [0.5, 1.1, 0.0])

@@ -149,7 +149,7 @@ export class Convergence {
         element(
           "li",
           { class: `way ${way.method === "newton" ? "newton" : "rival"}`, "data-method": way.method },
-          element("span", {}, `${TITLES[way.method]} ${way.end}`),
+          element("span", {}, `${TITLES[way.method]} ${way.end}`, remainder(way, this.#task)),
           now,
         ),
       ),
@@ -165,7 +165,7 @@ export class Convergence {
     this.#plot.mark(index);
     for (const { way, now } of this.#lines) {
       const step = stepAt(way, index);
-      now.textContent = errors(step, this.#task);
+      now.textContent = `Iteration ${Math.min(index, way.steps.length - 1)}: ${errors(step, this.#task)} off`;
       now.dataset["position"] = String(step.position_error);
       now.dataset["orientation"] = String(step.orientation_error);
     }
@@ -204,6 +204,12 @@ function curves({ hue, steps }: Way, task: InverseAnswer["task"]): Curve[] {
   if (hasPosition(task)) made.push({ hue, isDashed: false, values: steps.map((step) => step.position_error) });
   if (hasOrientation(task)) made.push({ hue, isDashed: true, values: steps.map((step) => step.orientation_error) });
   return made;
+}
+
+/** What is left of the error where a way ends. */
+function remainder({ steps }: Way, task: InverseAnswer["task"]): string {
+  const last = steps.at(-1);
+  return last ? `, ${errors(last, task)} off at the end` : "";
 }
 
 function meaning(task: InverseAnswer["task"]): string {

@@ -57,7 +57,10 @@ function solutionsPart({ store, view }: Studio, solver: Solver): Part {
       if (target && !outcome.value.isFollowing) void solver.solve();
     }),
     store.watch(["model", "base", "tip", "inverse", "degrees"], (state) => options.show(state)),
-    store.watch(["positions", "degrees"], () => list.show()),
+    store.watch(["positions", "degrees"], () => {
+      list.show();
+      verdict.follow();
+    }),
     outcome.watch(["result"], () => {
       list.show();
       families.show();

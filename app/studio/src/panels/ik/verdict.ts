@@ -4,6 +4,9 @@ import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
 import type { InverseResult } from "../../types.ts";
 import { button, element } from "../../ui/dom.ts";
+import { shownChain } from "../../robot/chain.ts";
+import { findsAll, fullOptions } from "./call.ts";
+import { distance } from "./distance.ts";
 import { errors } from "./errors.ts";
 import { MOST_GHOSTS } from "./picture.ts";
 import { moved, type Outcome, type Solver } from "./solver.ts";
@@ -15,6 +18,7 @@ const TITLES: Record<Exclude<InverseResult["status"], "solved">, string> = {
   not_converged: "Not converged",
   in_collision: "Only in contact",
 };
+const THERE = 1e-6; // rad or m; the robot is in the nearest configuration
 const BUSY_AFTER = 200; // ms; what is quicker needs no word
 
 export class Verdict {
@@ -22,6 +26,8 @@ export class Verdict {
   #summary = element("p", { class: "verdict-summary", role: "status" });
   #failure = element("div", { class: "verdict-failure", hidden: true });
   #cancel: HTMLButtonElement;
+  /** Whether the robot is where the box would have it move; null without such a place. */
+  #place: (() => void) | null = null;
   #timer = 0;
 
   constructor(
@@ -52,6 +58,11 @@ export class Verdict {
     this.#failure.replaceChildren(...(hasFailed ? this.#explain(result) : []));
   }
 
+  /** The robot has moved: it may be in the nearest configuration by now, or no more. */
+  follow(): void {
+    this.#place?.();
+  }
+
   close(): void {
     clearTimeout(this.#timer);
   }
@@ -63,24 +74,31 @@ export class Verdict {
 
   #explain(result: InverseResult): HTMLElement[] {
     const { nearest, reason } = result;
+    this.#place = null;
     const parts = [element("strong", {}, TITLES[result.status as keyof typeof TITLES])];
     if (reason) parts.push(element("p", {}, `${reason[0]!.toUpperCase()}${reason.slice(1)}.`));
-    if (nearest) {
-      const off = `${errors(nearest, this.solver.outcome.value.answer!.task)} off`;
-      const go = () => {
-        const names = this.solver.outcome.value.answer!.joint_names;
-        this.store.set({ positions: moved(this.store.value, names, nearest.joint_positions) });
-      };
-      parts.push(
-        element(
-          "div",
-          { class: "bar" },
-          button("Move to nearest", go, { class: "button" }),
-          element("span", { class: "small" }, off),
-        ),
-      );
-    }
+    if (nearest) parts.push(this.#nearest(nearest));
     return parts;
+  }
+
+  /** The way to the configuration that comes nearest, until the robot is there. */
+  #nearest(nearest: NonNullable<InverseResult["nearest"]>): HTMLElement {
+    const { joint_names: names, task } = this.solver.outcome.value.answer!;
+    const { joint_positions: wanted } = nearest;
+    const move = () => this.store.set({ positions: moved(this.store.value, names, wanted) });
+    const go = button("", move, { class: "button" });
+    this.#place = () => {
+      const chain = shownChain(this.store.value);
+      if (!chain) return;
+      const isThere = distance(chain, wanted) < THERE;
+      // A method from one start says where it stopped: others come nearer.
+      const isNearest = findsAll(fullOptions(this.store.value.inverse, chain.joints.length).method);
+      const place = isNearest ? "Move to nearest" : "Move to where it stopped";
+      go.textContent = isThere ? "The robot is there" : place;
+      go.setAttribute("aria-disabled", String(isThere));
+    };
+    this.#place();
+    return element("div", { class: "bar" }, go, element("span", { class: "small" }, `${errors(nearest, task)} off`));
   }
 }
 

@@ -42,7 +42,10 @@ function open(host: HTMLElement, studio: Studio): () => void {
     draft,
     asked,
     (places) => loads.fail(ends.fail(tool.fail(list.fail(places)))),
-    () => result.begin(),
+    (isFocusFree) => {
+      result.begin();
+      if (isFocusFree) result.reveal();
+    },
   );
   host.append(
     section("Motion", list.host, tool.host, arm.host, settings.host, ends.host, loads.host, planner.host),

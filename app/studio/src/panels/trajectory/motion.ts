@@ -109,6 +109,9 @@ export const LAWS: readonly { value: Law; text: string }[] = [
   { value: "time_optimal", text: "Time-optimal" },
 ];
 
+/** The law where a motion says none. */
+export const USUAL_LAW: Law = "trapezoidal";
+
 /** A motion of the chain on the screen that has a start, where the robot is now, and goes nowhere yet. */
 export function fresh(chain: ShownChain): Motion {
   return { robot: chain.model.title, ...chain.ends, start: chain.configuration, segments: [] };

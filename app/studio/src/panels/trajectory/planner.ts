@@ -21,16 +21,21 @@ export class Planner {
 
   /**
    * @param fail shows what the service has against fields of the motion, and returns what it has no field for.
-   * @param planned is told when a plan that was pressed for is there.
+   * @param planned is told when a plan that was pressed for is there, and whether the focus has stayed.
    */
   constructor(
     private readonly draft: Draft,
     private readonly asked: RequestView,
     private readonly fail: (places: readonly Refused[]) => readonly Refused[],
-    planned: () => void,
+    planned: (isFocusFree: boolean) => void,
   ) {
     const press = async () => {
-      if (await this.plan()) planned();
+      const answered = this.plan();
+      this.#cancel.focus();
+      // Whoever has gone to another field meanwhile is left there.
+      const isFree = () => document.activeElement === document.body || this.host.contains(document.activeElement);
+      if (await answered) planned(isFree());
+      else if (isFree()) this.#plan.focus();
     };
     this.#plan = button("Plan", () => void press(), { class: "button primary" });
     this.host = element(

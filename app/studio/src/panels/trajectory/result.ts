@@ -14,7 +14,7 @@ import { Saving } from "./saving.ts";
 import { type MotionMarks, tipPath } from "./scene.ts";
 import { choiceText } from "./tool.ts";
 import { Torques } from "./torques.ts";
-import { auditTable, failureBox, timingTable } from "./verdict.ts";
+import { auditTable, failureBox, replacedLaws, timingTable } from "./verdict.ts";
 
 export class Result {
   readonly host: HTMLElement;
@@ -23,9 +23,10 @@ export class Result {
   #curve: Curve | null = null;
   #player = new Player((time) => this.#move(time));
   #profiles: Profiles;
-  #title = element("h2");
+  #title = element("h2", { tabindex: -1 });
   #saving: Saving;
   #ended = element("div");
+  #replaced = element("ul", { class: "replaced", "aria-label": "Laws that were replaced", hidden: true });
   #drawings = element("div");
   #body = element("div", { class: "part" });
 
@@ -47,6 +48,7 @@ export class Result {
       element("div", { class: "bar" }, this.#title, element("span", { class: "spring" }), this.#saving.host),
       this.#saving.problem.host,
       this.#ended,
+      this.#replaced,
       this.#player.host,
       this.#profiles.host,
       clearance.host,
@@ -98,6 +100,13 @@ export class Result {
     this.#player.seek(0);
   }
 
+  /** Bring it into sight, and the keyboard to it. */
+  reveal(): void {
+    const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.host.scrollIntoView({ block: "start", behavior: isCalm ? "instant" : "smooth" });
+    this.#title.focus({ preventScroll: true });
+  }
+
   stop(): void {
     this.#player.pause();
     this.#profiles.stop();
@@ -119,6 +128,9 @@ export class Result {
       ...answer.notes,
       ...answer.segments.flatMap(({ index, notes }) => notes.map((note) => `Segment ${index + 1}: ${note}`)),
     ];
+    const replaced = replacedLaws(this.#plan.motion, answer.segments);
+    this.#replaced.hidden = replaced.length === 0;
+    this.#replaced.replaceChildren(...replaced.map((text) => element("li", {}, `${text}; the notes say why.`)));
     this.#ended.hidden = failure === null;
     this.#ended.replaceChildren(...(failure ? [failure] : []));
     this.#body.replaceChildren(

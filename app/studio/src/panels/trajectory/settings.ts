@@ -8,7 +8,7 @@ import { format, type Kind } from "../../ui/quantity.ts";
 import type { JointLimits } from "./answer.ts";
 import type { Draft } from "./draft.ts";
 import { choice, type Field, jointTable, kindOf, optional, unitsOf } from "./fields.ts";
-import { LAWS, type Motion, type NearSingularity } from "./motion.ts";
+import { LAWS, type Motion, type NearSingularity, USUAL_LAW } from "./motion.ts";
 
 const NEAR: readonly { value: NearSingularity; text: string }[] = [
   { value: "stop", text: "Stop" },
@@ -91,7 +91,7 @@ export class Settings {
 
   #law(): HTMLElement {
     const field = choice("Law of time", "Law of time", LAWS, (law) => this.draft.set({ law }));
-    return this.#follow(field, ({ law }) => law ?? "trapezoidal");
+    return this.#follow(field, ({ law }) => law ?? USUAL_LAW);
   }
 
   #near(): HTMLElement {
@@ -188,7 +188,7 @@ function unscaled(limits: JointLimits, { velocity_scale = 1, acceleration_scale 
 }
 
 function summary(motion: Motion): string {
-  const { law = "trapezoidal", velocity_scale, acceleration_scale, duration, limits, near_singularity } = motion;
+  const { law = USUAL_LAW, velocity_scale, acceleration_scale, duration, limits, near_singularity } = motion;
   const said = [
     LAWS.find(({ value }) => value === law)!.text.toLowerCase(),
     velocity_scale !== undefined && `velocity × ${velocity_scale}`,

@@ -6,7 +6,7 @@ import { fixed, scientific, unitOf } from "../../ui/quantity.ts";
 import type { TrajectoryAnswer } from "../../types.ts";
 import type { Audit, Failure, Peak } from "./answer.ts";
 import { effortUnit, kindOf } from "./fields.ts";
-import type { Law } from "./motion.ts";
+import { type Law, LAWS, type Motion, USUAL_LAW } from "./motion.ts";
 
 /** Laws that keep the limits of jerk; the others are only compared with them. */
 const KEEP_JERK: ReadonlySet<Law> = new Set(["quintic", "septic", "jerk_limited"]);
@@ -98,6 +98,25 @@ export function auditTable(
       element("tbody", {}, ...found.map((finding) => row(finding, go))),
     ),
   );
+}
+
+/** Which laws were taken in place of those that were asked for, each once with its segments. */
+export function replacedLaws(motion: Motion, segments: TrajectoryAnswer["segments"]): string[] {
+  const found = new Map<string, number[]>();
+  const wanted = motion.path ? [] : motion.segments; // along a path they wait
+  for (const { index, law } of segments) {
+    const asked = wanted[index]?.law ?? motion.law ?? USUAL_LAW;
+    if (law === asked) continue;
+    const text = `${titleOf(law)} in place of ${titleOf(asked).toLowerCase()}`;
+    found.set(text, [...(found.get(text) ?? []), index + 1]);
+  }
+  return [...found].map(
+    ([text, numbers]) => `${numbers.length > 1 ? "Segments" : "Segment"} ${numbers.join(", ")}: ${text}`,
+  );
+}
+
+function titleOf(law: Law): string {
+  return LAWS.find(({ value }) => value === law)?.text ?? law;
 }
 
 /** What the time-optimal law would gain on each way, where that was asked for. */
