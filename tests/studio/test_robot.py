@@ -2,7 +2,9 @@
 
 import io
 import json
+import math
 import zipfile
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -213,6 +215,56 @@ def test_a_wrong_cell_shows_its_error(studio: Studio, refusals: set[int]) -> Non
         error.wait_for(state="hidden")
         studio.until("!studio.store.value.loading && !studio.store.value.failure")
     refusals.add(422)
+
+
+@pytest.mark.slow
+def test_ninety_radians_ask_whether_degrees_are_meant(studio: Studio) -> None:
+    """At the cell, taken with one click; not where the unit is typed too, nor of an angular velocity."""
+    type_table(studio, ANTHROPOMORPHIC)
+    question = studio.page.locator("tr.cell-question:visible")
+    studio.type("Row 1, α", "90")
+    assert "α = 90 rad is 14.3 turns" in question.inner_text()
+    studio.type("Row 1, lower limit", "-170")
+    studio.type("Row 1, upper limit", "170 deg")
+    assert question.get_by_role("button").count() == 2
+    studio.button("Take α as 90°").click()
+    studio.button("Take lower limit as −170°").click()
+    assert question.count() == 0
+    studio.until("!studio.store.value.loading && !studio.store.value.failure")
+    row = studio.state("draft")["joints"][0]
+    assert row["alpha"] == math.pi / 2
+    assert (row["lower"], row["upper"]) == pytest.approx((math.radians(-170), math.radians(170)))
+    assert studio.field("Row 1, α").input_value() == "π/2"
+    assert studio.run("document.activeElement.getAttribute('aria-label')") == "Row 1, lower limit"
+    studio.type("Row 1, α", "90 rad")
+    assert question.count() == 0
+    studio.type("Row 1, α", "0.5")
+    studio.button("Names, velocity, effort").click()
+    studio.type("Row 1, velocity limit", "10")
+    assert question.count() == 0
+
+
+@pytest.mark.slow
+def test_the_catalogue_is_current_when_somebody_comes_back(another: Callable[..., Studio]) -> None:
+    """Another page has added and removed a robot meanwhile; the place in the list and the focus stay."""
+    studio = another()
+    studio.open("robot", robot="panda")
+    listed = "[...document.querySelectorAll('.robot')].map((made) => made.dataset.robot)"
+    studio.until(f"{listed}.length > 70")
+    studio.page.locator("[data-robot=scara]").focus()
+    place = studio.run("document.querySelector('.robots').scrollTop")
+    dh = {"convention": "standard", "joints": [{"type": "revolute", "a": 0.5, "alpha": 0, "d": 0, "theta": 0}]}
+    assert get(f"{studio.url}/v1/robots", "POST", {"name": "meanwhile", "dh": dh})[0] == 201
+    try:
+        assert "meanwhile" not in studio.run(listed)
+        studio.run("document.dispatchEvent(new Event('visibilitychange'))")
+        studio.until(f"{listed}.includes('meanwhile')")
+        assert studio.run("document.activeElement.dataset.robot") == "scara"
+        assert studio.run("document.querySelector('.robots').scrollTop") == place
+    finally:
+        assert get(f"{studio.url}/v1/robots/meanwhile", "DELETE")[0] == 204
+    studio.run("window.dispatchEvent(new Event('focus'))")
+    studio.until(f"!{listed}.includes('meanwhile')")
 
 
 @pytest.mark.slow

@@ -1,7 +1,7 @@
 /** A field for a number: shows it rounded, edits it exactly, and says when what is typed is none. */
 
 import { element } from "./dom.ts";
-import { exact, format, type Kind, parse } from "./quantity.ts";
+import { exact, format, ifDegrees, type Kind, parse } from "./quantity.ts";
 
 const WRITE = { length: "Write a number such as 0.35", angle: "Write a number such as 0.35, pi/2 or 90°" };
 
@@ -20,6 +20,8 @@ export interface NumberOptions {
   step?: { by: number; take: (value: number) => void };
   /** The field holds no number, or again one. */
   invalid?: (reason: string | null) => void;
+  /** What was typed looks like degrees, which are so many radians; null where it no longer does. */
+  doubt?: (asDegrees: number | null) => void;
 }
 
 export class NumberField {
@@ -121,12 +123,13 @@ export class NumberField {
 
   /** What is typed; undefined, with the reason at the field, where it is no number. */
   #read(): number | null | undefined {
-    const { kind, degrees, optional, invalid } = this.options;
+    const { kind, degrees, optional, invalid, doubt } = this.options;
     const text = this.input.value;
     const value = optional && text.trim() === "" ? null : parse(text, kind, degrees());
     const reason = value === null && !(optional && text.trim() === "") ? WRITE[kind] : null;
     this.fail(reason);
     invalid?.(reason);
+    if (kind === "angle") doubt?.(ifDegrees(text, degrees()));
     return reason === null ? value : undefined;
   }
 }

@@ -19,6 +19,13 @@ export function parse(text: string, kind: Kind, degrees: boolean): number | null
   return isDegrees ? (found.value * Math.PI) / 180 : found.value;
 }
 
+/** What a bare number is if it is one of degrees, [rad], where as one of radians it were more than a turn; else null. */
+export function ifDegrees(text: string, degrees: boolean): number | null {
+  const [asRadians, asDegrees] = [parse(text, "angle", false), parse(text, "angle", true)];
+  const isBare = asRadians !== asDegrees;
+  return !degrees && isBare && Math.abs(asRadians!) > 2 * Math.PI ? asDegrees : null;
+}
+
 /** Numbers and π, multiplied and divided from left to right: `3*pi/4`, `3π/4`. */
 function product(text: string): { value: number; hasPi: boolean } | null {
   const sign = text.startsWith("-") ? -1 : 1;

@@ -31,14 +31,24 @@ export function catalogue(host: HTMLElement, { api, store }: Studio): () => void
   host.append(search, count, list, problem.host);
   const load = async () => {
     try {
-      robots = (await api.get<{ robots: RobotSummary[] }>("v1/robots", stop.signal)).robots;
-      robots.sort((a, b) => (a.source === b.source ? 0 : a.source === "uploaded" ? -1 : 1));
-      show();
-      reveal(list);
+      const { robots: found } = await api.get<{ robots: RobotSummary[] }>("v1/robots", stop.signal);
+      problem.show(null);
+      found.sort((a, b) => (a.source === b.source ? 0 : a.source === "uploaded" ? -1 : 1));
+      if (JSON.stringify(found) === JSON.stringify(robots)) return;
+      const isFirst = robots.length === 0;
+      robots = found;
+      keepingPlace(list, show);
+      if (isFirst) reveal(list);
     } catch (error) {
       if (!stop.signal.aborted) problem.show(asProblem(error));
     }
   };
+  // What another page has added or removed meanwhile is there when somebody returns to this one.
+  const back = () => {
+    if (document.visibilityState === "visible") void load();
+  };
+  document.addEventListener("visibilitychange", back, { signal: stop.signal });
+  window.addEventListener("focus", back, { signal: stop.signal });
   void load();
   const unwatch = store.watch(["robot"], ({ robot }) => {
     for (const made of list.querySelectorAll("button"))
@@ -48,6 +58,17 @@ export function catalogue(host: HTMLElement, { api, store }: Studio): () => void
     stop.abort();
     unwatch();
   };
+}
+
+/** Build the list anew, with what is in sight and the focus as they were. */
+function keepingPlace(list: HTMLElement, build: () => void): void {
+  const { scrollTop } = list;
+  const focused = list.contains(document.activeElement)
+    ? (document.activeElement as HTMLElement).dataset["robot"]
+    : null;
+  build();
+  list.scrollTop = scrollTop;
+  if (focused) list.querySelector<HTMLElement>(`[data-robot="${CSS.escape(focused)}"]`)?.focus({ preventScroll: true });
 }
 
 /** Scroll the list, and nothing around it, to the robot on the screen. */

@@ -4,7 +4,7 @@ import { jointName } from "../../robot/dh.ts";
 import type { DhRow } from "../../types.ts";
 import { button, element } from "../../ui/dom.ts";
 import { NumberField } from "../../ui/number.ts";
-import { type Kind, unitOf } from "../../ui/quantity.ts";
+import { format, type Kind, unitOf } from "../../ui/quantity.ts";
 
 export type Parameter = "a" | "alpha" | "d" | "theta" | "lower" | "upper" | "velocity" | "effort";
 
@@ -55,6 +55,9 @@ export class Row {
   /** What the service says against cells. */
   #refused = new Map<string, string>();
   #isDetailed = false;
+  /** Angles that look like degrees, typed where radians are meant, as what they then are, [rad]. */
+  #doubts = new Map<Parameter, number>();
+  #questions: HTMLElement;
 
   constructor(
     private readonly row: DhRow,
@@ -74,7 +77,8 @@ export class Row {
     this.#name.value = jointName(row, index);
     this.#details = this.#detailsRow(number);
     this.#errors = element("tr", { class: "cell-error", hidden: true });
-    this.hosts = [this.#parameters(number), this.#details, this.#errors];
+    this.#questions = element("tr", { class: "cell-question", hidden: true });
+    this.hosts = [this.#parameters(number), this.#details, this.#errors, this.#questions];
   }
 
   get isRead(): boolean {
@@ -181,12 +185,44 @@ export class Row {
         else this.#unread.set(name, reason);
         this.#showErrors();
       },
+      // A joint may well turn faster than a turn a second.
+      ...(name !== "velocity" && { doubt: (asDegrees) => this.#doubt(name, asDegrees) }),
     });
     field.set(row[name] ?? null);
     if (name === "lower") field.input.placeholder = kind === "angle" ? "−π" : "−1";
     if (name === "upper") field.input.placeholder = kind === "angle" ? "π" : "1";
     this.#fields.set(name, field);
     return field;
+  }
+
+  /** Ask whether degrees are meant; the same question stays as it is, or a press on it would go astray. */
+  #doubt(name: Parameter, asDegrees: number | null): void {
+    if ((this.#doubts.get(name) ?? null) === asDegrees) return;
+    if (asDegrees === null) this.#doubts.delete(name);
+    else this.#doubts.set(name, asDegrees);
+    const asked = [...this.#doubts].map(([of, radians]) => this.#question(of, radians));
+    this.#questions.hidden = asked.length === 0;
+    this.#questions.replaceChildren(element("td", { colspan: COLUMNS.length + 3, role: "status" }, ...asked));
+  }
+
+  #question(name: Parameter, radians: number): HTMLElement {
+    const text = `${format(radians, "angle", true, 6)}°`;
+    const take = () => {
+      const field = this.#fields.get(name)!;
+      this.row[name] = radians;
+      this.#doubt(name, null);
+      field.set(radians);
+      field.input.focus();
+      this.options.edited();
+    };
+    const turns = `${format((radians * 180) / Math.PI / (2 * Math.PI), "length", false, 1)} turns`;
+    const typed = format((radians * 180) / Math.PI, "length", false, 4);
+    return element(
+      "p",
+      {},
+      `${SIGNS[name]} = ${typed} rad is ${turns}. `,
+      button(`${text}?`, take, { class: "button small", "aria-label": `Take ${SIGNS[name]} as ${text}` }),
+    );
   }
 
   #showErrors(): void {
