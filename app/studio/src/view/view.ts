@@ -23,6 +23,7 @@ import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
 import type { RobotModel } from "../robot/model.ts";
 import { colour } from "./colours.ts";
 import type { Look } from "./looking.ts";
+import { arrange } from "./placing.ts";
 
 const DIRECTION = new Vector3(1.05, -1.35, 0.75).normalize();
 const CELLS = 20;
@@ -161,6 +162,7 @@ export class View {
       this.#asked = false;
       this.#renderer.render(this.scene, this.camera);
       this.#labels.render(this.scene, this.camera);
+      arrange(this.#labels.domElement);
     });
   }
 

@@ -215,7 +215,7 @@ export class Row {
       field.input.focus();
       this.options.edited();
     };
-    const turns = `${format((radians * 180) / Math.PI / (2 * Math.PI), "length", false, 1)} turns`;
+    const turns = `${format((Math.abs(radians) * 180) / Math.PI / (2 * Math.PI), "length", false, 1)} turns`;
     const typed = format((radians * 180) / Math.PI, "length", false, 4);
     return element(
       "p",
