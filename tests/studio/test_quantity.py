@@ -17,3 +17,22 @@ def test_a_bare_angle_of_more_than_a_turn_may_be_degrees() -> None:
         text: pytest.approx(math.radians(TURNS[text])) if text in TURNS else None for text in TYPED
     }
     assert values("ui/quantity.ts", ["m.ifDegrees('90', true)", "m.ifDegrees('700', true)"]) == [None, None]
+
+
+def test_what_is_measured_follows_from_the_unit() -> None:
+    """Rates of lengths and angles too; no area, no force, no time: another unit of length would change these."""
+    kinds = {
+        "length": ["m", "m/s", "m/s²", "m/s³"],
+        "angle": ["rad", "rad/s", "rad/s²"],
+        "number": ["", "s", "N", "N m", "m²", "kg", "°", "mm"],
+    }
+    units = [unit for units in kinds.values() for unit in units]
+    found = values("ui/quantity.ts", [f"m.kindOfUnit('{unit}')" for unit in units])
+    assert dict(zip(units, found, strict=True)) == {unit: kind for kind, units in kinds.items() for unit in units}
+
+
+def test_a_time_is_no_length() -> None:
+    texts = ["m.parse('5 m', 'length', false)", "m.parse('5 m', 'number', false)", "m.parse('5', 'number', true)"]
+    assert values("ui/quantity.ts", texts) == [5, None, 5]
+    shown = ["m.format(90, 'number', true)", "m.exact(0.5, 'number', true)", "m.unitOf('number', true)"]
+    assert values("ui/quantity.ts", shown) == ["90", "0.5", ""]

@@ -242,6 +242,11 @@ def test_ninety_radians_ask_whether_degrees_are_meant(studio: Studio) -> None:
     studio.button("Names, velocity, effort").click()
     studio.type("Row 1, velocity limit", "10")
     assert question.count() == 0
+    # An effort is no length.
+    studio.type("Row 1, effort limit", "5 m")
+    assert studio.field("Row 1, effort limit").get_attribute("aria-invalid") == "true"
+    studio.type("Row 1, effort limit", "5")
+    studio.until("studio.store.value.draft.joints[0].effort === 5")
 
 
 @pytest.mark.slow

@@ -3,7 +3,8 @@
 import { element } from "./dom.ts";
 import { exact, format, ifDegrees, type Kind, parse } from "./quantity.ts";
 
-const WRITE = { length: "Write a number such as 0.35", angle: "Write a number such as 0.35, pi/2 or 90°" };
+const PLAIN = "Write a number such as 0.35";
+const WRITE: Record<Kind, string> = { length: PLAIN, number: PLAIN, angle: "Write a number such as 0.35, pi/2 or 90°" };
 
 export interface NumberOptions {
   /** What a screen reader says. */

@@ -1,12 +1,19 @@
 /** Numbers as people type and read them: `0.5`, `1e-3`, `pi/2`, `-3π/4`, `90°`, and a comma where they are used to it. */
 
-export type Kind = "length" | "angle";
+/** What a number measures, rates of it included; `number` is all that has one unit for everybody, or none. */
+export type Kind = "length" | "angle" | "number";
 
-/** The value in metres or radians; null for what is no number. `degrees`: whether a bare number is one of degrees. */
+/** The kind of what is measured in a unit of the service: `m/s²` is one of length. */
+export function kindOfUnit(unit: string): Kind {
+  const [, kind] = /^(m|rad)(?:\/s[²³]?)?$/.exec(unit) ?? [];
+  return kind === "m" ? "length" : kind === "rad" ? "angle" : "number";
+}
+
+/** The value in metres, radians or as it stands; null for what is no number. `degrees`: whether a bare number is one of degrees. */
 export function parse(text: string, kind: Kind, degrees: boolean): number | null {
   let rest = text.trim().toLowerCase().replaceAll("−", "-").replaceAll(",", ".");
-  if (kind === "length") {
-    const value = product(rest.replace(/\s*m$/, ""));
+  if (kind !== "angle") {
+    const value = product(kind === "length" ? rest.replace(/\s*m$/, "") : rest);
     return value?.value ?? null;
   }
   let unit: "deg" | "rad" | null = null;
@@ -56,19 +63,19 @@ function product(text: string): { value: number; hasPi: boolean } | null {
 
 /** The number to read, with so many decimals at most; a multiple of π as one. */
 export function format(value: number, kind: Kind, degrees: boolean, decimals = 4): string {
-  if (kind === "length") return trimmed(value, decimals);
+  if (kind !== "angle") return trimmed(value, decimals);
   if (degrees) return trimmed((value * 180) / Math.PI, Math.max(decimals - 2, 1));
   return multipleOfPi(value) ?? trimmed(value, decimals);
 }
 
 /** The number to edit: nothing of it is lost. */
 export function exact(value: number, kind: Kind, degrees: boolean): string {
-  if (kind === "length") return String(value);
+  if (kind !== "angle") return String(value);
   return multipleOfPi(value) ?? (degrees ? String((value * 180) / Math.PI) : String(value));
 }
 
 export function unitOf(kind: Kind, degrees: boolean): string {
-  return kind === "length" ? "m" : degrees ? "°" : "rad";
+  return { length: "m", angle: degrees ? "°" : "rad", number: "" }[kind];
 }
 
 function trimmed(value: number, decimals: number): string {

@@ -16,9 +16,7 @@ const NAMES: Record<PoseFormat | "position", readonly string[]> = {
   rotation: [],
   matrix: [],
 };
-const LENGTH_STEP = 0.01;
-const ANGLE_STEP = Math.PI / 180;
-const PLAIN_STEP = 0.01;
+const STEPS: Record<Kind, number> = { length: 0.01, angle: Math.PI / 180, number: 0.01 };
 
 export interface TargetEvents {
   /** A pose has been typed. */
@@ -73,8 +71,8 @@ export class TargetFields {
       }
     } else {
       const isAngle = IN_RADIANS.has(format);
-      const kind: Kind = isAngle ? "angle" : "length";
-      rows.push(this.#row(this.#select, format, kind, isAngle ? unitOf(kind, this.#isInDegrees) : ""));
+      const kind: Kind = isAngle ? "angle" : "number";
+      rows.push(this.#row(this.#select, format, kind, unitOf(kind, this.#isInDegrees)));
     }
     this.#body.replaceChildren(...rows);
     if (hadFocus) this.#select.focus();
@@ -82,7 +80,7 @@ export class TargetFields {
 
   #row(title: HTMLElement, key: Exclude<PoseFormat, "rotation" | "matrix"> | "position", kind: Kind, unit: string) {
     const fields = NAMES[key].map((name, i) =>
-      this.#field(`Target ${name}`, kind, unit ? (kind === "angle" ? ANGLE_STEP : LENGTH_STEP) : PLAIN_STEP, {
+      this.#field(`Target ${name}`, kind, STEPS[kind], {
         read: (pose) => pose[key]![i]!,
         write: (pose, value) => ({ ...pose, [key]: pose[key]!.with(i, value) }),
       }),
@@ -91,7 +89,8 @@ export class TargetFields {
   }
 
   #entry(format: "rotation" | "matrix", i: number, j: number): NumberField {
-    return this.#field(`Target row ${i + 1}, column ${j + 1}`, "length", PLAIN_STEP, {
+    const kind = j === 3 ? "length" : "number"; // a column of three numbers beside a rotation
+    return this.#field(`Target row ${i + 1}, column ${j + 1}`, kind, STEPS.number, {
       read: (pose) => pose[format]![i]![j]!,
       write: (pose, value) => ({ ...pose, [format]: pose[format]!.with(i, pose[format]![i]!.with(j, value)) }),
     });

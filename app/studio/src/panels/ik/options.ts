@@ -6,7 +6,7 @@ import type { Store } from "../../store.ts";
 import { DIRECTIONS, type Direction, type InverseMethod, type InverseOptions } from "../../types.ts";
 import { button, Choice, element, toggle } from "../../ui/dom.ts";
 import { NumberField } from "../../ui/number.ts";
-import { unitOf } from "../../ui/quantity.ts";
+import { type Kind, unitOf } from "../../ui/quantity.ts";
 import { findsAll, fullOptions } from "./call.ts";
 
 const METHODS: readonly { value: InverseMethod; text: string }[] = [
@@ -121,11 +121,7 @@ export class OptionFields {
     if (wanted.length) this.#set({ task: wanted });
   }
 
-  #tolerance(
-    label: string,
-    kind: "length" | "angle",
-    key: "position_tolerance" | "orientation_tolerance",
-  ): NumberField {
+  #tolerance(label: string, kind: Kind, key: "position_tolerance" | "orientation_tolerance"): NumberField {
     const field = new NumberField({
       label,
       kind,

@@ -41,7 +41,7 @@ export function levers(api: Api, store: Store<State>): HTMLElement {
 function cell(axis: string, value: number, change: (value: number) => void): HTMLElement {
   const field = new NumberField({
     label: `Force along ${axis}`,
-    kind: "length",
+    kind: "number",
     degrees: () => false,
     change: (typed) => typed !== null && change(typed),
   });

@@ -140,7 +140,7 @@ export class Row {
         { class: "details" },
         titled("Name", this.#name, ""),
         titled("Velocity", this.#field("velocity", this.#jointKind, number).input, rate),
-        titled("Effort", this.#field("effort", "length", number).input, isTurning ? "N m" : "N"),
+        titled("Effort", this.#field("effort", "number", number).input, isTurning ? "N m" : "N"),
       ),
     );
     return element("tr", { class: "row-details", hidden: true }, element("td"), cell);
@@ -215,8 +215,8 @@ export class Row {
       field.input.focus();
       this.options.edited();
     };
-    const turns = `${format((Math.abs(radians) * 180) / Math.PI / (2 * Math.PI), "length", false, 1)} turns`;
-    const typed = format((radians * 180) / Math.PI, "length", false, 4);
+    const turns = `${format((Math.abs(radians) * 180) / Math.PI / (2 * Math.PI), "number", false, 1)} turns`;
+    const typed = format((radians * 180) / Math.PI, "number", false, 4);
     return element(
       "p",
       {},

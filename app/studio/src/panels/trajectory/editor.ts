@@ -150,7 +150,7 @@ export class Editor {
   #time(i: number): HTMLElement {
     const field = new NumberField({
       label: `${this.#name}, waypoint ${i + 1}, time`,
-      kind: "length",
+      kind: "number",
       degrees: () => false,
       change: (value) => this.#edit({ times: this.#segment.times!.map((old, other) => (other === i ? value! : old)) }),
     });

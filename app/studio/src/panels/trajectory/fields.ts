@@ -4,7 +4,7 @@ import { asMatrix, isPose, orientation, position } from "../../robot/pose.ts";
 import type { Joint } from "../../robot/model.ts";
 import { button, element } from "../../ui/dom.ts";
 import { NumberField } from "../../ui/number.ts";
-import { format, type Kind, unitOf } from "../../ui/quantity.ts";
+import { format, type Kind, kindOfUnit, unitOf } from "../../ui/quantity.ts";
 import type { Place } from "./motion.ts";
 
 /** Something to fill in that can show another value without being built anew, so that the focus stays. */
@@ -52,7 +52,7 @@ export function optional(
 ): Field<number | undefined> {
   const field = new NumberField({
     label,
-    kind: "length",
+    kind: kindOfUnit(unit),
     degrees: () => false,
     optional: true,
     change: (value) => change(value ?? undefined),

@@ -59,7 +59,8 @@ function counted(cells: readonly string[], line: number): Layout {
 
 function poseOf(cells: readonly string[], { notation, columns }: Layout, line: number): Pose {
   const numbers = columns.map((column, i) => {
-    const value = parse(cells[column] ?? "", i >= 3 && notation !== "quaternion_xyzw" ? "angle" : "length", false);
+    const turned = notation === "quaternion_xyzw" ? "number" : "angle";
+    const value = parse(cells[column] ?? "", i < 3 ? "length" : turned, false);
     if (value === null) throw new Error(`line ${line}: “${cells[column] ?? ""}” is no number`);
     return value;
   });
