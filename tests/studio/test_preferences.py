@@ -113,6 +113,35 @@ def test_a_click_is_no_choice_of_a_camera_but_a_drag_is(studio: Studio) -> None:
     assert studio.state("camera") is not None
 
 
+ON_SCREEN = """(axis) => {
+  const {camera, controls} = studio.view;
+  camera.updateMatrixWorld();
+  const at = (by) => controls.target.clone().addScaledVector(controls.target.clone().set(...axis), by).project(camera);
+  const [from, to] = [at(0), at(0.05)];
+  return [to.x - from.x, to.y - from.y].map((value) => Math.round(value * 1000) / 1000);
+}"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("side", "right", "up"),
+    [("Top", [1, 0, 0], [0, 1, 0]), ("Front", [1, 0, 0], [0, 0, 1]), ("Side", [0, 1, 0], [0, 0, 1])],
+)
+def test_the_arm_is_looked_at_from_a_side(studio: Studio, side: str, right: list[int], up: list[int]) -> None:
+    """Which axes are to the right and up is asked of the camera; a link has the side too."""
+    fresh(studio, "scara")
+    studio.button(side).click()
+    for _ in range(2):
+        (x, zero), (none, y) = studio.run(ON_SCREEN, right), studio.run(ON_SCREEN, up)
+        assert x > 0.01 < y
+        assert zero == pytest.approx(0, abs=1e-3) == none
+        assert "camera=" in settled(studio)
+        studio.page.reload()
+        studio.wait_for_robot("scara")
+    studio.button("Fit").click()
+    assert studio.state("camera") is None
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("kept", "fragment"),

@@ -10,6 +10,7 @@ import type { Store } from "./store.ts";
 import { share } from "./share.ts";
 import { askForKey, showShortcuts } from "./ui/dialogs.ts";
 import { button, element, toggle } from "./ui/dom.ts";
+import { SIDES } from "./view/looking.ts";
 
 const MARKS = [
   { key: "frames", text: "Frames", title: "The frame of every link" },
@@ -129,8 +130,10 @@ function marks(host: HTMLElement, { store, view }: Studio): void {
     return flip;
   });
   host.append(...made);
-  if (view)
-    host.append(button("Fit", () => view.fit(), { class: "toggle", title: "Look at the whole robot (double click)" }));
+  if (!view) return;
+  host.append(button("Fit", () => view.fit(), { class: "toggle", title: "Look at the whole robot (double click)" }));
+  for (const { text, title, from } of SIDES)
+    host.append(button(text, () => view.from(from), { class: "toggle", title }));
 }
 
 /** Follow the system, or be light or dark whatever it says; first of all, because others read the colours. */

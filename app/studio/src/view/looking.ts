@@ -1,5 +1,7 @@
 /** From where the picture is looked at, as the state has it. */
 
+import { Vector3 } from "three";
+
 import type { State } from "../state.ts";
 import type { Store } from "../store.ts";
 import type { View } from "./view.ts";
@@ -12,6 +14,13 @@ export interface Look {
   at: Point;
 }
 
+/** From where the usual drawings of an arm are made, and what is to the right and up in them. */
+export const SIDES = [
+  // A little from the front: straight from above there would be no telling what is to the right.
+  { text: "Top", title: "From above: x to the right, y up", from: new Vector3(0, -1e-3, 1).normalize() },
+  { text: "Front", title: "From the front: x to the right, z up", from: new Vector3(0, -1, 0) },
+  { text: "Side", title: "From the side: y to the right, z up", from: new Vector3(1, 0, 0) },
+] as const;
 const FARTHEST = 1e4; // m
 
 /** Six numbers of a link; null where they say nothing that can be looked at. */

@@ -124,7 +124,16 @@ export class View {
     this.looked(null);
   }
 
-  #aim(): void {
+  /** Look at the whole robot from a direction. */
+  from(direction: Vector3): void {
+    this.#look = null;
+    this.#aim(direction);
+    this.draw();
+    this.#look = this.#here();
+    this.looked(this.#look);
+  }
+
+  #aim(direction = DIRECTION): void {
     if (!this.#model) return;
     const box = extent(this.#model);
     const size = Math.max(box.getSize(new Vector3()).length(), 0.05);
@@ -137,7 +146,7 @@ export class View {
     this.camera.near = size / 200;
     this.camera.far = size * 60;
     this.controls.target.copy(centre);
-    this.camera.position.copy(centre).addScaledVector(DIRECTION, distance);
+    this.camera.position.copy(centre).addScaledVector(direction, distance);
     if (this.#look) {
       this.controls.target.set(...this.#look.at);
       this.camera.position.set(...this.#look.eye);
