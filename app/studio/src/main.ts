@@ -54,7 +54,6 @@ function start(): void {
     showScene(view, store, api);
     showBodies(view, store, api);
   }
-  divide(place("divider"), place("main"), store);
   followContacts(store, api);
   followStored(store, api);
   followFiles(store, api);
@@ -78,6 +77,7 @@ function start(): void {
 function furnishAll(studio: Studio, keyTool: HTMLElement): void {
   const [tabs, panel, heading, marks, tools] = ["tabs", "panel", "heading", "marks", "tools"].map(place);
   furnish({ tabs: tabs!, panel: panel!, heading: heading!, marks: marks!, tools: tools! }, studio);
+  divide(place("divider"), place("main"), studio.store);
   tools!.prepend(keyTool);
   listenForHelp();
   acceptDrops(place("drop"), (panelOfFile) => {
