@@ -1,7 +1,7 @@
 /** Bundles the studio into the package, to the same bytes from the same lock file. */
 
 import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { basename, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 import { build } from "esbuild";
@@ -16,6 +16,19 @@ const katexStyle = {
     bundler.onLoad({ filter: /katex\.min\.css$/ }, ({ path }) => ({
       contents: readFileSync(path, "utf8").replace(FONTS_THAT_EVERY_BROWSER_READS, ""),
       loader: "css",
+    }));
+  },
+};
+
+/** urdf-loader brings readers of meshes that the page never calls: its own come when they are needed. */
+const withoutReaders = {
+  name: "without-readers",
+  setup(bundler) {
+    bundler.onResolve({ filter: /\/(?:STL|Collada)Loader\.js$/ }, ({ importer, path }) =>
+      importer.includes("/urdf-loader/") ? { path, namespace: "unused" } : undefined,
+    );
+    bundler.onLoad({ filter: /.*/, namespace: "unused" }, () => ({
+      contents: "export class STLLoader {}\nexport class ColladaLoader {}",
     }));
   },
 };
@@ -35,13 +48,24 @@ const { metafile } = await build({
   charset: "utf8",
   legalComments: "none",
   loader: { ".woff2": "file" },
-  assetNames: "fonts/[name]",
-  plugins: [katexStyle],
+  assetNames: "fonts/[name]-[hash]",
+  plugins: [katexStyle, withoutReaders],
   metafile: true,
   logLevel: "warning",
 });
-for (const file of ["index.html", "icon.svg"]) cpSync(join(here, "page", file), join(out, file));
+cpSync(join(here, "page", "icon.svg"), join(out, "icon.svg"));
+writeFileSync(join(out, "index.html"), preloading(readFileSync(join(here, "page", "index.html"), "utf8"), metafile));
 writeFileSync(join(out, "LICENSES.txt"), licences(metafile));
+
+/** The page, which asks for what its script imports together with the script itself. */
+function preloading(page, { outputs }) {
+  const [, { imports }] = Object.entries(outputs).find(([path]) => path.endsWith("/studio.js"));
+  const chunks = imports
+    .filter(({ kind }) => kind === "import-statement")
+    .map(({ path }) => `chunks/${basename(path)}`);
+  const links = chunks.map((path) => `<link rel="modulepreload" href="studio/${path}">\n`);
+  return page.replace("<script", `${links.join("")}<script`);
+}
 
 /** The licence of every package of which something is in the bundle. */
 function licences({ inputs }) {

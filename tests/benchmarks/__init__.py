@@ -8,5 +8,6 @@
 - `jobs`: the same jobs by the processes of this machine and by a Ray cluster on it, their results compared.
 - `collision`: contacts and clearances of the Panda among boxes against Coal through Pinocchio.
 - `start`: from `./dev serve` to ready.
-- `ik`: all but the last.
+- `studio`: the page's first visit in a browser at 10 Mbit/s, and what dragging costs.
+- `ik`: the first five.
 """

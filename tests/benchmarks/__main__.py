@@ -15,6 +15,7 @@ from tests.benchmarks import (
     requests,
     soak,
     start,
+    studio,
     trajectory,
     volume,
     workspace,
@@ -33,6 +34,7 @@ BENCHMARKS: dict[str, Callable[[], list[Row]]] = {
     "trajectory": trajectory.measure,
     "collision": collision.measure,
     "start": start.measure,
+    "studio": studio.measure,
 }
 ON_REQUEST: dict[str, Callable[[], list[Row]]] = {
     "solvers-few": ik.measure_few,

@@ -46,6 +46,55 @@ def test_a_browser_asks_again_and_gets_no_second_copy(client: TestClient) -> Non
         assert (again.status_code, again.content) == (304, b"")
 
 
+@pytest.mark.parametrize("path", ["/", "/studio/studio.js", "/studio/studio.css", "/studio/icon.svg"])
+def test_texts_are_compressed_for_who_takes_it(client: TestClient, path: str) -> None:
+    plain = client.get(path, headers={"Accept-Encoding": "identity"})
+    assert "content-encoding" not in plain.headers
+    packed = client.get(path, headers={"Accept-Encoding": "gzip"})
+    assert packed.headers["content-encoding"] == "gzip"
+    assert packed.content == plain.content  # decompressed by the client
+    for answer in (plain, packed):
+        assert answer.headers["vary"] == "Accept-Encoding"
+        assert answer.headers["content-security-policy"] == STUDIO_POLICY
+        assert answer.headers["content-type"] == plain.headers["content-type"]
+    assert packed.headers["etag"] == f"W/{plain.headers['etag']}"
+    for coding in ("gzip", "identity"):
+        for tag in (plain.headers["etag"], packed.headers["etag"]):
+            again = client.get(path, headers={"Accept-Encoding": coding, "If-None-Match": tag})
+            assert (again.status_code, again.content) == (304, b"")
+
+
+def test_compressing_saves_what_it_is_for(client: TestClient) -> None:
+    with client.stream("GET", "/studio/studio.js", headers={"Accept-Encoding": "gzip"}) as answer:
+        sent = sum(map(len, answer.iter_raw()))
+    assert sent == int(answer.headers["content-length"]) < (STUDIO / "studio.js").stat().st_size / 2
+
+
+def test_a_part_of_a_file_is_one_of_the_file_as_it_is(client: TestClient) -> None:
+    headers = {"Range": "bytes=10-19", "Accept-Encoding": "gzip"}
+    part = client.get("/studio/studio.js", headers=headers)
+    assert (part.status_code, part.content) == (206, (STUDIO / "studio.js").read_bytes()[10:20])
+    assert "content-encoding" not in part.headers
+
+
+def test_only_what_is_named_by_its_content_is_kept_for_good(client: TestClient) -> None:
+    named = [path.relative_to(STUDIO) for folder in ("chunks", "fonts") for path in (STUDIO / folder).iterdir()]
+    assert len(named) > 20
+    for path in named:
+        assert client.get(f"/studio/{path}").headers["cache-control"] == "public, max-age=31536000, immutable", path
+    assert client.get("/studio/icon.svg").headers["cache-control"] == "no-cache"
+    fonts = [path for path in named if path.suffix == ".woff2"]
+    assert "content-encoding" not in client.get(f"/studio/{fonts[0]}").headers
+
+
+def test_all_that_the_first_picture_needs_is_asked_for_at_once(client: TestClient) -> None:
+    """What the script imports is named by the page too, and together it is no more than a megabyte."""
+    named = set(re.findall(r'<link rel="modulepreload" href="studio/([^"]+)">', client.get("/").text))
+    script = client.get("/studio/studio.js").text
+    assert named == set(re.findall(r'from"\./(chunks/[^"]+)"', script))
+    assert sum((STUDIO / name).stat().st_size for name in (*named, "studio.js")) < 1.1e6
+
+
 @pytest.mark.parametrize(
     "path",
     ["../package.json", "%2e%2e/package.json", "..%2fsrc/main.ts", "src/main.ts", "nothing.js", "fonts", "", "%00"],

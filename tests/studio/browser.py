@@ -112,12 +112,13 @@ class Studio:
         self.page.goto(f"{self.url}/{fragment}")
 
     def wait_for_robot(self, name: str | None) -> None:
-        """Wait until a robot is on the screen with its meshes."""
+        """Wait until a robot is drawn, and its meshes have come."""
         wanted = json.dumps(name)
         self.until(
             f"studio.store.value.model && studio.store.value.model.name === {wanted} && !studio.store.value.loading"
         )
         self.until("(({shown, failed, wanted}) => shown + failed.length >= wanted)(studio.store.value.model.meshes)")
+        self.until("!studio.view || studio.view.canvas.dataset.drawn === studio.store.value.model.title")
 
     def run(self, expression: str, argument: Any = None) -> Any:
         """The value of an expression in the page; playwright's own waiting would need `unsafe-eval`."""

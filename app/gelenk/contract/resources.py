@@ -27,6 +27,9 @@ MESH_TYPES = {
 }
 """Media types of the files of a robot, by the ends of their names."""
 
+SMALL_MESH = "model/gltf-binary"
+"""Media type of the small form of a mesh, for pictures."""
+
 SCENE_TYPES = {end: MESH_TYPES[end] for end in (".stl", ".obj", ".dae")} | {".npy": "application/x-npy"}
 """Media types of the files of a scene, by the ends of their names."""
 
@@ -115,11 +118,15 @@ RESOURCES = (
         name="get_robot_mesh",
         path="v1/robots/{robot}/meshes/{path:path}",
         tag="Robots",
-        responses=_file("The file", *MESH_TYPES.values()),
+        responses=_file("The file", *MESH_TYPES.values(), SMALL_MESH),
         problems=_OF_ROBOT,
         summary="A mesh file of a robot",
         description="""
         The file exactly as uploaded; the server does not inspect it.
+
+        For pictures, name `model/gltf-binary` in `Accept`: then a mesh is answered as GLB with fewer triangles, no
+        further from its surface than about a thousandth of its longest side, and with its colours. One with textures,
+        and a broken one, is answered as it is. Contacts are computed of the file itself.
 
         A file that is stored compressed is sent compressed to clients whose `Accept-Encoding` names `gzip`.
         """,

@@ -3,18 +3,25 @@
 They work without a network, below any root path, because all of their links are relative. A content security policy
 keeps the browser from loading anything from elsewhere. The package fastapi-offline provides the bundles of Swagger UI
 and ReDoc; the studio's files come from `app/studio`, the handbook's from `docs`, and of both a browser checks each time
-whether one has changed.
+whether one has changed, unless its name changes with its content.
 """
 
+import asyncio
+import gzip
+import re
 from collections.abc import Sequence
+from functools import lru_cache
 from pathlib import Path
+from typing import cast
 
 import fastapi_offline
 from fastapi import FastAPI, Request
-from starlette.responses import HTMLResponse, RedirectResponse, Response
+from starlette.datastructures import Headers
+from starlette.responses import FileResponse, HTMLResponse, RedirectResponse, Response
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
+from gelenk.http.encodings import accepts_gzip
 from gelenk.package_data import handbook, studio
 
 STUDIO = studio()
@@ -40,6 +47,10 @@ _KEPT = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
+_FOREVER = "public, max-age=31536000, immutable"
+_NAMED_BY_CONTENT = re.compile(r"(?:chunks|fonts)/.+-[A-Z0-9]{8}\.[a-z0-9]+")
+_OF_WHOLE_FILES = frozenset({"accept-ranges", "content-length", "etag"})
+_COMPRESSED = frozenset({".css", ".html", ".js", ".json", ".svg", ".txt", ".xml"})
 _BUNDLES = Path(fastapi_offline.__file__).parent / "static"
 _OWN = Path(__file__).parent / "static"
 _POLICY = (
@@ -91,7 +102,28 @@ class _PageFiles(StaticFiles):
     async def get_response(self, path: str, scope: Scope) -> Response:
         response = await super().get_response(path, scope)
         response.headers.update(self._headers)
+        if _NAMED_BY_CONTENT.fullmatch(path):
+            response.headers["Cache-Control"] = _FOREVER
+        if Path(path).suffix not in _COMPRESSED and not response.headers.get("content-type", "").startswith("text/"):
+            return response
+        response.headers["Vary"] = "Accept-Encoding"
+        asked = Headers(scope=scope)
+        is_whole = isinstance(response, FileResponse) and response.status_code == 200 and "range" not in asked
+        if is_whole and accepts_gzip(",".join(asked.getlist("accept-encoding"))):
+            return await asyncio.to_thread(_compressed, cast(FileResponse, response))
         return response
+
+
+def _compressed(response: FileResponse) -> Response:
+    """Return the same file compressed; the tag becomes a weak one, which names both forms."""
+    tag = response.headers["etag"]
+    kept = {name: value for name, value in response.headers.items() if name not in _OF_WHOLE_FILES}
+    return Response(_packed(str(response.path), tag), headers={**kept, "content-encoding": "gzip", "etag": f"W/{tag}"})
+
+
+@lru_cache(maxsize=128)
+def _packed(path: str, tag: str) -> bytes:  # noqa: ARG001 - a file that has changed has another one
+    return gzip.compress(Path(path).read_bytes(), mtime=0)
 
 
 def install(app: FastAPI, frame_ancestors: Sequence[str] = ()) -> None:

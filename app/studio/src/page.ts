@@ -5,6 +5,7 @@ import { PANELS } from "./panels/index.ts";
 import type { Studio } from "./panels/panel.ts";
 import { shownChain } from "./robot/chain.ts";
 import { prefer } from "./prefs.ts";
+import type { RobotModel } from "./robot/model.ts";
 import type { State } from "./state.ts";
 import type { Store } from "./store.ts";
 import { share } from "./share.ts";
@@ -108,9 +109,21 @@ function heading(host: HTMLElement, store: Store<State>): void {
     base.value = chain.base;
     tip.value = chain.tip;
   });
-  store.watch(["loading", "failure"], ({ loading, failure }) => {
-    status.textContent = loading ? "Loading …" : failure ? "Not on the screen: the panel Robot says why." : "";
+  store.watch(["loading", "failure", "model", "meshes", "received"], ({ loading, failure, model, received }) => {
+    status.textContent = loading
+      ? "Loading …"
+      : failure
+        ? "Not on the screen: the panel Robot says why."
+        : model
+          ? arriving(model.meshes, received)
+          : "";
   });
+}
+
+/** How far the meshes have come; nothing once they are there. */
+function arriving({ wanted, shown, failed }: RobotModel["meshes"], received: number): string {
+  if (shown + failed.length >= wanted) return "";
+  return `Meshes: ${shown} of ${wanted}, ${(received / 1e6).toFixed(1)} MB …`;
 }
 
 function frameSelect(title: string, choose: (frame: string) => void): HTMLSelectElement {

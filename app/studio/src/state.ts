@@ -62,6 +62,8 @@ export interface State extends Linked {
   model: RobotModel | null;
   /** Grows with each mesh file that arrives: what is drawn of the model has changed. */
   meshes: number;
+  /** Of the model's mesh files, as far as they have arrived, [bytes]. */
+  received: number;
   loading: boolean;
   /** Why the robot or draft asked for is not on the screen. */
   failure: Problem | null;
@@ -113,6 +115,7 @@ export function initial(linked: Linked, width: number | null): State {
     positions: {},
     model: null,
     meshes: 0,
+    received: 0,
     loading: false,
     failure: null,
     table: null,

@@ -4,7 +4,8 @@ The common reader, pycollada, drops a shape whose texture is missing.
 """
 
 from collections.abc import Callable, Iterator
-from typing import TypeAlias
+from contextlib import suppress
+from typing import NamedTuple, TypeAlias
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -22,8 +23,15 @@ _FACES = frozenset({"triangles", "polylist", "polygons", "trifans", "tristrips"}
 _Find: TypeAlias = Callable[[str | None], Element]
 
 
-def read_collada(content: bytes, most: int) -> Array:
-    """Return the corners of at most so many triangles, shape (F, 3, 3), [m]; the up axis is ignored.
+class Part(NamedTuple):
+    """The corners of triangles, shape (F, 3, 3), [m], and the effect that they are shown with, None for none."""
+
+    triangles: Array
+    effect: Element | None = None
+
+
+def read_collada(content: bytes, most: int) -> list[Part]:
+    """Return at most so many triangles, in parts that look alike; the up axis is ignored.
 
     Raises ValueError with a reason, or any other exception where the file contradicts itself.
     """
@@ -40,20 +48,33 @@ def read_collada(content: bytes, most: int) -> Array:
     shown = root.find("scene/instance_visual_scene")
     if shown is None:
         raise ValueError("it shows no scene")
-    parts = [np.empty((0, 3, 3))]
-    for geometry, T in _placed(find(shown.get("url")), find):
-        parts += [triangles @ T[:3, :3].T + T[:3, 3] for triangles in _triangles(geometry, find)]
-        if sum(map(len, parts)) > most:
-            raise ValueError(f"it has more than {counted(most, 'triangle')}")
     given = root.find("asset/unit")
     unit = 1.0 if given is None else float(given.get("meter", "1"))
     if not 0.0 < unit < np.inf:
         raise ValueError("its unit is not a positive number")
-    return np.concatenate(parts) * unit
+    parts: list[Part] = []
+    for shape, T in _placed(find(shown.get("url")), find):
+        order = -1 if np.linalg.det(T[:3, :3]) < 0.0 else 1  # a mirrored triangle is seen from its other side
+        for symbol, corners in _triangles(find(shape.get("url")), find):
+            placed = (corners @ T[:3, :3].T + T[:3, 3])[:, ::order] * unit
+            parts.append(Part(placed, _effect(shape, symbol, find)))
+        if sum(len(part.triangles) for part in parts) > most:
+            raise ValueError(f"it has more than {counted(most, 'triangle')}")
+    return parts
+
+
+def _effect(shape: Element, symbol: str | None, find: _Find) -> Element | None:
+    """Return the effect that a shown geometry binds to a symbol of its faces; None if the file does not say."""
+    for bound in shape.iterfind("bind_material/technique_common/instance_material"):
+        if bound.get("symbol") == symbol:
+            with suppress(KeyError):
+                effect = find(bound.get("target")).find("instance_effect")
+                return None if effect is None else find(effect.get("url"))
+    return None
 
 
 def _placed(scene: Element, find: _Find) -> Iterator[tuple[Element, Array]]:
-    """Yield each geometry that a scene shows, with its pose and scale, shape (4, 4)."""
+    """Yield the instance of each geometry that a scene shows, with its pose and scale, shape (4, 4)."""
     waiting, visited = [(scene, np.eye(4), 0)], 0
     while waiting:
         node, T, depth = waiting.pop()
@@ -67,7 +88,7 @@ def _placed(scene: Element, find: _Find) -> Iterator[tuple[Element, Array]]:
                 case "instance_node":
                     waiting.append((find(child.get("url")), T, depth + 1))
                 case "instance_geometry":
-                    yield find(child.get("url")), T
+                    yield child, T
                 case "instance_controller" | "lookat" | "skew":
                     raise ValueError(f"<{child.tag}> is not read")
                 case "matrix" | "translate" | "rotate" | "scale":
@@ -87,13 +108,14 @@ def _transform(element: Element) -> Array:
     return transform(np.zeros(3), rotations_from_vectors(np.radians(numbers[3]) * axis[None])[0])
 
 
-def _triangles(geometry: Element, find: _Find) -> Iterator[Array]:
+def _triangles(geometry: Element, find: _Find) -> Iterator[tuple[str | None, Array]]:
+    """Yield a geometry's triangles, with the symbol of their material."""
     mesh = geometry.find("mesh")
     if mesh is None:
         raise ValueError("a geometry is no mesh")
     for faces in mesh:
         if faces.tag in _FACES:
-            yield from _faces(faces, find)
+            yield from ((faces.get("material"), triangles) for triangles in _faces(faces, find))
 
 
 def _faces(faces: Element, find: _Find) -> Iterator[Array]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gelenk.collision.shapes.collada import read_collada
+from gelenk.collision.shapes.collada import Part, read_collada
 from gelenk.errors import InvalidMesh, quoted
 from gelenk.robot.arrays import Array
 
@@ -19,7 +19,12 @@ MAX_EXTENT = 1e6
 
 
 def read_triangles(name: str, content: bytes) -> Array:
-    """Return the corners of a mesh's triangles, shape (F, 3, 3), in its own axes.
+    """Return the corners of a mesh's triangles, shape (F, 3, 3), in its own axes; limits and errors of `read_parts`."""
+    return np.concatenate([part.triangles for part in read_parts(name, content)])
+
+
+def read_parts(name: str, content: bytes) -> list[Part]:
+    """Return a mesh's triangles in its own axes, in parts that look alike.
 
     STL (text or binary), OBJ and Collada, by the end of the name. The numbers count as metres; Collada's unit is
     applied, as the studio and RViz do and Pinocchio does not, and its up axis is ignored, as all of them do.
@@ -31,17 +36,18 @@ def read_triangles(name: str, content: bytes) -> Array:
         raise InvalidMesh(f"it has more than {MAX_BYTES} bytes", name)
     kind = name.lower().rpartition(".")[2]
     try:
-        triangles = read_collada(content, MAX_TRIANGLES) if kind == "dae" else _read(kind, content)
+        parts = read_collada(content, MAX_TRIANGLES) if kind == "dae" else [Part(_read(kind, content))]
     except MemoryError:
         raise
     except Exception as error:  # A reader of broken files raises anything.
         reason = str(error) if type(error) is ValueError else type(error).__name__
         raise InvalidMesh(f"it cannot be read as {kind.upper()}: {quoted(reason)}", name) from error
-    if not len(triangles):
+    parts = [part for part in parts if len(part.triangles)]
+    if not parts:
         raise InvalidMesh("it has no triangle", name)
-    if not np.abs(triangles).max() <= MAX_EXTENT:
+    if not all(np.abs(part.triangles).max() <= MAX_EXTENT for part in parts):
         raise InvalidMesh(f"a coordinate is not a number, or beyond {MAX_EXTENT:g} m", name)
-    return triangles
+    return parts
 
 
 def _read(kind: str, content: bytes) -> Array:

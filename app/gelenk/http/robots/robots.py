@@ -20,7 +20,7 @@ from gelenk.http.messages.payloads import JSON, MULTIPART, BoundedRequest, JsonR
 from gelenk.http.messages.problems import UnsupportedMediaType
 from gelenk.http.messages.routes import DocumentedRoute
 from gelenk.http.robots.info import info
-from gelenk.http.robots.meshes import SANDBOXED, mesh_response
+from gelenk.http.robots.meshes import SANDBOXED, mesh_answer
 from gelenk.http.workers.pool_client import PoolClient, owner_of
 from gelenk.http.workers.task import Context, TaskRequest, buffers
 from gelenk.language import Language, language as speaking
@@ -71,9 +71,7 @@ def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
             ),
         ],
     ) -> Response:
-        await pool_client.resident(request, robot)
-        accepted = ",".join(request.headers.getlist("Accept-Encoding"))
-        return await asyncio.to_thread(lambda: mesh_response(library.mesh(robot, path), path, accepted))
+        return await mesh_answer(request, pool_client, library, robot, path)
 
     @router.api_route(**documentation("remove_robot"))
     def remove_robot(robot: UploadedRobotPath) -> Response:

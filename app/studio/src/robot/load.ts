@@ -1,13 +1,13 @@
 /** Bring the robot that the state names onto the screen: its description at once, its meshes as they arrive. */
 
-import { LoadingManager, Mesh, type Object3D } from "three";
+import { LoadingManager, type Material, Mesh, type Object3D } from "three";
 import URDFLoader, { type URDFRobot } from "urdf-loader";
 
 import { type Api, asProblem, Latest } from "../api.ts";
 import type { Positions, State } from "../state.ts";
 import type { Store } from "../store.ts";
 import type { ChainEnds, DhTable, RobotInfo, ToUrdfAnswer } from "../types.ts";
-import { drawn, type MeshSource, meshSource, quiet } from "./meshes.ts";
+import { drawn, type MeshSource, meshSource, quiet, sticks } from "./meshes.ts";
 import { RobotModel } from "./model.ts";
 import { chainTable, draftTable, TABLE_CHAIN } from "./table.ts";
 
@@ -20,6 +20,8 @@ export class Loader {
   #tables = new Latest();
   #restored: number[] | null = null;
   #arrival = 0;
+  #received = 0;
+  #counting = 0;
 
   /** @param shown is told when the scene of the model has changed: meshes have arrived. */
   constructor(
@@ -43,7 +45,8 @@ export class Loader {
   async #load(): Promise<void> {
     const { robot, draft } = this.store.value;
     if (!robot && !draft) return;
-    this.store.set({ loading: true, failure: null });
+    this.#received = 0;
+    this.store.set({ loading: true, failure: null, received: 0 });
     try {
       const model = await this.#latest.run((signal) =>
         draft ? this.#draft(draft, signal) : this.#kept(robot, signal),
@@ -62,7 +65,7 @@ export class Loader {
     ]);
     const source = meshSource(
       (file) => this.api.url(`${path}/meshes/${file.split("/").map(encodeURIComponent).join("/")}`),
-      this.api.key.headers,
+      { headers: this.api.key.headers, signal, progress: (bytes) => this.#count(bytes, signal) },
     );
     const paths = new Map(info.meshes.map(({ reference, path: file }) => [reference, file]));
     return this.#model(name, urdf, info.default_chain, info, (reference) => paths.get(reference) ?? null, source);
@@ -89,10 +92,12 @@ export class Loader {
     source: MeshSource,
   ): RobotModel {
     const arrivals: ((model: RobotModel) => Promise<void>)[] = [];
+    let comes = false;
     const loader = new URDFLoader(new LoadingManager());
     loader.packages = (packageName: string) => `package://${packageName}`;
     loader.loadMeshCb = (reference, _, material, done) => {
       const file = path(reference);
+      comes ||= file !== null;
       arrivals.push((model) => this.#arrive(model, reference, file, () => source(file!, quiet(material)), done));
     };
     const root: URDFRobot = loader.parse(urdf);
@@ -102,6 +107,7 @@ export class Loader {
     });
     const model = new RobotModel(name, root, urdf, ends, info);
     model.meshes.wanted = arrivals.length;
+    if (comes) model.meshes.awaited = sticks(root);
     for (const arrive of arrivals) void arrive(model);
     return model;
   }
@@ -120,16 +126,28 @@ export class Loader {
     try {
       done(await fetch());
       model.meshes.shown += 1;
-    } catch {
+    } catch (error) {
+      if ((error as Error).name === "AbortError") return;
       model.meshes.failed.push(reference);
     }
     this.#tell(model);
+  }
+
+  /** Bytes of meshes have arrived; how many in all is told now and then. */
+  #count(bytes: number, signal: AbortSignal): void {
+    this.#received += bytes;
+    if (this.#counting) return;
+    this.#counting = window.setTimeout(() => {
+      this.#counting = 0;
+      if (!signal.aborted) this.store.set({ received: this.#received });
+    }, TOGETHER);
   }
 
   /** Meshes that arrive one after the other are shown together: each picture of a large robot takes its time. */
   #tell(model: RobotModel): void {
     const { wanted, shown, failed } = model.meshes;
     const isComplete = shown + failed.length >= wanted;
+    if (isComplete && shown) removeAll(model.meshes.awaited);
     if (this.#arrival && !isComplete) return;
     clearTimeout(this.#arrival);
     const tell = () => {
@@ -168,6 +186,14 @@ export class Loader {
     } catch {
       this.store.set({ table: null });
     }
+  }
+}
+
+function removeAll(rods: Mesh[]): void {
+  for (const rod of rods.splice(0)) {
+    rod.removeFromParent();
+    rod.geometry.dispose();
+    (rod.material as Material).dispose();
   }
 }
 

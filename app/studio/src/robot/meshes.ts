@@ -1,87 +1,80 @@
-/** Mesh files of a robot, from the service; a file that several links show is fetched once. */
+/** Meshes of a robot, from the service: small ones made for pictures; a file that several links show is fetched once. */
 
 import {
   BoxGeometry,
-  type Camera,
   Color,
   CylinderGeometry,
-  FileLoader,
-  type Light,
-  LoadingManager,
   type Material,
   Mesh,
   MeshPhongMaterial,
   type Object3D,
+  Vector3,
 } from "three";
-import { ColladaLoader } from "three/addons/loaders/ColladaLoader.js";
-import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
-import { STLLoader } from "three/addons/loaders/STLLoader.js";
+import type { URDFRobot } from "urdf-loader";
 
 import type { LinkShape } from "../types.ts";
+import { GLB, readGlb } from "./glb.ts";
 
 export type MeshSource = (path: string, material: Material) => Promise<Object3D>;
 
+/** Along a cylinder of the library. */
+const UP = new Vector3(0, 1, 0);
+/** Radius of a rod, in typical distances between joints. */
+const SLENDER = 0.05;
 const BARE = new Color(0xffffff);
+const SMALL = `${GLB}, */*;q=0.5`;
+const FAULT_OF_THE_SERVICE = 500;
+/** As many at a time as a browser sends over HTTP/1: over HTTP/2 it would send them all, and the service refuse some. */
+const MOST_AT_A_TIME = 6;
+
+export interface Fetching {
+  headers: Record<string, string>;
+  /** Ends all that is still being fetched. */
+  signal?: AbortSignal;
+  /** Told of each piece that arrives, how many bytes it has. */
+  progress?: (bytes: number) => void;
+}
 
 /** Where the files of one robot come from.
  *
  * @param url of a file below the robot's meshes.
- * @param headers that it is asked for with.
  */
-export function meshSource(url: (path: string) => string, headers: Record<string, string>): MeshSource {
-  const fetched = new Map<string, Promise<Object3D>>();
+export function meshSource(url: (path: string) => string, fetching: Fetching): MeshSource {
+  const fetched = new Map<string, ReturnType<typeof load>>();
+  const lanes: Promise<unknown>[] = Array.from({ length: MOST_AT_A_TIME }, () => Promise.resolve());
   return async (path, material) => {
-    const found = fetched.get(path) ?? load(url(path), path, headers);
-    fetched.set(path, found);
-    return dressed((await found).clone(true), path, material);
+    if (!fetched.has(path)) {
+      const lane = fetched.size % MOST_AT_A_TIME;
+      const found = lanes[lane]!.then(() => load(url(path), path, fetching));
+      lanes[lane] = found.catch(() => {});
+      fetched.set(path, found);
+    }
+    return (await fetched.get(path)!)(material);
   };
 }
 
-async function load(url: string, path: string, headers: Record<string, string>): Promise<Object3D> {
-  const manager = new LoadingManager();
-  switch (path.split(".").pop()?.toLowerCase()) {
-    case "stl":
-      return new Mesh(await new STLLoader(manager).setRequestHeader(headers).loadAsync(url));
-    case "obj":
-      return new OBJLoader(manager).setRequestHeader(headers).loadAsync(url);
-    case "dae": {
-      const collada = new ColladaLoader(manager).parse(
-        asItStands(await new FileLoader(manager).setRequestHeader(headers).loadAsync(url)),
-        folder(url),
-      );
-      if (!collada) throw new Error("no Collada document");
-      for (const extra of lightsAndCameras(collada.scene)) extra.removeFromParent();
-      return collada.scene;
-    }
-    default:
-      throw new Error("no reader for this kind of file");
-  }
+/** What makes an object of a file; with geometry of its own each time, as whoever removes a robot disposes of it. */
+async function load(url: string, path: string, fetching: Fetching): Promise<(material: Material) => Object3D> {
+  const ask = (accept: string) => asked(url, accept, fetching);
+  let answer = await ask(SMALL);
+  if (answer.status >= FAULT_OF_THE_SERVICE) answer = await ask("*/*"); // what is hard to make small may be shown as it is
+  if (!answer.ok) throw new Error(`the service answered ${answer.status}`);
+  const content = await answer.arrayBuffer();
+  if (answer.headers.get("Content-Type") === GLB) return (material) => readGlb(content, material);
+  const { readOriginal } = await import("./originals.ts");
+  return (material) => readOriginal(content, url, path, material);
 }
 
-/** A Collada document without its up axis: a URDF takes the numbers of a mesh as they are. */
-function asItStands(text: string | ArrayBuffer): string {
-  return String(text).replace(/<up_axis>[^<]*<\/up_axis>/, "");
-}
-
-function folder(url: string): string {
-  return url.slice(0, url.lastIndexOf("/") + 1);
-}
-
-/** Files of bare geometry get the material of the URDF; a Collada file has its own. */
-function dressed(object: Object3D, path: string, material: Material): Object3D {
-  if (/\.dae$/i.test(path)) return object;
-  object.traverse((node) => {
-    if (node instanceof Mesh) node.material = material;
+async function asked(url: string, accept: string, { headers, signal, progress }: Fetching): Promise<Response> {
+  const answer = await fetch(url, { headers: { ...headers, Accept: accept }, signal: signal ?? null });
+  if (!answer.body || !progress) return answer;
+  const counter = new TransformStream<Uint8Array<ArrayBuffer>, Uint8Array<ArrayBuffer>>({
+    transform(piece, stream) {
+      progress(piece.byteLength);
+      stream.enqueue(piece);
+    },
   });
-  return object;
-}
-
-function lightsAndCameras(scene: Object3D): Object3D[] {
-  const found: Object3D[] = [];
-  scene.traverse((node) => {
-    if ((node as Light).isLight || (node as Camera).isCamera) found.push(node);
-  });
-  return found;
+  return new Response(answer.body.pipeThrough(counter), answer);
 }
 
 type Triple = [number, number, number];
@@ -96,6 +89,21 @@ export function drawn({ shape, pose }: Omit<LinkShape, "link">): Mesh {
   mesh.position.fromArray(pose.position!);
   mesh.quaternion.fromArray(pose.quaternion_xyzw!);
   return mesh;
+}
+
+/** Rods from each joint to the next ones, in the place of meshes that are on their way. */
+export function sticks(root: URDFRobot): Mesh[] {
+  const joints = Object.values(root.joints).filter(({ position }) => position.lengthSq() > 0);
+  const lengths = joints.map(({ position }) => position.length()).sort((a, b) => a - b);
+  const radius = SLENDER * (lengths[lengths.length >> 1] ?? 0);
+  return joints.map((joint) => {
+    const geometry = new CylinderGeometry(radius, radius, joint.position.length(), 12);
+    const rod = new Mesh(geometry, quiet(new MeshPhongMaterial()));
+    rod.position.copy(joint.position).multiplyScalar(0.5);
+    rod.quaternion.setFromUnitVectors(UP, joint.position.clone().normalize());
+    joint.parent!.add(rod);
+    return rod;
+  });
 }
 
 /** The material of a visual that names none: a quiet grey in the place of glaring white. */

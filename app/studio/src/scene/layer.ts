@@ -63,7 +63,8 @@ export function showScene(view: View, store: Store<State>, api: Api): void {
   function fetched(scene: string | null): (file: string, into: Group, tone: Material) => void {
     if (scene === null) return () => {};
     const path = `v1/scenes/${encodeURIComponent(scene)}/files`;
-    const made = () => meshSource((file) => api.url(`${path}/${encodeURIComponent(file)}`), api.key.headers);
+    const made = () =>
+      meshSource((file) => api.url(`${path}/${encodeURIComponent(file)}`), { headers: api.key.headers });
     const source = meshes.get(scene) ?? made();
     meshes.set(scene, source);
     return (file, into, tone) => {

@@ -27,6 +27,11 @@ import { arrange } from "./placing.ts";
 
 const DIRECTION = new Vector3(1.05, -1.35, 0.75).normalize();
 const CELLS = 20;
+/** Most pixels of the picture to one of the page, along each side. */
+const FINEST = 2;
+/** The same for software when nothing moves, and how long that must be, [ms]. */
+const AT_REST = 2;
+const REST = 250;
 
 export class View {
   readonly scene = new Scene();
@@ -36,6 +41,8 @@ export class View {
   /** Length that suits marks on the robot on the screen, [m]. */
   unit = 0.1;
   #renderer: WebGLRenderer;
+  #isSoftware: boolean;
+  #rest = 0;
   #labels = new CSS2DRenderer();
   #model: RobotModel | null = null;
   #around: Sphere | null = null;
@@ -49,9 +56,10 @@ export class View {
 
   /** Throws where the browser has no WebGL. */
   constructor(host: HTMLElement) {
-    this.#renderer = makeRenderer();
+    this.#isSoftware = isDrawnBySoftware();
+    this.#renderer = makeRenderer(!this.#isSoftware);
     this.#renderer.localClippingEnabled = true;
-    this.#renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.#renderer.setPixelRatio(this.#isSoftware ? 1 : Math.min(window.devicePixelRatio, FINEST));
     this.canvas = this.#renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
@@ -75,6 +83,7 @@ export class View {
   show(model: RobotModel): void {
     const before = this.#model;
     this.#model = model;
+    delete this.canvas.dataset["drawn"];
     this.scene.add(model.root);
     if (before && before !== model) dispose(before.root);
     this.settle();
@@ -169,10 +178,27 @@ export class View {
     this.#asked = true;
     requestAnimationFrame(() => {
       this.#asked = false;
-      this.#renderer.render(this.scene, this.camera);
-      this.#labels.render(this.scene, this.camera);
-      arrange(this.#labels.domElement);
+      if (this.#isSoftware) this.#smoothLater();
+      this.#render();
     });
+  }
+
+  /** Draw now; `data-drawn` of the canvas then names the robot that is to be seen. */
+  #render(): void {
+    this.#renderer.render(this.scene, this.camera);
+    this.#labels.render(this.scene, this.camera);
+    arrange(this.#labels.domElement);
+    if (this.#model) this.canvas.dataset["drawn"] = this.#model.title;
+  }
+
+  /** What software draws is coarse while it moves, and has smooth edges when it has come to rest. */
+  #smoothLater(): void {
+    clearTimeout(this.#rest);
+    if (this.#renderer.getPixelRatio() !== 1) this.#renderer.setPixelRatio(1);
+    this.#rest = window.setTimeout(() => {
+      this.#renderer.setPixelRatio(AT_REST);
+      this.#render();
+    }, REST);
   }
 
   /** What is drawn, as a PNG; without the labels, which are elements above it. */
@@ -223,6 +249,7 @@ export class View {
     this.#renderer.setSize(width, height);
     this.#labels.setSize(width, height);
     this.settle();
+    this.#render(); // another size has wiped the canvas, which would stay blank until the next frame
   }
 
   #key(event: KeyboardEvent): void {
@@ -267,15 +294,22 @@ export class View {
   }
 }
 
-/** With smooth edges where a graphics card draws them: without one they would cost a fifth of the time of a picture. */
-function makeRenderer(): WebGLRenderer {
+function makeRenderer(antialias: boolean): WebGLRenderer {
   const canvas = document.createElement("canvas");
-  const usual = { alpha: true, depth: true, stencil: false, powerPreference: "default" } as const;
-  const context =
-    canvas.getContext("webgl2", { ...usual, antialias: true, failIfMajorPerformanceCaveat: true }) ??
-    canvas.getContext("webgl2", { ...usual, antialias: false });
+  const context = canvas.getContext("webgl2", { alpha: true, depth: true, stencil: false, antialias });
   if (!context) throw new Error("no WebGL");
   return new WebGLRenderer({ canvas, context });
+}
+
+/** Whether no graphics card draws: then smooth edges and fine pixels cost much of the time of a picture. Some browsers
+ * do not count that as a "major performance caveat", so that the renderer's name is asked too. */
+function isDrawnBySoftware(): boolean {
+  const probe = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
+  if (!probe) return true;
+  const named = probe.getExtension("WEBGL_debug_renderer_info");
+  const name: unknown = probe.getParameter(named ? named.UNMASKED_RENDERER_WEBGL : probe.RENDERER);
+  probe.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(name));
 }
 
 /** What the robot takes up: its links' origins, and the meshes that have arrived. */
