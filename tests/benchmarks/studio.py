@@ -29,13 +29,18 @@ MOVES = 60
 WATCH_TASKS = """globalThis.tasks = [];
 new PerformanceObserver((list) => tasks.push(...list.getEntries().map(({duration}) => duration)))
   .observe({type: "longtask"})"""
-WATCH_JOINTS = """globalThis.waits = [];
-let moved = null;
-addEventListener("pointermove", () => (moved ??= performance.now()), true);
-studio.store.watch(["positions"], () => {
-  if (moved !== null) waits.push(performance.now() - moved);
-  moved = null;
-})"""
+WATCH_JOINTS = """(() => {
+  globalThis.waits = [];
+  const {store} = studio, set = store.set.bind(store);
+  let moved = null;
+  store.set = (change) => {
+    if ("target" in change) moved ??= performance.now();
+    set(change);
+    if (!("positions" in change) || moved === null) return;
+    waits.push(performance.now() - moved);
+    moved = null;
+  };
+})()"""
 NEXT_FRAME = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(tasks.splice(0)))))"
 PAINTED = "performance.getEntriesByName('first-contentful-paint')[0]?.startTime"
 
@@ -133,7 +138,7 @@ def drags(launched: Browser, url: str) -> tuple[str, str]:
         studio.run(NEXT_DRAWN)
     mouse.up()
     waits = studio.run("waits")
-    return f"{tail:.0f} ms" if tail else "< 50 ms", f"{median(waits):.0f} ms"
+    return f"{tail:.0f} ms" if tail else "< 50 ms", f"{median(waits):.0f} ms" if waits else "none moved"
 
 
 def bundle_bytes() -> tuple[int, int]:

@@ -23,14 +23,14 @@ _FACES = frozenset({"triangles", "polylist", "polygons", "trifans", "tristrips"}
 _Find: TypeAlias = Callable[[str | None], Element]
 
 
-class Part(NamedTuple):
+class MeshPart(NamedTuple):
     """The corners of triangles, shape (F, 3, 3), [m], and the effect that they are shown with, None for none."""
 
     triangles: Array
     effect: Element | None = None
 
 
-def read_collada(content: bytes, most: int) -> list[Part]:
+def read_collada(content: bytes, most: int) -> list[MeshPart]:
     """Return at most so many triangles, in parts that look alike; the up axis is ignored.
 
     Raises ValueError with a reason, or any other exception where the file contradicts itself.
@@ -52,12 +52,12 @@ def read_collada(content: bytes, most: int) -> list[Part]:
     unit = 1.0 if given is None else float(given.get("meter", "1"))
     if not 0.0 < unit < np.inf:
         raise ValueError("its unit is not a positive number")
-    parts: list[Part] = []
+    parts: list[MeshPart] = []
     for shape, T in _placed(find(shown.get("url")), find):
         order = -1 if np.linalg.det(T[:3, :3]) < 0.0 else 1  # a mirrored triangle is seen from its other side
         for symbol, corners in _triangles(find(shape.get("url")), find):
             placed = (corners @ T[:3, :3].T + T[:3, 3])[:, ::order] * unit
-            parts.append(Part(placed, _effect(shape, symbol, find)))
+            parts.append(MeshPart(placed, _effect(shape, symbol, find)))
         if sum(len(part.triangles) for part in parts) > most:
             raise ValueError(f"it has more than {counted(most, 'triangle')}")
     return parts

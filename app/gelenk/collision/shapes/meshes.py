@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gelenk.collision.shapes.collada import Part, read_collada
+from gelenk.collision.shapes.collada import MeshPart, read_collada
 from gelenk.errors import InvalidMesh, quoted
 from gelenk.robot.arrays import Array
 
@@ -23,7 +23,7 @@ def read_triangles(name: str, content: bytes) -> Array:
     return np.concatenate([part.triangles for part in read_parts(name, content)])
 
 
-def read_parts(name: str, content: bytes) -> list[Part]:
+def read_parts(name: str, content: bytes) -> list[MeshPart]:
     """Return a mesh's triangles in its own axes, in parts that look alike.
 
     STL (text or binary), OBJ and Collada, by the end of the name. The numbers count as metres; Collada's unit is
@@ -36,7 +36,7 @@ def read_parts(name: str, content: bytes) -> list[Part]:
         raise InvalidMesh(f"it has more than {MAX_BYTES} bytes", name)
     kind = name.lower().rpartition(".")[2]
     try:
-        parts = read_collada(content, MAX_TRIANGLES) if kind == "dae" else [Part(_read(kind, content))]
+        parts = read_collada(content, MAX_TRIANGLES) if kind == "dae" else [MeshPart(_read(kind, content))]
     except MemoryError:
         raise
     except Exception as error:  # A reader of broken files raises anything.

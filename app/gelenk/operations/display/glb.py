@@ -27,7 +27,7 @@ class Colour:
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class DrawnPart:
     """What has one colour, None where the file names none.
 
     Attributes:
@@ -49,7 +49,7 @@ def grid(points: Array) -> tuple[Array, float]:
     return corner, max(side, _SMALLEST) / STEPS
 
 
-def glb(parts: Iterable[Part], corner: Array, step: float) -> bytes:
+def glb(parts: Iterable[DrawnPart], corner: Array, step: float) -> bytes:
     """Return the file of parts that are on this grid."""
     file = _File()
     primitives = [file.add(part) for part in parts]
@@ -80,7 +80,7 @@ class _File:
         self.accessors: list[dict[str, Any]] = []
         self.materials: list[dict[str, Any]] = []
 
-    def add(self, part: Part) -> dict[str, Any]:
+    def add(self, part: DrawnPart) -> dict[str, Any]:
         """Add a part's arrays and colour, and return its primitive."""
         bounds = {"min": part.points.min(axis=0).tolist(), "max": part.points.max(axis=0).tolist()}
         places = self._vertices(np.asarray(part.points, dtype="<u2"), _UNSIGNED_SHORT, bounds)

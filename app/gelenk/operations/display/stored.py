@@ -12,7 +12,7 @@ from gelenk.collision.shapes import meshes as readers
 from gelenk.collision.shapes.meshes import MAX_BYTES, read_parts
 from gelenk.errors import InvalidMesh, StorageFailed
 from gelenk.operations.display.colours import colour_of
-from gelenk.operations.display.glb import STEPS, Colour, Part, glb, grid
+from gelenk.operations.display.glb import STEPS, Colour, DrawnPart, glb, grid
 from gelenk.operations.display.normals import shaded
 from gelenk.operations.display.simplify import simplified
 from gelenk.robot.arrays import Array, Indices
@@ -74,7 +74,7 @@ def small_mesh(name: str, content: bytes) -> bytes:
     return glb(shown, corner, step) if shown else b""
 
 
-def _part(colour: Colour | None, triangles: Array) -> Part | None:
+def _part(colour: Colour | None, triangles: Array) -> DrawnPart | None:
     """Return what has one colour, from its triangles on the grid, shape (F, 3, 3); None if none has an area there."""
     is_large = len(triangles) > _MANY
     points, corners = _joined(_COARSE * np.rint(triangles / _COARSE) if is_large else triangles)
@@ -87,7 +87,7 @@ def _part(colour: Colour | None, triangles: Array) -> Part | None:
     if not len(corners):
         return None
     of, normals, corners = shaded(points, corners)
-    return Part(colour, points[of].astype(np.uint16), normals, corners)
+    return DrawnPart(colour, points[of].astype(np.uint16), normals, corners)
 
 
 def _joined(triangles: Array) -> tuple[Array, Indices]:
