@@ -66,6 +66,16 @@ def test_pieces_that_touch_are_in_contact_at_any_size(scale: float) -> None:
         assert not measured(box, other, _poses(away * scale + 1e-6, 0.0, 0.0)).is_contact
 
 
+@pytest.mark.parametrize("beside", [1e-13, 1e-11, 1e-9, 1e-7])
+@pytest.mark.parametrize("along", [0.0, 0.25])
+def test_a_ball_beside_the_axes_of_a_box_is_as_deep_as_on_them(beside: float, along: float) -> None:
+    rng = np.random.default_rng(0)
+    for shift in beside * rng.normal(size=(40, 3)):
+        pair = measured(BOX, BALL, _poses(along + shift[0], shift[1], shift[2]))
+        assert pair.distance == pytest.approx(along - 1.5, abs=1e-6)
+        assert np.linalg.norm(pair.points[:3] - pair.points[3:]) == pytest.approx(1.5 - along, abs=1e-6)
+
+
 def test_random_pairs_are_as_coal_says() -> None:
     rng = np.random.default_rng(1)
     pairs = [random_pair(rng) for _ in range(150)]

@@ -39,7 +39,8 @@ def separation(
         count, lower, upper = core_distance(bodies, a, b, T, -1.0, limit, work)
         if lower > limit:
             return lower - float(radii), (0.0, 0.0, 0.0)
-        if count == 4 or upper <= TINY:
+        # Beside an edge or a face of the simplex the search can stall without a proof that the cores are apart.
+        if count == 4 or lower <= 0.0 or upper <= TINY:
             depth, normal, x = core_depth(bodies, a, b, T, count, work, room)
             normal, distance = scaled(-1.0, normal), -depth - radii
         else:
