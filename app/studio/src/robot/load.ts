@@ -107,7 +107,7 @@ export class Loader {
     });
     const model = new RobotModel(name, root, urdf, ends, info);
     model.meshes.wanted = arrivals.length;
-    if (comes) model.meshes.awaited = sticks(root);
+    if (comes) model.standIns = sticks(root);
     for (const arrive of arrivals) void arrive(model);
     return model;
   }
@@ -147,7 +147,7 @@ export class Loader {
   #tell(model: RobotModel): void {
     const { wanted, shown, failed } = model.meshes;
     const isComplete = shown + failed.length >= wanted;
-    if (isComplete && shown) removeAll(model.meshes.awaited);
+    if (isComplete && shown) removeAll(model.standIns);
     if (this.#arrival && !isComplete) return;
     clearTimeout(this.#arrival);
     const tell = () => {

@@ -28,8 +28,10 @@ export class RobotModel {
   /** In the order of the description. */
   readonly joints: readonly Joint[];
   readonly links: readonly string[];
-  /** How many mesh files the description shows, how many of them are on the screen, and what is until they all are. */
-  readonly meshes = { wanted: 0, shown: 0, failed: [] as string[], awaited: [] as Mesh[] };
+  /** How many mesh files the description shows, and how many of them are on the screen. */
+  readonly meshes = { wanted: 0, shown: 0, failed: [] as string[] };
+  /** What is shown until they all are. */
+  standIns: Mesh[] = [];
   #drives: Drive[];
   #leaders = new Map<string, string>();
 
