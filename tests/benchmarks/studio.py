@@ -22,10 +22,10 @@ from tests.studio.inverse import SOLVED, START
 from tests.studio.test_ik_motion import HANDLE
 from tests.test_serve import service
 
-VISITS = 5
+VISITS = 3
 BYTES_PER_SECOND = 10e6 / 8
 LATENCY_MS = 20
-MOVES = 60
+MOVES = 30
 WATCH_TASKS = """globalThis.tasks = [];
 new PerformanceObserver((list) => tasks.push(...list.getEntries().map(({duration}) => duration)))
   .observe({type: "longtask"})"""
