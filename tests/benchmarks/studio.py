@@ -5,6 +5,7 @@ Every visit has an empty cache. The very first one also finds nothing prepared o
 
 import gzip
 import math
+import re
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -143,5 +144,6 @@ def drags(launched: Browser, url: str) -> tuple[str, str]:
 
 def bundle_bytes() -> tuple[int, int]:
     """What the page loads at once of its own scripts, [bytes], as they are and compressed."""
-    content = (bundle() / "studio.js").read_bytes()
-    return len(content), len(gzip.compress(content, 6))
+    chunks = re.findall(r'href="studio/(chunks/[^"]+)"', (bundle() / "index.html").read_text())
+    contents = [(bundle() / name).read_bytes() for name in ("studio.js", *chunks)]
+    return sum(map(len, contents)), sum(len(gzip.compress(content)) for content in contents)
