@@ -39,8 +39,7 @@ export function furnish(places: Places, studio: Studio): void {
   const help = button("Help", showShortcuts, { class: "tool", title: "What the keyboard does (?)" });
   const pages = { handbook: "Handbook", docs: "API" };
   const links = Object.entries(pages).map(([href, name]) => element("a", { class: "tool", href }, name));
-  const shared = button("Share", () => share(studio), { class: "tool", title: "A link, a frame, the picture" });
-  places.tools.append(shared, help, themeSwitch(studio), ...links);
+  places.tools.append(help, themeSwitch(studio), ...links);
 }
 
 function tabs({ tabs: host, panel }: Places, studio: Studio): void {
@@ -136,17 +135,20 @@ function frameSelect(title: string, choose: (frame: string) => void): HTMLSelect
   return select;
 }
 
-function marks(host: HTMLElement, { store, view }: Studio): void {
+function marks(host: HTMLElement, studio: Studio): void {
+  const { store, view } = studio;
   const made = MARKS.map(({ key, text, title }) => {
     const flip = toggle(text, title, () => store.set({ [key]: !store.value[key] }));
     store.watch([key], (state) => flip.setAttribute("aria-pressed", String(state[key])));
     return flip;
   });
+  const shared = button("Share", () => share(studio), { class: "toggle", title: "A link, a frame, the picture" });
   host.append(...made);
-  if (!view) return;
+  if (!view) return void host.append(shared);
   host.append(button("Fit", () => view.fit(), { class: "toggle", title: "Look at the whole robot (double click)" }));
   for (const { text, title, from } of SIDES)
     host.append(button(text, () => view.from(from), { class: "toggle", title }));
+  host.append(shared);
 }
 
 /** Follow the system, or be light or dark whatever it says; first of all, because others read the colours. */
