@@ -12,7 +12,7 @@ MARKS = ("frames", "axes", "names", "dh", "bodies")
 """What can be drawn on a robot besides itself, by its name in the page's address."""
 
 
-class Picture:
+class ShownRobot:
     """A frame with a robot that one can turn; a notebook shows it, and `url` is the page in it."""
 
     def __init__(self, url: str, title: str, height: int) -> None:
@@ -26,7 +26,7 @@ class Picture:
         )
 
     def __repr__(self) -> str:
-        return f"Picture({self.url!r})"
+        return f"ShownRobot({self.url!r})"
 
 
 def show(
@@ -38,7 +38,7 @@ def show(
     marks: Sequence[str] = (),
     height: int = 420,
     server: str | None = None,
-) -> Picture:
+) -> ShownRobot:
     """Show a robot of the service in a notebook; its setting `GELENK_FRAME_ANCESTORS` must name the notebook's origin.
 
     Args:
@@ -67,4 +67,4 @@ def show(
         "show": ",".join(marks) or None,
     }
     address = "&".join(f"{key}={quote(value, safe=',')}" for key, value in parts.items() if value is not None)
-    return Picture(f"{service_url(server)}/embed#{address}", robot, height)
+    return ShownRobot(f"{service_url(server)}/embed#{address}", robot, height)
