@@ -128,11 +128,15 @@ class InvalidPose(InvalidInput):
 
 
 class InvalidArchive(InvalidInput):
-    """The archive does not contain one URDF, its meshes and its SRDF; where known, the error names the entry."""
+    """The archive does not contain a URDF, its meshes and its SRDF; where known, the error names the entry.
+
+    Where it is unclear which URDF is meant, `files` lists all of the archive.
+    """
 
     reason: str
     entry: str | None = None
-    template = "<entry {entry!q}: >{reason}"
+    files: tuple[str, ...] = ()
+    template = "<entry {entry!q}: >{reason}<: {files!q}>"
 
 
 class InvalidMesh(InvalidInput):
@@ -383,12 +387,14 @@ class QuotaExceeded(KinematicsError):
 
 
 class RobotExists(KinematicsError):
-    """Another robot already uses the name."""
+    """Another robot already uses the name; where known, the error gives a free one like it."""
 
     robot: str
-    template = (
-        "the name {robot!q} is already used by another robot: choose another name, or replace an uploaded one with PUT"
-    )
+    is_ours: bool = False
+    free: str | None = None
+    _whose = property(lambda self: "a robot of the catalogue" if self.is_ours else "another robot")
+    _else = property(lambda self: "" if self.is_ours else ", or replace that robot")
+    template = "the name {robot!q} is already used by {_whose}: choose another name<, such as {free!q}>{_else}"
 
 
 class SceneExists(KinematicsError):

@@ -185,6 +185,14 @@ def test_a_faulty_file_is_taken_unless_strict(shell: Shell, tmp_path: Path) -> N
             shell("remove", added["name"])
 
 
+def test_one_of_several_urdfs_of_a_zip_is_added(shell: Shell, tmp_path: Path) -> None:
+    archive = tmp_path / "two.zip"
+    archive.write_bytes(zipped({"left.urdf": ARM, "right.urdf": ARM}))
+    assert "name one of them in `file`: 'left.urdf', 'right.urdf'" in shell("add", archive, code=2)[1]
+    shell("add", archive, "--file", "right.urdf")
+    shell("remove", "two")
+
+
 def test_configurations_in_and_out(shell: Shell, tmp_path: Path) -> None:
     rows = np.array([[0.1, 0.2], [0.3, 0.4], [-0.5, 0.6]])
     np.save(tmp_path / "q.npy", rows)

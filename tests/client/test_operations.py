@@ -16,6 +16,7 @@ from gelenk.client.operations import Operations
 from gelenk.contract.fk import ForwardAnswer
 from gelenk.contract.jobs import JobInfo
 from gelenk.contract.pose import Pose
+from gelenk.errors import InvalidArchive
 from gelenk.robot.arrays import Array
 from tests.corpus import zips
 from tests.robots import robot, samples
@@ -152,7 +153,14 @@ def test_a_robot_with_its_meshes(gelenk: Client, tmp_path: Path) -> None:
     info = gelenk.add_archive("packed", archive)
     assert info.meshes
     assert gelenk.replace_archive("packed", archive.read_bytes(), description="Again").description == "Again"
-    gelenk.remove_robot("packed")
+    two = zips.zipped({"left.urdf": zips.URDF, "right.urdf": zips.URDF})
+    with pytest.raises(InvalidArchive) as several:
+        gelenk.replace_archive("packed", two)
+    assert several.value.files == ("left.urdf", "right.urdf")
+    assert gelenk.replace_archive("packed", two, file="right.urdf").name == "packed"
+    assert gelenk.add_archive("packed_too", two, file="left.urdf").name == "packed_too"
+    for name in ("packed", "packed_too"):
+        gelenk.remove_robot(name)
 
 
 @pytest.mark.slow

@@ -247,14 +247,14 @@ NO_ZIP = (
 """Not an archive, or broken where its list of entries is."""
 
 NO_ROBOT = (
-    RefusedZip("nothing in it", partial(zipped, {}), "exactly one"),
-    RefusedZip("no description", partial(zipped, {"a.stl": "x"}), "exactly one"),
-    RefusedZip("two descriptions", partial(zipped, {"a.urdf": URDF, "b.urdf": URDF}), "exactly one"),
-    RefusedZip("two descriptions in capitals", partial(zipped, {"a.urdf": URDF, "b.URDF": URDF}), "exactly one"),
-    RefusedZip("the same description twice", partial(with_file, "a.urdf", URDF), "exactly one"),
-    RefusedZip("a folder that is called a description", partial(zipped, {"a.urdf/": ""}), "exactly one"),
-    RefusedZip("a zip in a zip in a zip", nested, "exactly one"),
-    RefusedZip("a xacro", partial(zipped, {"a.urdf.xacro": URDF}), "exactly one"),
+    RefusedZip("nothing in it", partial(zipped, {}), "no urdf"),
+    RefusedZip("no description", partial(zipped, {"a.stl": "x"}), "no urdf"),
+    RefusedZip("two descriptions", partial(zipped, {"a.urdf": URDF, "b.urdf": URDF}), "name one"),
+    RefusedZip("two descriptions in capitals", partial(zipped, {"a.urdf": URDF, "b.URDF": URDF}), "name one"),
+    RefusedZip("the same description twice", partial(with_file, "a.urdf", URDF), "twice"),
+    RefusedZip("a folder that is called a description", partial(zipped, {"a.urdf/": ""}), "no urdf"),
+    RefusedZip("a zip in a zip in a zip", nested, "no urdf"),
+    RefusedZip("a xacro", partial(zipped, {"a.urdf.xacro": URDF}), "no urdf"),
     RefusedZip("a description of no text", partial(zipped, {"a.urdf": b"\xff\xfe"}), "utf-8"),
     RefusedZip("a description that is empty", partial(zipped, {"a.urdf": b""}), "xml"),
     RefusedZip("a description of a ball joint", partial(zipped, {"a.urdf": URDF.replace("revolute", "ball")}), "ball"),

@@ -213,6 +213,49 @@ def test_a_zip_of_urdf_and_meshes(own: TestClient, top: str) -> None:
     assert replaced.json()["meshes"][0]["path"] is None
 
 
+def test_one_of_several_urdfs_of_a_zip(own: TestClient) -> None:
+    """A workspace with two packages: none is chosen by itself, and the one that is meant finds its own meshes."""
+    files: dict[str, str | bytes] = {
+        f"ws/src/{one}/urdf/arm.urdf": URDF.replace("arm_description", one) for one in "lr"
+    }
+    files |= {f"ws/src/{one}/meshes/arm.stl": f"solid {one}" for one in "lr"}
+    packed = {"archive": ("robot.zip", zipped(files))}
+    urdfs = [path for path in files if path.endswith(".urdf")]
+    for wanted in ({}, {"file": "arm.urdf"}, {"file": "ws/src/l/meshes/arm.stl"}):
+        refused = own.post("/v1/robots", data={"name": "arm", **wanted}, files=packed)
+        assert refused.status_code == 422
+        assert refused.json()["files"] == urdfs
+        assert all(path in refused.json()["detail"] for path in ("file", *urdfs))
+    for one, path in zip("lr", urdfs, strict=True):
+        added = own.post("/v1/robots", data={"name": one, "file": path}, files=packed)
+        assert added.status_code == 201, added.text
+        assert own.get(f"/v1/robots/{one}/urdf").text == files[path]
+        [mesh] = added.json()["meshes"]
+        assert own.get(f"/v1/robots/{one}/meshes/{mesh['path']}").text == f"solid {one}"
+    replaced = own.put("/v1/robots/l", data={"file": urdfs[1]}, files=packed)
+    assert replaced.status_code == 200
+    assert own.get("/v1/robots/l/urdf").text == files[urdfs[1]]
+
+
+def test_what_is_wrong_with_a_file_is_told_before_its_name_is_taken(own: TestClient) -> None:
+    own.post("/v1/robots", json={"name": "arm", "urdf": URDF})
+    for name in ("panda", "arm"):
+        broken = own.post("/v1/robots", json={"name": name, "urdf": URDF.replace("revolute", "ball")})
+        assert broken.json()["type"] == "urn:gelenk:invalid-urdf"
+    other = URDF.replace("0 0 1", "0 0 2", 1)
+    taken = own.post("/v1/robots", json={"name": "panda", "urdf": other}).json()
+    assert (taken["is_ours"], taken["free"]) == (True, "panda_2")
+    assert "panda_2" in taken["detail"]
+    assert "replace" not in taken["detail"]
+    own.post("/v1/robots", json={"name": "arm_2", "urdf": URDF})
+    taken = own.post("/v1/robots", json={"name": "arm_2", "urdf": other}).json()
+    assert (taken["is_ours"], taken["free"]) == (False, "arm_3")
+    assert "replace" in taken["detail"]
+    own.post("/v1/robots", json={"name": "a" * 64, "urdf": URDF})
+    free = own.post("/v1/robots", json={"name": "a" * 64, "urdf": other}).json()["free"]
+    assert own.post("/v1/robots", json={"name": free, "urdf": other}).status_code == 201
+
+
 def test_the_path_says_which_robot_is_replaced(own: TestClient) -> None:
     for name in ("first", "second"):
         assert own.post("/v1/robots", json={"name": name, "urdf": URDF}).status_code == 201

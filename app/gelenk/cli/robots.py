@@ -60,6 +60,7 @@ def add(
     base: BaseOption = None,
     tip: TipOption = None,
     replace: Annotated[bool, typer.Option("--replace", help="Replace the uploaded robot of that name.")] = False,
+    urdf: Annotated[str | None, typer.Option("--file", help="Which URDF of a zip that holds several.")] = None,
 ) -> None:
     """Add a robot to the service; without --server it is only checked."""
     if not is_file(file):
@@ -74,7 +75,7 @@ def add(
     with shared.client() as client:
         if file.suffix.lower() == ".zip":
             send = client.replace_archive if replace else client.add_archive
-            info = send(name, file, **about, strict=shared.strict)
+            info = send(name, file, **about, strict=shared.strict, file=urdf)
         else:
             body = {**about, **shared.describe(file)}
             info = client.replace_robot(name, **body) if replace else client.add_robot(name=name, **body)

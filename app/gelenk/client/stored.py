@@ -90,9 +90,11 @@ def add_archive(
     description: str = "",
     default_chain: ChainEnds | None = None,
     strict: bool = False,
+    file: str | None = None,
 ) -> Call[RobotInfo]:
-    """Add a robot with its meshes: a zip of one URDF and the files that it names."""
-    return _with_archive("POST", "v1/robots", archive, default_chain, strict, name=name, description=description)
+    """Add a robot with its meshes: a zip of a URDF and the files that it names; `file` is which one of several."""
+    form = {"name": name, "description": description}
+    return _with_archive("POST", "v1/robots", archive, default_chain, strict, file, form)
 
 
 def replace_archive(
@@ -101,16 +103,24 @@ def replace_archive(
     description: str = "",
     default_chain: ChainEnds | None = None,
     strict: bool = False,
+    file: str | None = None,
 ) -> Call[RobotInfo]:
-    """Replace an uploaded robot by a zip of one URDF and the files that it names."""
-    return _with_archive("PUT", f"v1/robots/{segment(robot)}", archive, default_chain, strict, description=description)
+    """Replace an uploaded robot by a zip of a URDF and the files that it names; `file` is which one of several."""
+    form, path = {"description": description}, f"v1/robots/{segment(robot)}"
+    return _with_archive("PUT", path, archive, default_chain, strict, file, form)
 
 
 def _with_archive(
-    method: str, path: str, archive: bytes | str | PathLike[str], chain: ChainEnds | None, strict: bool, **form: str
+    method: str,
+    path: str,
+    archive: bytes | str | PathLike[str],
+    chain: ChainEnds | None,
+    strict: bool,
+    file: str | None,
+    form: dict[str, str],
 ) -> Call[RobotInfo]:
     ends = {} if chain is None else {"base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
-    form = {**form, **ends, **({"strict": "true"} if strict else {})}
+    form = {**form, **ends, **({"strict": "true"} if strict else {}), **({} if file is None else {"file": file})}
     content = archive if isinstance(archive, bytes) else Path(archive).read_bytes()
     return Call(method, path, reader(RobotInfo), form=form, files=[("archive", ("robot.zip", content))])
 

@@ -63,7 +63,7 @@ _WORKSPACE_PICTURE = (
 
 _BINARY = {"type": "string", "format": "binary"}
 _ARCHIVE: dict[str, dict[str, Any]] = {
-    "archive": {**_BINARY, "description": "Zip of one URDF, its meshes, and its SRDF if there is one."}
+    "archive": {**_BINARY, "description": "Zip of a URDF, its meshes, and its SRDF if there is one."}
 }
 _SCENE_FILES: dict[str, dict[str, Any]] = {
     "files": {

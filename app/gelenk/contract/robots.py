@@ -93,6 +93,7 @@ class ArchiveReplacement(Payload):
 
     description: Text = Field(default="", description="One sentence for human readers.")
     strict: Annotated[Strict, Field(strict=False)] = False
+    file: str | None = optional("Path in the archive of the URDF that is meant; only needed if it holds several.")
     base_frame: FrameName | None = optional("Base frame of the default chain; requires `tip_frame`.")
     tip_frame: FrameName | None = optional("Tip frame of the default chain; requires `base_frame`.")
 

@@ -1,4 +1,4 @@
-"""Unpacks an untrusted zip of one URDF, its meshes and its SRDF, and checks names, counts and actual sizes.
+"""Unpacks an untrusted zip of a URDF, its meshes and its SRDF, and checks names, counts and actual sizes.
 
 The sizes stated in a zip are not trusted: bytes are counted while they are unpacked. Nothing here parses a mesh:
 kinematics does not need meshes, and the browser gets them unchanged.
@@ -46,11 +46,15 @@ class UnpackedRobot:
 
 
 @contextmanager
-def unpacked(file: BinaryIO, max_unpacked: int = MAX_UNPACKED, root: Path | None = None) -> Iterator[UnpackedRobot]:
+def unpacked(
+    file: BinaryIO, max_unpacked: int = MAX_UNPACKED, root: Path | None = None, urdf: str | None = None
+) -> Iterator[UnpackedRobot]:
     """Unpack an archive for the duration of the context, on the disk of `root`, else that of temporary files.
 
-    Raises InvalidArchive if it is no zip, has not exactly one URDF or an entry that is not allowed, TooLarge with more
-    entries than allowed or more than `max_unpacked` bytes, and StorageFailed without room on the disk.
+    `urdf` is the path in the archive of the URDF that is meant; it may be left out if there is only one.
+
+    Raises InvalidArchive if it is no zip, has no such URDF, several and none is named, or an entry that is not allowed,
+    TooLarge with more entries than allowed or more than `max_unpacked` bytes, and StorageFailed without room on the disk.
     """
     _check_directory(file)
     try:
@@ -58,36 +62,48 @@ def unpacked(file: BinaryIO, max_unpacked: int = MAX_UNPACKED, root: Path | None
     except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError) as error:
         raise InvalidArchive("the file is not a zip archive") from error
     with archive, nameless(root) as store:
-        yield _unpack(archive, store, max_unpacked)
+        yield _unpack(archive, store, max_unpacked, urdf)
 
 
-def _unpack(archive: zipfile.ZipFile, store: IO[bytes], max_unpacked: int) -> UnpackedRobot:
+def _unpack(archive: zipfile.ZipFile, store: IO[bytes], max_unpacked: int, wanted: str | None) -> UnpackedRobot:
     if (count := len(archive.infolist())) > MAX_ENTRIES:  # the number in the end record may be false
         raise TooLarge("entries in the archive", count, MAX_ENTRIES)
     entries = [entry for entry in archive.infolist() if not entry.filename.endswith("/")]
     _check_overlap(entries, archive.start_dir)
-    descriptions, srdfs = ([one for one in entries if one.filename.lower().endswith(end)] for end in (".urdf", ".srdf"))
-    if len(descriptions) != 1:
-        raise InvalidArchive(f"the archive holds {len(descriptions)} URDF files; it must hold exactly one")
-    if len(srdfs) > 1:
-        raise InvalidArchive(f"the archive holds {len(srdfs)} SRDF files; it may hold one")
     for entry in entries:
         _check_entry(entry)
     _check_names([entry.filename.lower() for entry in entries])
+    description = _description(entries, wanted)
+    srdfs = [entry for entry in entries if entry.filename.lower().endswith(".srdf")]
+    if len(srdfs) > 1:
+        raise InvalidArchive(f"the archive holds {len(srdfs)} SRDF files; it may hold one")
     meshes: dict[str, FileRange] = {}
     used = 0
     for entry in entries:
-        if entry is descriptions[0] or PurePosixPath(entry.filename).suffix.lower() not in KEPT_SUFFIXES:
+        if PurePosixPath(entry.filename).suffix.lower() not in KEPT_SUFFIXES:
             continue
         size = _copy(archive, entry, store, max_unpacked - used, max_unpacked)
         meshes[entry.filename] = FileRange(store, used, size)
         used += size
     urdf, srdf = BytesIO(), BytesIO()
-    for entry, text in zip((*descriptions, *srdfs), (urdf, srdf), strict=False):
+    for entry, text in zip((description, *srdfs), (urdf, srdf), strict=False):
         _copy(archive, entry, text, MAX_BYTES, MAX_BYTES)
-    parent = PurePosixPath(descriptions[0].filename).parent
+    parent = PurePosixPath(description.filename).parent
     folder = "" if str(parent) == "." else str(parent)
     return UnpackedRobot(urdf.getvalue(), folder, meshes, srdf.getvalue() if srdfs else None)
+
+
+def _description(entries: list[zipfile.ZipInfo], wanted: str | None) -> zipfile.ZipInfo:
+    """Return the URDF that is wanted; the only one if none is named."""
+    found = {entry.filename: entry for entry in entries if entry.filename.lower().endswith(".urdf")}
+    if not found:
+        raise InvalidArchive("the archive holds no URDF file; it must hold at least one")
+    files = tuple(sorted(found))
+    if wanted is None and len(files) > 1:
+        raise InvalidArchive(f"the archive holds {len(files)} URDF files; name one of them in `file`", files=files)
+    if wanted is not None and wanted not in found:
+        raise InvalidArchive("`file` must be one of the archive's URDF files", files=files)
+    return found[wanted or files[0]]
 
 
 def _check_directory(file: BinaryIO) -> None:

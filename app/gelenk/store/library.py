@@ -16,6 +16,7 @@ from collections import OrderedDict
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from itertools import count
 from pathlib import Path
 from typing import Literal
 
@@ -211,25 +212,39 @@ class Library:
         """
         if not NAME.fullmatch(upload.name):
             raise InvalidName(upload.name)
-        if upload.name in self._catalogue:
-            if upload.model == self._catalogue[upload.name].model_path.read_bytes() and not upload.meshes:
-                return False
-            raise RobotExists(upload.name)
         file, version, contents = _files(upload)
-        folder = self.uploads / upload.name
-        if _stands(folder, file):
+        if self._stands(upload, file):
             return False
         with folders.staging(self.uploads) as staging:
             new = staging / upload.name
             folders.write_tree(new / version, contents)
             folders.write_tree(new, {ROBOT_FILE: _as_bytes(file)})
             with folders.exclusive(self.uploads):
-                if _stands(folder, file):
+                if self._stands(upload, file):
                     return False
                 self._check_quota(file)
-                folders.move(new, folder)
+                folders.move(new, self.uploads / upload.name)
                 self._index.note(upload.name, file)
         return True
+
+    def _stands(self, upload: RobotUpload, wanted: RobotFile) -> bool:
+        """Return whether an identical robot is stored; RobotExists for another one of the name."""
+        ours, folder = self._catalogue.get(upload.name), self.uploads / upload.name
+        if ours is not None:
+            is_same = upload.model == ours.model_path.read_bytes() and not upload.meshes
+        elif folder.exists():
+            is_same = _is_stored(folder, wanted)
+        else:
+            return False
+        if not is_same:
+            raise RobotExists(upload.name, ours is not None, self._free(upload.name))
+        return True
+
+    def _free(self, name: str) -> str:
+        """Return a name that no robot has: `panda_2` for `panda`, `panda_3` for `panda_2`."""
+        known = {*self._catalogue, *self._index.names()}
+        stem = re.sub(r"_\d{1,2}$", "", name)
+        return next(free for i in count(2) if (free := f"{stem[: 63 - len(str(i))]}_{i}") not in known)
 
     def replace(self, upload: RobotUpload) -> None:
         """Replace an uploaded robot; at any moment, either the old one or the new one exists.
@@ -378,13 +393,8 @@ def _digest(upload: RobotUpload) -> str:
     return digest.hexdigest()
 
 
-def _stands(folder: Path, wanted: RobotFile) -> bool:
-    """Return whether an identical robot is stored, whatever the names of its files; RobotExists for another one."""
-    if not folder.exists():
-        return False
+def _is_stored(folder: Path, wanted: RobotFile) -> bool:
+    """Return whether the folder holds an identical robot, whatever the names of its files."""
     record = uploaded_record(folder)
     apart = {"model", "meshes", "srdf", "owner", "kept_bytes", "left_out", "findings", "collision_pairs"}
-    is_same = record is not None and record.file.model_dump(exclude=apart) == wanted.model_dump(exclude=apart)
-    if not is_same:
-        raise RobotExists(folder.name)
-    return True
+    return record is not None and record.file.model_dump(exclude=apart) == wanted.model_dump(exclude=apart)

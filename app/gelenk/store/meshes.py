@@ -54,7 +54,9 @@ class MeshFiles:
 
         A relative name starts at the URDF's folder. Failing that, and for `package://name/folder/file`, the whole name,
         or all but the package's name, must be the end of a path; of several such files, those nearest to the URDF
-        count. A package may also have been packed from a folder inside it: then a whole path is an end of the name.
+        count. A package may also have been packed from a folder inside it: then a whole path is an end of the name. And
+        a name may pass through more folders than the archive has, of an installation or another repository: then its
+        end from a folder on that the URDF is in too, such as the package's, counts.
         """
         scheme, is_address, name = reference.partition("://")
         if not is_address:
@@ -62,12 +64,13 @@ class MeshFiles:
             if name in self._paths:
                 return [name]
             return self._nearest.get(re.sub(r"^(\.\./)+", "", os.path.normpath(reference)), (0, []))[1]
-        if scheme not in {"package", "model"}:
+        if scheme not in {"package", "model", "file"}:
             return []
+        most, around = -1 if scheme == "file" else 1, self._urdf_folder.split("/")
         for skipped, end in enumerate(ends(name)):
-            if skipped <= 1 and end in self._nearest:
+            if (skipped <= most or end.split("/")[0] in around) and end in self._nearest:
                 return self._nearest[end][1]
-            if end in self._paths:
+            if end in self._paths and scheme != "file":
                 return [end]
         return []
 

@@ -164,7 +164,8 @@ class Keep:
         """Store the robot, and return it as it is now."""
         if self.form is None:
             return self._kept(context.library, replace(_from_json(task_request.body, self.name), owner=self.owner))
-        with unpacked(BytesIO(task_request.body), root=context.library.uploads) as content:
+        uploads = context.library.uploads
+        with unpacked(BytesIO(task_request.body), root=uploads, urdf=self.form.file) as content:
             upload = RobotUpload(
                 name=self.form.name if isinstance(self.form, NewArchive) else self.name or "",
                 format="urdf",
