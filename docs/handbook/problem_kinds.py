@@ -10,7 +10,13 @@ from docs.handbook.schema_words import anchor, place
 from gelenk.errors import KinematicsError, kinds
 from gelenk.http.messages.problems import status_of
 
-_WORDS: Mapping[Any, str] = {str: "text", int: "whole number", float: "number", tuple[str, ...]: "list of texts"}
+_WORDS: Mapping[Any, str] = {
+    str: "text",
+    bool: "`true` or `false`",
+    int: "whole number",
+    float: "number",
+    tuple[str, ...]: "list of texts",
+}
 """What a fact is, by its type."""
 
 

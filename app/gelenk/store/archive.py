@@ -54,7 +54,7 @@ def unpacked(
     `urdf` is the path in the archive of the URDF that is meant; it may be left out if there is only one.
 
     Raises InvalidArchive if it is no zip, has no such URDF, several and none is named, or an entry that is not allowed,
-    TooLarge with more entries than allowed or more than `max_unpacked` bytes, and StorageFailed without room on the disk.
+    TooLarge with more entries than allowed or more than `max_unpacked` bytes, and StorageFailed without room on disk.
     """
     _check_directory(file)
     try:
