@@ -19,6 +19,7 @@ def example(cls: type[KinematicsError], name: str = "el\nbow") -> KinematicsErro
         str: name,
         int: 7,
         int | None: 8,
+        bool: False,
         float: 0.5,
         float | None: 0.25,
         str | None: name,

@@ -9,7 +9,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
+from tests.corpus.zips import zipped
 from tests.oracles import catalogue
 from tests.studio.browser import Studio
 from tests.studio.tables import ANTHROPOMORPHIC, keep, open_editor, type_table
@@ -77,6 +79,7 @@ def test_an_unknown_robot_says_what_to_do(studio: Studio, refusals: set[int]) ->
     problem = studio.page.locator(".problem:visible")
     problem.wait_for()
     assert "pandaa" in (problem.text_content() or "")
+    assert "Similar names: panda" in (problem.text_content() or "")
     studio.page.locator("button.robot[data-robot=panda]").click()
     studio.wait_for_robot("panda")
     assert studio.page.locator(".problem:visible").count() == 0
@@ -101,9 +104,49 @@ def test_a_zip_dropped_on_the_page_becomes_a_robot(studio: Studio) -> None:
     assert studio.run("studio.store.value.model.meshes") == {"wanted": 1, "shown": 1, "failed": []}
     assert studio.run("studio.view.countMeshes()") == 2  # the hand has none: it is drawn as the body of its joint
     assert get(f"{studio.url}/v1/robots/my_arm")[1]["source"] == "uploaded"
-    studio.button("Remove").click()
-    studio.wait_for_robot("panda")
+    for answer, is_left in (("Cancel", True), ("Remove it", False)):
+        studio.button("Remove").click()
+        dialog = studio.page.get_by_role("dialog", name="Remove my_arm?")
+        dialog.get_by_role("button", name=answer, exact=True).click()
+        expect(dialog).to_have_count(0)
+        studio.wait_for_robot("my_arm" if is_left else "panda")
     assert get(f"{studio.url}/v1/robots/my_arm")[0] == 404
+
+
+@pytest.mark.slow
+def test_of_a_workspace_one_description_is_chosen(studio: Studio, refusals: set[int]) -> None:
+    refusals.add(422)
+    studio.open("robot")
+    files: dict[str, str | bytes] = {
+        "ws/src/arm_description/urdf/left.urdf": URDF.replace("0.4", "0.7"),
+        "ws/src/arm_description/urdf/right.urdf": URDF,
+    }
+    studio.run(DROP, ["ws.zip", list(zipped(files))])
+    which = studio.field("Description in the zip")
+    expect(which.locator("option")).to_have_text(["Choose one of 2", *files])
+    which.select_option("ws/src/arm_description/urdf/left.urdf")
+    studio.wait_for_robot("ws")
+    assert "0 0 0.7" in studio.page.request.get(f"{studio.url}/v1/robots/ws/urdf").text()
+    expect(which).to_be_hidden()
+
+
+@pytest.mark.slow
+def test_a_name_of_the_catalogue_is_followed_by_a_free_one(studio: Studio, refusals: set[int]) -> None:
+    """What is wrong with the file comes first; a robot of the catalogue is not offered to be replaced."""
+    refusals.update({409, 422})
+    studio.open("robot", robot="planar_2r")
+    studio.button("Upload").click()
+    mine = URDF.replace('name="two links"', 'name="panda"')
+    problem = studio.page.locator(".problem:visible")
+    choose(studio, mine.replace("revolute", "revolut"))
+    expect(problem).to_contain_text("revolut")
+    choose(studio, mine)
+    expect(problem).to_contain_text("catalogue")
+    expect(problem).not_to_contain_text("PUT")
+    expect(studio.field("Name")).to_have_value("panda_2")
+    expect(studio.page.get_by_role("button", name="Replace")).to_have_count(0)
+    studio.button("Add").click()
+    studio.wait_for_robot("panda_2")
 
 
 @pytest.mark.slow
@@ -115,7 +158,7 @@ def test_a_urdf_is_chosen_renamed_and_replaced(studio: Studio, refusals: set[int
     studio.wait_for_robot("two_links")
     studio.button("Upload").click()
     choose(studio, URDF)
-    exchange = studio.button("Replace the one of this name")
+    exchange = studio.button("Replace two_links")
     exchange.wait_for()
     exchange.click()
     studio.until("studio.store.value.model.urdf.includes('0 0 0.4')")
@@ -334,7 +377,7 @@ def test_a_name_that_is_taken(studio: Studio, refusals: set[int]) -> None:
     studio.wait_for_robot(None)
     studio.field("Name at the service").fill("taken")
     studio.button("Add to the robots").click()
-    studio.button("Replace the one of this name").click()
+    studio.button("Replace taken").click()
     studio.until("studio.store.value.model.name === 'taken' && !studio.store.value.loading")
     assert get(f"{studio.url}/v1/robots/taken/fk", "POST", {"joint_positions": [[0.0, 0.0]]})[1]["poses"][0][
         "position"

@@ -24,13 +24,18 @@ function isArchive(file: File): boolean {
   return /\.zip$/i.test(file.name) || file.type === "application/zip";
 }
 
-/** Add it, or put it in the place of the uploaded robot of that name. */
-export async function upload(api: Api, file: File, name: string, replace: boolean): Promise<RobotInfo> {
+/** Add it, or put it in the place of the uploaded robot of that name; `file` says which description of a zip is meant. */
+export async function upload(
+  api: Api,
+  content: File,
+  name: string,
+  { replace, file }: { replace: boolean; file: string },
+): Promise<RobotInfo> {
   const target: Pick<Call, "method" | "path"> = replace
     ? { method: "PUT", path: `v1/robots/${encodeURIComponent(name)}` }
     : { method: "POST", path: "v1/robots" };
   const named: Record<string, string> = replace ? {} : { name };
-  if (isArchive(file))
-    return api.call<RobotInfo>({ ...target, form: { fields: named, part: "archive", files: [file] } });
-  return api.call<RobotInfo>({ ...target, body: { ...named, urdf: await file.text() } });
+  if (!isArchive(content)) return api.call<RobotInfo>({ ...target, body: { ...named, urdf: await content.text() } });
+  const fields = file ? { ...named, file } : named;
+  return api.call<RobotInfo>({ ...target, form: { fields, part: "archive", files: [content] } });
 }

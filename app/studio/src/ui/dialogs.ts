@@ -40,6 +40,28 @@ export function askForKey(reason: string): Promise<string | null> {
   });
 }
 
+/** Ask whether something is to be done that cannot be undone; the button that does it is named. */
+export function confirmed(title: string, text: string, does: string): Promise<boolean> {
+  return new Promise((done) => {
+    let isWanted = false;
+    const close = (wanted: boolean) => () => {
+      isWanted = wanted;
+      shown.close();
+    };
+    const shown = dialog(
+      title,
+      () => done(isWanted),
+      element("p", {}, text),
+      element(
+        "div",
+        { class: "bar" },
+        button("Cancel", close(false)),
+        button(does, close(true), { class: "button danger" }),
+      ),
+    );
+  });
+}
+
 const SHORTCUTS: readonly { where: string; keys: readonly (readonly [string, string])[] }[] = [
   {
     where: "Anywhere",

@@ -23,8 +23,8 @@ export class ProblemView {
 
 function whatToDo(problem: Problem): string | null {
   if (problem.status === NO_ANSWER) return "Start it again with ./dev serve, then reload this page.";
-  const similar = problem.facts["similar"];
-  if (Array.isArray(similar) && similar.length) return `Similar names: ${similar.join(", ")}.`;
+  const close = problem.facts["close"];
+  if (Array.isArray(close) && close.length) return `Similar names: ${close.join(", ")}.`;
   if (problem.status === 404) return "It may have been removed. The Robot panel lists what there is.";
   if (problem.status === 409) return "Choose another name.";
   if (problem.status === 413) return "Leave out what is not needed, such as collision meshes.";

@@ -5,6 +5,7 @@ import { jointName } from "../../robot/dh.ts";
 import type { RobotModel } from "../../robot/model.ts";
 import { chainTable } from "../../robot/table.ts";
 import type { DhTable } from "../../types.ts";
+import { confirmed } from "../../ui/dialogs.ts";
 import { button, element } from "../../ui/dom.ts";
 import { drawing, figureOf, svgOf } from "../../ui/drawing.ts";
 import { save } from "../../ui/files.ts";
@@ -39,15 +40,15 @@ function describe(model: RobotModel): HTMLElement[] {
       { class: "facts" },
       ...shown.flatMap(([title, text]) => [element("dt", {}, title), element("dd", {}, text!)]),
     ),
-    ...(warnings.length ? [warningList(warnings)] : []),
+    ...(warnings.length ? [warningList(warnings, model.info?.source === "uploaded")] : []),
   ];
 }
 
-function warningList(warnings: readonly string[]): HTMLElement {
+function warningList(warnings: readonly string[], open: boolean): HTMLElement {
   const title = `${warnings.length} ${warnings.length === 1 ? "remark" : "remarks"} on the description`;
   return element(
     "details",
-    {},
+    { open },
     element("summary", {}, title),
     element("ul", { class: "remarks" }, ...warnings.map((text) => element("li", {}, text))),
   );
@@ -61,6 +62,8 @@ function actions(model: RobotModel, studio: Studio, problem: ProblemView): HTMLE
   };
   const file = model.name ?? "table";
   const removal = attempt(async () => {
+    const text = "Its description and its meshes are removed from the service, for everyone who uses it.";
+    if (!(await confirmed(`Remove ${model.name}?`, text, "Remove it"))) return;
     await api.call({ method: "DELETE", path: `v1/robots/${encodeURIComponent(model.name!)}` });
     store.set({ robot: "panda", base: null, tip: null });
   });

@@ -1,10 +1,10 @@
 /** A URDF or a zip with its meshes, dropped anywhere on the page or chosen here. */
 
-import { asProblem, Problem } from "../../api.ts";
-import { isName, suggestedName, upload } from "../../robot/upload.ts";
-import { button, element } from "../../ui/dom.ts";
-import { ProblemView } from "../../ui/problem.ts";
+import type { Problem } from "../../api.ts";
+import { suggestedName, upload } from "../../robot/upload.ts";
+import { element } from "../../ui/dom.ts";
 import type { Studio } from "../panel.ts";
+import { naming } from "./naming.ts";
 
 /** The file that was dropped last, until an upload of it has succeeded. */
 let waiting: File | null = null;
@@ -19,71 +19,54 @@ export function hasDropped(): boolean {
 }
 
 export function uploads(host: HTMLElement, { api, store }: Studio): () => void {
-  const problem = new ProblemView();
   const picker = element("input", { type: "file", accept: ".urdf,.xml,.zip", class: "file", id: "robot-file" });
-  const name = element("input", {
-    type: "text",
-    class: "text",
-    id: "robot-name",
-    autocomplete: "off",
-    spellcheck: "false",
-  });
   const chosen = element(
     "p",
     { class: "muted" },
-    "A URDF with its xacro expanded, or a zip of one URDF and its meshes. It may be dropped anywhere on the page.",
+    "A URDF with its xacro expanded, or a zip of it and its meshes. It may be dropped anywhere on the page.",
   );
-  const send = (replace: boolean) => async () => {
+  const which = element("select", { class: "select", id: "robot-which", onchange: () => void made.submit() });
+  const among = element(
+    "div",
+    { class: "keep", hidden: true },
+    element("label", { class: "field", for: "robot-which" }, "Description in the zip"),
+    which,
+  );
+  const send = async (name: string, replace: boolean) => {
     if (!waiting) return;
-    const wanted = name.value.trim();
-    problem.show(
-      isName(wanted)
-        ? null
-        : new Problem(422, "This is no name", "1 to 64 letters, digits, _, . or -, the first one a letter or digit."),
-    );
-    if (!isName(wanted)) return;
-    busy(true);
-    try {
-      await upload(api, waiting, wanted, replace);
-      waiting = null;
-      exchange.hidden = true;
-      chosen.textContent = `${wanted} is on the screen.`;
-      store.set({ robot: "", draft: null });
-      store.set({ robot: wanted, base: null, tip: null, target: null });
-    } catch (error) {
-      const found = asProblem(error);
-      problem.show(found);
-      exchange.hidden = found.status !== 409;
-    } finally {
-      busy(false);
-    }
+    await upload(api, waiting, name, { replace, file: which.value });
+    waiting = null;
+    offer([]);
+    chosen.textContent = `${name} is on the screen.`;
+    store.set({ robot: "", draft: null });
+    store.set({ robot: name, base: null, tip: null, target: null });
   };
-  const add = button("Add", () => void send(false)(), { class: "button primary" });
-  const exchange = button("Replace the one of this name", () => void send(true)(), { hidden: true });
-  const busy = (isBusy: boolean) => {
-    for (const made of [add, exchange]) made.disabled = isBusy || !waiting;
+  const offer = (files: readonly string[]) => {
+    const first = element("option", { value: "" }, `Choose one of ${files.length}`);
+    which.replaceChildren(first, ...files.map((file) => element("option", { value: file }, file)));
+    among.hidden = files.length === 0;
   };
+  const refused = ({ facts }: Problem) => {
+    const files = facts["files"];
+    if (!Array.isArray(files) || files.length < 2) return;
+    made.problem.show(null); // the choice says it
+    offer(files.map(String));
+  };
+  const made = naming({ id: "robot-name", label: "Name", add: "Add", send, refused });
   const receive = async (file: File) => {
     waiting = file;
-    problem.show(null);
-    exchange.hidden = true;
+    made.forget();
+    offer([]);
     chosen.textContent = `${file.name}, ${Math.ceil(file.size / 1024)} kB`;
-    name.value = await suggestedName(file);
-    await send(false)();
+    made.name.value = await suggestedName(file);
+    await made.submit();
   };
   picker.addEventListener("change", () => {
     const file = picker.files?.[0];
     if (file) void receive(file);
   });
-  host.append(
-    chosen,
-    element("label", { class: "field", for: "robot-file" }, "File"),
-    picker,
-    element("label", { class: "field", for: "robot-name" }, "Name"),
-    element("div", { class: "bar" }, name, add, exchange),
-    problem.host,
-  );
-  busy(false);
+  made.adding.disabled = true;
+  host.append(chosen, element("label", { class: "field", for: "robot-file" }, "File"), picker, among, made.host);
   if (waiting) void receive(waiting);
   return () => {};
 }
