@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from playwright.sync_api import Route
 
 from tests.studio.browser import Studio
 from tests.studio.tables import ANTHROPOMORPHIC, keep, type_table
@@ -270,12 +271,56 @@ def test_the_arrow_keys_move_a_slider_and_turn_the_view(studio: Studio) -> None:
 
 
 @pytest.mark.slow
-def test_a_stopped_service_is_told(another: Callable[..., Studio]) -> None:
+def test_a_service_that_is_away_is_told_and_asked_again(another: Callable[..., Studio]) -> None:
     studio = another()
     studio.open(robot="planar_2r")
     studio.page.route("**/fk", lambda route: route.abort())
+    studio.page.route("**/healthz", lambda route: route.abort())
     studio.field("joint_1").fill("0.4")
-    problem = studio.page.locator(".problem:visible")
-    problem.wait_for()
-    assert "./dev serve" in (problem.text_content() or "")
+    lost = studio.page.get_by_role("alert").filter(has_text="does not answer")
+    lost.wait_for()
+    studio.page.unroute_all()
+    lost.get_by_role("button", name="Try now").click()
+    lost.wait_for(state="hidden")
+    studio.until("document.querySelector('.agreement').dataset.tone === 'good'")
+    assert studio.page.locator(".problem:visible").count() == 0
     studio.complaints.clear()  # the console tells of the connection too
+
+
+@pytest.mark.slow
+def test_meshes_that_a_service_away_did_not_send_come_when_it_is_back(another: Callable[..., Studio]) -> None:
+    """A proxy in front of it may answer in its place."""
+    studio = another()
+    studio.expected.add(502)
+    studio.page.route("**/meshes/**", lambda route: route.abort())
+    studio.go("#panel=pose&robot=talos_left_arm")
+    studio.wait_for_robot("talos_left_arm")
+    assert studio.run("studio.store.value.model.meshes.shown") == 0
+    studio.page.unroute_all()
+    studio.page.route("**/fk", lambda route: route.fulfill(status=502, body="Bad Gateway"), times=1)
+    studio.page.locator(".number").first.fill("0.4")
+    studio.page.locator(".number").first.press("Enter")
+    studio.until("!studio.store.value.loading && studio.store.value.model.meshes.shown > 0")
+    studio.wait_for_robot("talos_left_arm")
+    assert studio.run("studio.store.value.model.meshes.failed") == []
+    studio.complaints.clear()  # the console tells of the connection too
+
+
+@pytest.mark.slow
+def test_a_robot_is_not_uploaded_twice(another: Callable[..., Studio]) -> None:
+    """Only its answer may have been lost; so the page asks whoever uploads it."""
+    studio = another()
+    studio.open("robot", robot="planar_2r")
+    asked: list[str] = []
+
+    def lose(route: Route) -> None:
+        asked.append(route.request.method)
+        route.abort()
+
+    studio.page.route("**/v1/robots", lose)
+    sent = "studio.api.call({method: 'POST', path: 'v1/robots', body: {}}).catch(({title}) => title)"
+    assert studio.run(sent) == "No answer"
+    lost = studio.page.get_by_role("alert").filter(has_text="does not answer")
+    lost.wait_for(state="hidden")
+    assert asked == ["POST"]
+    studio.complaints.clear()

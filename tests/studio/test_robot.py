@@ -73,9 +73,10 @@ def test_a_robot_is_found_and_picked(studio: Studio) -> None:
 
 
 @pytest.mark.slow
-def test_an_unknown_robot_says_what_to_do(studio: Studio, refusals: set[int]) -> None:
+@pytest.mark.parametrize("panel", ["robot", "trajectory"])
+def test_an_unknown_robot_says_what_to_do(studio: Studio, refusals: set[int], panel: str) -> None:
     refusals.add(404)
-    studio.go("#robot=pandaa&panel=robot")
+    studio.go(f"#robot=pandaa&panel={panel}")
     problem = studio.page.locator(".problem:visible")
     problem.wait_for()
     assert "pandaa" in (problem.text_content() or "")

@@ -1,5 +1,6 @@
 /** The public API, spoken like any other client does: JSON, problems, and a record of each call to show as a script. */
 
+import type { Connection } from "./connection.ts";
 import type { Key } from "./key.ts";
 
 export interface Call {
@@ -35,6 +36,9 @@ export class Problem extends Error {
 const UNAUTHORIZED = 401;
 export const NO_ANSWER = 0;
 const NOT_OF_THE_SERVICE = -1;
+const OF_A_PROXY: ReadonlySet<number> = new Set([502, 503, 504]);
+/** A call of these would make one thing twice, if only its answer was lost. */
+const MAKES = /^v1\/(robots|scenes)$|\/workspace$/;
 
 /** Whatever went wrong as it is shown; the title is for what is not the service's. */
 export function asProblem(error: unknown, title = "The page cannot do this"): Problem {
@@ -42,16 +46,20 @@ export function asProblem(error: unknown, title = "The page cannot do this"): Pr
 }
 
 export class Api {
-  /** @param key that calls carry, and that is asked for where the service wants another one. */
+  /**
+   * @param key that calls carry, and that is asked for where the service wants another one.
+   * @param connection that calls wait for where nobody answers.
+   */
   constructor(
     readonly root: URL,
     readonly key: Key,
+    readonly connection: Connection,
     private readonly record: (call: Call) => void = () => {},
   ) {}
 
   /** The same API, with every call told to someone. */
   recorded(record: (call: Call) => void): Api {
-    return new Api(this.root, this.key, record);
+    return new Api(this.root, this.key, this.connection, record);
   }
 
   url(path: string): string {
@@ -96,16 +104,35 @@ export class Api {
     }
   }
 
+  /** The service's answer, however long it takes to be back; what makes something is not sent twice. */
   private async sent(call: Call, signal?: AbortSignal): Promise<Response> {
     const { body, headers } = content(call);
-    const request = { method: call.method, body, headers: { ...headers, ...this.key.headers }, signal: signal ?? null };
-    try {
-      return await fetch(this.url(call.path), request);
-    } catch (error) {
-      if (signal?.aborted) throw error;
+    for (;;) {
+      const request = {
+        method: call.method,
+        body,
+        headers: { ...headers, ...this.key.headers },
+        signal: signal ?? null,
+      };
+      try {
+        const answer = await fetch(this.url(call.path), request);
+        if (!OF_A_PROXY.has(answer.status) || isJson(answer)) return answer;
+      } catch (error) {
+        if (signal?.aborted) throw error;
+      }
+      const back = this.connection.back(signal);
+      if (call.method === "GET" || (call.method === "POST" && !MAKES.test(call.path))) {
+        await back;
+        continue;
+      }
+      back.catch(() => {});
       throw new Problem(NO_ANSWER, "No answer", "The service does not answer. Is it still running?");
     }
   }
+}
+
+function isJson(answer: Response): boolean {
+  return answer.headers.get("Content-Type")?.includes("json") ?? false;
 }
 
 function content(call: Call): { body: BodyInit | null; headers: Record<string, string> } {
@@ -122,7 +149,7 @@ function content(call: Call): { body: BodyInit | null; headers: Record<string, s
 
 async function problem(answer: Response): Promise<Problem> {
   const fallback = `The service answered ${answer.status} ${answer.statusText}.`;
-  if (!answer.headers.get("Content-Type")?.includes("json")) return new Problem(answer.status, "Error", fallback);
+  if (!isJson(answer)) return new Problem(answer.status, "Error", fallback);
   const { title, detail, ...facts } = (await answer.json()) as Record<string, unknown>;
   return new Problem(answer.status, String(title ?? "Error"), String(detail ?? fallback), facts);
 }

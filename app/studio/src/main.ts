@@ -6,6 +6,7 @@ import "katex/dist/katex.min.css";
 
 import { mirror, read } from "./address.ts";
 import { Api } from "./api.ts";
+import { Connection } from "./connection.ts";
 import { divide } from "./divider.ts";
 import { acceptDrops } from "./dropping.ts";
 import { embed, isEmbedded } from "./embed.ts";
@@ -35,7 +36,8 @@ function start(): void {
   const store = new Store(initial(linked, prefs.width));
   const key = new Key(askForKey, ({ isWanted }) => (keyTool.hidden = !isWanted));
   const keyTool = keySwitch(key);
-  const api = new Api(new URL(".", document.baseURI), key);
+  const root = new URL(".", document.baseURI);
+  const api = new Api(root, key, new Connection(new URL("healthz", root).href, () => loader.again()));
   followTheme(store);
   const view = makeView(place("view"));
   const studio: Studio = { store, api, view };

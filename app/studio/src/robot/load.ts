@@ -12,6 +12,7 @@ import { RobotModel } from "./model.ts";
 import { chainTable, draftTable, TABLE_CHAIN } from "./table.ts";
 
 const DRAFT_NAME = "draft";
+const NOT_FOUND = 404;
 /** How long a mesh waits for the next ones, [ms]. */
 const TOGETHER = 150;
 
@@ -42,6 +43,12 @@ export class Loader {
     this.#restored = positions;
   }
 
+  /** The service is back: what it could not be asked for is asked again. */
+  again(): void {
+    const { model, failure } = this.store.value;
+    if (failure || model?.meshes.failed.length) void this.#load();
+  }
+
   async #load(): Promise<void> {
     const { robot, draft } = this.store.value;
     if (!robot && !draft) return;
@@ -53,7 +60,10 @@ export class Loader {
       );
       if (model) this.#show(model);
     } catch (error) {
-      this.store.set({ loading: false, failure: asProblem(error, "This robot cannot be shown") });
+      const failure = asProblem(error, "This robot cannot be shown");
+      this.store.set({ loading: false, failure });
+      // There is what it says, and what else there is.
+      if (failure.status === NOT_FOUND && !this.store.value.model) this.store.set({ panel: "robot" });
     }
   }
 

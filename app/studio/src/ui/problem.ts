@@ -22,7 +22,7 @@ export class ProblemView {
 }
 
 function whatToDo(problem: Problem): string | null {
-  if (problem.status === NO_ANSWER) return "Start it again with ./dev serve, then reload this page.";
+  if (problem.status === NO_ANSWER) return "Start it again with ./dev serve, then try again.";
   const close = problem.facts["close"];
   if (Array.isArray(close) && close.length) return `Similar names: ${close.join(", ")}.`;
   if (problem.status === 404) return "It may have been removed. The Robot panel lists what there is.";
