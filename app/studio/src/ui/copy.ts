@@ -1,9 +1,9 @@
-/** A button that copies a text. */
+/** A button that copies a text; `face` is what it says. */
 
 import { button } from "./dom.ts";
 
-export function copyButton(text: () => string, what: string): HTMLButtonElement {
-  const made = button("Copy", () => void copy(), {
+export function copyButton(text: () => string, what: string, face = "Copy"): HTMLButtonElement {
+  const made = button(face, () => void copy(), {
     class: "button small",
     title: `Copy ${what}`,
     "aria-label": `Copy ${what}`,
@@ -15,7 +15,7 @@ export function copyButton(text: () => string, what: string): HTMLButtonElement 
     } catch {
       made.textContent = "Not allowed";
     }
-    setTimeout(() => (made.textContent = "Copy"), 1500);
+    setTimeout(() => (made.textContent = face), 1500);
   };
   return made;
 }

@@ -4,6 +4,7 @@ import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
 import type { JacobianAnswer, Representation } from "../../types.ts";
 import { element } from "../../ui/dom.ts";
+import { matrixCopies } from "../../ui/matrices.ts";
 import { fixed, rounded, subscript } from "../../ui/quantity.ts";
 import type { Form } from "./choices.ts";
 
@@ -27,7 +28,8 @@ export class MatrixView {
     private readonly store: Store<State>,
     private readonly visit: (joint: string) => void,
   ) {
-    this.host.append(this.#scroll, this.#summary);
+    const rows = () => JSON.parse(this.host.dataset["jacobian"] ?? "[]") as number[][];
+    this.host.append(this.#scroll, matrixCopies(rows, "the Jacobian"), this.#summary);
   }
 
   /** The element carries the matrix to the last digit as `data-jacobian`. */

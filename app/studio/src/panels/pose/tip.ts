@@ -6,6 +6,7 @@ import { asPose, FORMATS, IN_RADIANS, position } from "../../robot/pose.ts";
 import type { PoseFormat } from "../../types.ts";
 import { copyButton } from "../../ui/copy.ts";
 import { element } from "../../ui/dom.ts";
+import { matrixCopies } from "../../ui/matrices.ts";
 import { fixed } from "../../ui/quantity.ts";
 
 const DECIMALS = 5;
@@ -21,8 +22,11 @@ export class TipPose {
       const cell = element("output", { class: "numbers", "data-format": key, "aria-label": title });
       this.#cells.set(key, cell);
       const text = () => JSON.stringify(this.#T && (key === "position" ? position(this.#T) : asPose(this.#T, key)));
-      const copy = copyButton(text, title);
-      return [element("dt", {}, title), element("dd", {}, cell), element("dd", { class: "copy" }, copy)];
+      const head = element("dt", {}, title);
+      if (key !== "rotation" && key !== "matrix")
+        return [head, element("dd", {}, cell), element("dd", { class: "copy" }, copyButton(text, title))];
+      const rows = () => this.#T && (asPose(this.#T, key)[key] as number[][]);
+      return [head, element("dd", { class: "wide" }, cell, matrixCopies(rows, title))];
     };
     const formats = FORMATS.filter(({ format }) => format !== "rotation" && format !== "matrix");
     const matrices = FORMATS.filter(({ format }) => format === "rotation" || format === "matrix");

@@ -1,10 +1,7 @@
 /** A matrix of numbers between brackets, or a single number; a change writes only what differs. */
 
 import { element } from "../../ui/dom.ts";
-import { fixed } from "../../ui/quantity.ts";
-
-const DECIMALS = 4;
-const DUST = 1e-14;
+import { rounded } from "../../ui/matrices.ts";
 
 export class NumberMatrix {
   readonly host: HTMLElement;
@@ -35,16 +32,4 @@ export class NumberMatrix {
     this.#cells = texts.map((row) => row.map(() => element("span", { class: "matrix-cell" })));
     this.host.replaceChildren(...this.#cells.map((row) => element("span", { class: "matrix-row" }, ...row)));
   }
-}
-
-/** With four decimals; what is whole but for the dust of rounding as such. */
-export function rounded(value: number): string {
-  const isWhole = Math.abs(value - Math.round(value)) < DUST;
-  return fixed(value, isWhole ? 0 : DECIMALS);
-}
-
-/** The same for LaTeX. */
-export function matrixLatex(values: readonly (readonly number[])[]): string {
-  const lines = values.map((row) => row.map((value) => rounded(value).replace("−", "-")).join(" & "));
-  return `\\begin{bmatrix} ${lines.join(" \\\\ ")} \\end{bmatrix}`;
 }

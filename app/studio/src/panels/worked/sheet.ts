@@ -4,7 +4,8 @@ import type { SolutionNumbers } from "../../types.ts";
 import { copyButton } from "../../ui/copy.ts";
 import { button, element, reaching } from "../../ui/dom.ts";
 import { formula } from "../../ui/mathematics.ts";
-import { matrixLatex, NumberMatrix } from "./matrix.ts";
+import { matrixLatex } from "../../ui/matrices.ts";
+import { NumberMatrix } from "./matrix.ts";
 import type { Line, Section } from "./solution.ts";
 
 /** Characters of a formula that fills the width for sure: it is laid out when it comes into sight. */
