@@ -187,6 +187,7 @@ def test_each_option_is_compared() -> None:
         ("add", "base"),
         ("add", "tip"),
         ("add", "name"),
+        ("add", "file"),
         ("scenes put", "name"),
         ("jobs cancel", "finished"),
     }

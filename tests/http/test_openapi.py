@@ -140,9 +140,10 @@ def test_what_the_schema_has_for_a_query_beside_an_array_can_stand_there(client:
         for name, field in query["properties"].items():
             assert f"`{name}`" in content["application/x-npy"]["schema"]["description"]
             for value in query_examples(field):
+                contacts = {"min_clearance": 0.0} if name == "other_joints" else {}
                 answer = client.post(
                     address,
-                    params={name: str(value).lower() if isinstance(value, bool) else value},
+                    params=contacts | {name: str(value).lower() if isinstance(value, bool) else value},
                     content=npy.saved(array),
                     headers={"content-type": "application/x-npy"},
                 )

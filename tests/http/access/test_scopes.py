@@ -9,7 +9,7 @@ from fastapi.routing import RouteContext, iter_route_contexts
 from tests.http.access.asking import HOST, Answer, application, ask, bearer, keys_for
 
 OPEN = {"/", "/studio", "/docs", "/redoc", "/documentation/bundles", "/documentation/own", "/openapi.json"}
-OPEN |= {"/handbook", "/handbook/"}
+OPEN |= {"/embed", "/handbook", "/handbook/"}
 OPEN |= {"/healthz", "/readyz"}
 WRITING = {
     ("POST", "/v1/robots"),

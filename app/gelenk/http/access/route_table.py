@@ -13,7 +13,7 @@ from gelenk.contract.endpoint import Route, Scope
 from gelenk.contract.endpoints import ROUTES
 
 OPEN_PATHS = frozenset(
-    {"/", "/studio", "/handbook", "/handbook/", "/docs", "/redoc", "/openapi.json"}
+    {"/", "/embed", "/studio", "/handbook", "/handbook/", "/docs", "/redoc", "/openapi.json"}
     | {"/documentation/bundles", "/documentation/own"}
 )
 """Pages, their files and the schema: the same for everyone, and a browser sends no key for them."""
