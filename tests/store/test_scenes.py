@@ -189,7 +189,7 @@ def test_where_each_object_is() -> None:
 
 
 STEP = 1e-4
-"""Difference of the radii of two scenes in turn, [m]: a fast machine writes thousands, and the largest is a kilometre."""
+"""Difference of the radii of two scenes in turn, [m]: a fast machine writes thousands, and none exceeds a kilometre."""
 WRITER = f"""
 import sys
 from pathlib import Path
