@@ -21,9 +21,9 @@ from gelenk.collision.link_pairs import disabled_pairs
 from gelenk.collision.pairs import LinkPair, edited
 from gelenk.collision.robot_bodies import RobotBodies, find_bodies
 from gelenk.collision.shapes.meshes import MAX_BYTES
-from gelenk.errors import InvalidUrdf, StorageFailed
+from gelenk.errors import InvalidUrdf
 from gelenk.robot.robot import RobotModel
-from gelenk.store import folders
+from gelenk.store import derived, folders
 from gelenk.store.records import LoadedRobot, mesh_file, stamp_of
 
 _KEPT = 500
@@ -52,7 +52,7 @@ def stored_or_found(loaded: LoadedRobot) -> RobotBodies:
             return read_bodies(orjson.loads(folders.read_plain(file)))
     found = _found(loaded)
     if file is not None:
-        _write(file, found)
+        derived.keep(file, orjson.dumps(found, default=np.ndarray.tolist), "*.json", _KEPT)
     return found
 
 
@@ -88,19 +88,7 @@ def _digest(loaded: LoadedRobot) -> str:
 
 @cache
 def _code() -> str:
-    sources = sorted(Path(next(iter(collision.__path__))).rglob("*.py"))
-    return hashlib.sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()
-
-
-def _write(file: Path, found: RobotBodies) -> None:
-    """Store bodies, and remove the oldest beyond those that stay; a full disk only costs time later."""
-    content = orjson.dumps(found, default=np.ndarray.tolist)
-    with suppress(StorageFailed, OSError):
-        file.parent.mkdir(parents=True, exist_ok=True)
-        folders.replace_file(file.parent, file.name, content, is_durable=False)
-        stored = sorted(file.parent.glob("*.json"), key=lambda path: path.stat().st_mtime)
-        for old in stored[:-_KEPT]:
-            old.unlink(missing_ok=True)
+    return derived.code_digest(Path(next(iter(collision.__path__))).rglob("*.py"))
 
 
 def read_bodies(stored: Mapping[str, Any]) -> RobotBodies:

@@ -4,6 +4,7 @@
 - `archive`: unpacks an untrusted zip of one URDF, its meshes and its SRDF; `findings` says what is wrong with these.
 - `meshes`: finds the file that a mesh name refers to.
 - `records`: reads a robot's folder: its `robot.json` and the paths of its files.
+- `derived`: files computed from a robot once.
 - `local`: a robot beside the store, of a file of one's own.
 - `index`: one file with the data on each uploaded robot that the list of robots and the quotas need.
 - `quota`: what one client may store.

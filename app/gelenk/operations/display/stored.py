@@ -2,7 +2,6 @@
 
 import gzip
 import hashlib
-from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
@@ -10,13 +9,13 @@ import numpy as np
 
 from gelenk.collision.shapes import meshes as readers
 from gelenk.collision.shapes.meshes import MAX_BYTES, read_parts
-from gelenk.errors import InvalidMesh, StorageFailed
+from gelenk.errors import InvalidMesh
 from gelenk.operations.display.colours import colour_of
 from gelenk.operations.display.glb import STEPS, Colour, DrawnPart, glb, grid
 from gelenk.operations.display.normals import shaded
 from gelenk.operations.display.simplify import simplified
 from gelenk.robot.arrays import Array, Indices
-from gelenk.store import folders
+from gelenk.store import derived
 from gelenk.store.records import LoadedRobot, stamp_of
 
 _KEPT = 4000
@@ -41,21 +40,13 @@ def stored_file(loaded: LoadedRobot, file: Path) -> Path | None:
 
 
 def made(loaded: LoadedRobot, file: Path) -> bytes:
-    """Return the small file of a mesh, compressed, and store it; empty if only the mesh itself shows what it is.
-
-    A full disk only costs time later.
-    """
+    """Return the small file of a mesh, compressed, and store it; empty if only the mesh itself shows what it is."""
     with gzip.open(file) if file.suffix == ".gz" else file.open("rb") as content:
         small = small_mesh(file.name.removesuffix(".gz"), content.read(MAX_BYTES + 1))
     packed = gzip.compress(small, mtime=0) if small else b""
     target = stored_file(loaded, file)
     if target is not None:
-        with suppress(StorageFailed, OSError):
-            target.parent.mkdir(parents=True, exist_ok=True)
-            folders.replace_file(target.parent, target.name, packed, is_durable=False)
-            stored = sorted(target.parent.glob("*.glb.gz"), key=lambda path: path.stat().st_mtime)
-            for old in stored[:-_KEPT]:
-                old.unlink(missing_ok=True)
+        derived.keep(target, packed, "*.glb.gz", _KEPT)
     return packed
 
 
@@ -102,5 +93,4 @@ def _joined(triangles: Array) -> tuple[Array, Indices]:
 @cache
 def _code() -> str:
     own, reader = Path(__file__).parent, Path(readers.__file__).parent
-    sources = sorted([*own.glob("*.py"), *reader.glob("*.py")])
-    return hashlib.sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()
+    return derived.code_digest([*own.glob("*.py"), *reader.glob("*.py")])
