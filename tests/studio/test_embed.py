@@ -4,16 +4,16 @@ import json
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from http.server import SimpleHTTPRequestHandler
 from pathlib import Path
-from threading import Thread
 
 import pytest
 from playwright.sync_api import expect
 
 from tests.studio.browser import Studio
+from tests.studio.proxy import answering
 from tests.studio.test_page import AXE
-from tests.test_serve import HOST, service
+from tests.test_serve import service
 
 
 @contextmanager
@@ -24,15 +24,8 @@ def pages_of(folder: Path) -> Iterator[str]:
         def log_message(self, *_: object) -> None:
             pass
 
-    server = ThreadingHTTPServer((HOST, 0), partial(Quiet, directory=str(folder)))
-    thread = Thread(target=server.serve_forever)
-    thread.start()
-    try:
-        yield f"http://{HOST}:{server.server_port}"
-    finally:
-        server.shutdown()
-        server.server_close()
-        thread.join()
+    with answering(partial(Quiet, directory=str(folder))) as origin:
+        yield origin
 
 
 @pytest.mark.slow

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gelenk.collision.bodies import Body
-from gelenk.collision.cell import Cell, cell_in
+from gelenk.collision.cell import Cell, Nearest, cell_in
 from gelenk.collision.contact.world import build_world
 from gelenk.collision.robot_bodies import RobotBodies
 from gelenk.collision.scene import Obstacle
@@ -123,7 +123,11 @@ def test_a_pose_without_a_free_branch_is_a_failure_with_pair_and_depth(name: str
 def test_a_contact_that_coal_does_not_see_is_withheld(monkeypatch: pytest.MonkeyPatch) -> None:
     here = cell("ur5", goal("ur5")[:3, 3] + [0.01, 0.005, 0.002], robot_of("ur5").chain(None, None).tip_frame)
     nearest = Cell.nearest
-    off = lambda one, qs: nearest(one, qs)._replace(clearances=nearest(one, qs).clearances + 1e-3)  # noqa: E731
+
+    def off(one: Cell, qs: Array) -> Nearest:
+        found = nearest(one, qs)
+        return found._replace(clearances=found.clearances + 1e-3)
+
     monkeypatch.setattr(Cell, "nearest", off)
     with pytest.raises(CertificationFailed):
         planned("ur5", here)

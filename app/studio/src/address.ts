@@ -9,7 +9,9 @@ import { isPose } from "./robot/pose.ts";
 import { asLook } from "./view/looking.ts";
 import { type DhTable, DIRECTIONS, type InverseOptions } from "./types.ts";
 
-const FLAGS = ["degrees", "frames", "axes", "names", "dh", "bodies"] as const;
+/** What can be drawn on a robot besides itself. */
+export const MARKS = ["frames", "axes", "names", "dh", "bodies"] as const;
+const FLAGS = ["degrees", ...MARKS] as const;
 const OPTION = /^[a-z]+\.[a-z]+$/; // `panel.option`
 const PARTS: readonly string[] = ["transforms", "pose", "jacobian", "singular", "motion"];
 const WRITE_AFTER = 250; // browsers refuse more than some hundred changes of the address in half a minute

@@ -1,14 +1,12 @@
 /** What others can have of the page as it is: a link, a frame for another page, a line for a notebook, the picture. */
 
-import { write } from "./address.ts";
+import { MARKS, write } from "./address.ts";
 import type { Studio } from "./panels/panel.ts";
 import type { State } from "./state.ts";
 import { copyButton } from "./ui/copy.ts";
 import { dialog } from "./ui/dialogs.ts";
 import { button, element } from "./ui/dom.ts";
 import { save } from "./ui/files.ts";
-
-const MARKS = ["frames", "axes", "names", "dh", "bodies"] as const;
 
 /** Show the dialog. */
 export function share({ store, view, api }: Studio): void {
