@@ -263,7 +263,7 @@ class Robot:
     ) -> Contacts:
         """Find the nearest pair at each configuration: of links, and of a link and an object of the scene.
 
-        The first time a robot's bodies are found, which takes seconds if it has meshes.
+        The first call finds the robot's bodies, which takes seconds if it has meshes.
 
         Args:
             q: See `fk`.

@@ -122,7 +122,7 @@ RESOURCES = (
         problems=_OF_ROBOT,
         summary="A mesh file of a robot",
         description="""
-        The file exactly as uploaded; the server does not inspect it.
+        The file exactly as uploaded.
 
         For pictures, name `model/gltf-binary` in `Accept`: then a mesh is answered as GLB with fewer triangles, no
         further from its surface than about a thousandth of its longest side, and with its colours. One with textures,

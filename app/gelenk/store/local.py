@@ -28,7 +28,7 @@ def local_robot(robot: RobotModel, file: Path | None = None, table: DhTable | No
 
 
 def _place(folder: Path, mesh: str) -> Path:
-    """Return where a mesh is that a description in a folder names; raises nothing if it is not there."""
+    """Return where a mesh would be that a description in a folder names, whether it is there or not."""
     scheme, is_address, rest = mesh.partition("://")
     if not is_address:
         return Path(os.path.normpath(folder / mesh))
