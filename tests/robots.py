@@ -10,12 +10,14 @@ import pytest
 from _pytest.mark import ParameterSet
 
 from gelenk.dh.tables.convert import describe_dh
+from gelenk.dh.tables.housings import housed_bodies
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.description import Description
 from gelenk.robot.dh import DhJoint, DhTable
 from gelenk.robot.robot import RobotModel
 from gelenk.robot.urdf import read_urdf, write_urdf
+from gelenk.store.records import BUILT_KINDS
 from tests.oracles import catalogue, dh_columns
 
 CLASSES = {
@@ -44,12 +46,16 @@ def swept(names: Iterable[str], value: Callable[[str], object] = str) -> list[Pa
 @cache
 def robot(name: str) -> RobotModel:
     """A robot of the catalogue."""
-    if name in catalogue.URDFS:
-        description = read_urdf(catalogue.urdf_text(name))
-    else:
-        description = reread(describe_dh(name, table(catalogue.dh_table(name))))
+    description = read_urdf(catalogue.urdf_text(name)) if name in catalogue.URDFS else described(name)
     ends = catalogue.entry(name)["default_chain"]
     return RobotModel(description, (ends["base_frame"], ends["tip_frame"]))
+
+
+def described(name: str) -> Description:
+    """A table of the catalogue as the service describes it."""
+    about, given = catalogue.entry(name), table(catalogue.dh_table(name))
+    bodies = housed_bodies(given, about.get("payload")) if about["kind"] in BUILT_KINDS else None
+    return reread(describe_dh(name, given, bodies))
 
 
 def table(content: Mapping[str, Any]) -> DhTable:

@@ -55,7 +55,7 @@ class Service:
         everything = list(processes(self.pid))
         self._run.kill()
         self._run.wait()
-        wait_for(lambda: not any(is_alive(pid) for pid in everything), 20.0)
+        wait_for(lambda: not any(is_alive(pid) for pid in everything))
 
     def kill_some(self, what: str, chance: random.Random) -> None:
         """Kill a process of a kind, or all; the service is there again afterwards, or soon."""
@@ -231,7 +231,8 @@ def test_nothing_acknowledged_is_lost(tmp_path: Path) -> None:
         service.start()
         for thread in (*writers, reader):
             thread.start()
-        for what in turns:
+        for done, what in enumerate(turns):  # no sooner than so much has been acknowledged, however busy the machine is
+            wait_for(lambda done=done: sum(writer.acknowledged for writer in writers) > done)
             time.sleep(chance.uniform(0.05, 0.6))
             service.kill_some(what, chance)
             assert len(strays(tmp_path)) < 20
@@ -249,7 +250,7 @@ def test_nothing_acknowledged_is_lost(tmp_path: Path) -> None:
         service.kill()
     told = {name: sum(getattr(one, name) for one in writers) for name in ("acknowledged", "interrupted", "looks")}
     print(f"{kills} kills, {told}, jobs {sum(len(writer.jobs) for writer in writers)}")
-    assert told["acknowledged"] > kills
+    assert told["acknowledged"] >= kills
     assert told["interrupted"] > 0
 
 

@@ -3,7 +3,9 @@
 import json
 import logging
 import logging.config
+import threading
 import time
+from collections.abc import Callable
 from io import StringIO
 from typing import Any
 
@@ -27,6 +29,13 @@ def written(*records: logging.LogRecord) -> list[str]:
         handler.emit(each)
     handler.flush()
     return stream.getvalue().splitlines()
+
+
+def wait_for(condition: Callable[[], bool]) -> None:
+    deadline = time.monotonic() + 60.0
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
 
 
 def test_a_record_is_a_line_with_its_facts() -> None:
@@ -72,32 +81,33 @@ def test_lines_come_by_themselves_and_in_order() -> None:
     handler = LineHandler(stream)
     for i in range(1000):
         handler.emit(record("%d", i))
-    deadline = time.monotonic() + 10
-    while stream.getvalue().count("\n") < 1000:
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
+    wait_for(lambda: stream.getvalue().count("\n") == 1000)
     assert [json.loads(line)["message"] for line in stream.getvalue().splitlines()] == [str(i) for i in range(1000)]
 
 
 class Blocked(StringIO):
-    """A stream that nobody reads from."""
+    """A stream that nobody reads from until it is let go."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.is_asked, self.let_go = threading.Event(), threading.Event()
 
     def write(self, text: str) -> int:
-        time.sleep(0.5)
+        self.is_asked.set()
+        assert self.let_go.wait(60.0)
         return super().write(text)
 
 
-@pytest.mark.slow
 def test_a_slow_reader_holds_up_nobody_and_what_is_lost_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("gelenk.logs._MOST_WAITING", 50)
     stream = Blocked()
     handler = LineHandler(stream)
     handler.emit(record("first"))
-    time.sleep(0.2)  # the thread is writing now
-    started = time.perf_counter()
+    assert stream.is_asked.wait(60.0)
     for i in range(80):
         handler.emit(record("%d", i))
-    assert time.perf_counter() - started < 0.25
+    assert stream.getvalue() == "", "nobody has waited for it"
+    stream.let_go.set()
     handler.flush()
     lines = [json.loads(line)["message"] for line in stream.getvalue().splitlines()]
     assert lines == ["first", *(str(i) for i in range(50)), "30 lines were left out"]
@@ -109,10 +119,9 @@ def test_a_closed_stream_costs_the_lines_alone() -> None:
     stream.close()
     for _ in range(3):
         handler.emit(record("nobody listens"))
-        time.sleep(0.2)
+        wait_for(lambda: not handler._waiting)
     assert handler._thread is not None
     assert handler._thread.is_alive()
-    assert not handler._waiting
 
 
 @pytest.mark.parametrize(("level", "expected"), [("info", ["info", "error"]), ("error", ["error"])])

@@ -72,7 +72,7 @@ def service_that_writes(
             yield run, url
         finally:
             run.terminate()
-            run.wait(timeout=20)
+            run.wait(timeout=60)
 
 
 def wait_until_ready(url: str, run: subprocess.Popen[str]) -> None:
@@ -140,7 +140,7 @@ def test_a_request_in_flight_finishes(tmp_path: Path, stop: signal.Signals) -> N
         f"Content-Length: {len(body)}\r\nConnection: close\r\n\r\n"
     ).encode()
     with service(tmp_path) as (run, url):
-        with socket.create_connection((HOST, int(url.rsplit(":", 1)[1])), timeout=20) as connection:
+        with socket.create_connection((HOST, int(url.rsplit(":", 1)[1])), timeout=60) as connection:
             connection.sendall(head + body[:10])
             time.sleep(0.3)
             run.send_signal(stop)
@@ -152,7 +152,7 @@ def test_a_request_in_flight_finishes(tmp_path: Path, stop: signal.Signals) -> N
                 answer += chunk
         assert answer.startswith(b"HTTP/1.1 200")
         assert b'"position":[1.7' in answer
-        run.wait(timeout=8)
+        run.wait(timeout=60)
 
 
 @pytest.mark.slow
@@ -179,7 +179,7 @@ def test_whoever_asks_while_it_ends_is_told_so_and_not_cut_off(tmp_path: Path) -
         time.sleep(0.5)
         run.terminate()
         assert {one.result() for one in asking} <= {(200, "close"), (503, "close")}
-        assert run.wait(timeout=20) == 0
+        assert run.wait(timeout=60) == 0
 
 
 def test_connections_that_come_at_once_are_let_in_within_few_turns() -> None:
@@ -264,12 +264,12 @@ def test_a_crowd_takes_no_more_files_than_there_may_be(tmp_path: Path) -> None:
             url = f"http://{HOST}:{port}"
             wait_until_ready(url, run)
             for _ in range(120):
-                crowd.enter_context(socket.create_connection((HOST, port), timeout=20))
+                crowd.enter_context(socket.create_connection((HOST, port), timeout=60))
             assert get(f"{url}/healthz")[0] == 200
             assert get(f"{url}/v1/robots/planar_2r/fk", "POST", {"joint_positions": [[0.0, 0.0]]})[0] == 200
         finally:
             run.terminate()
-            run.wait(timeout=20)
+            run.wait(timeout=60)
 
 
 def test_hardly_any_files_end_it_with_one_line() -> None:
@@ -359,7 +359,7 @@ def test_of_two_that_begin_at_once_one_is_told_at_once(workers: str, tmp_path: P
             assert second.stderr.count("\n") == 1
         finally:
             first.terminate()
-            first.wait(timeout=20)
+            first.wait(timeout=60)
 
 
 def started_with(monkeypatch: pytest.MonkeyPatch, *arguments: str, **settings: str) -> uvicorn.Config:
@@ -423,13 +423,14 @@ def test_keys_over_real_connections(tmp_path: Path) -> None:
         for path, method, status in (("/v1/robots", "GET", 200), ("/v1/robots/nobody", "DELETE", 403)):
             request = urllib.request.Request(url + path, method=method, headers={"Authorization": f"Bearer {token}"})
             try:
-                with urllib.request.urlopen(request, timeout=20) as answer:
+                with urllib.request.urlopen(request, timeout=60) as answer:
                     assert answer.status == status
             except urllib.error.HTTPError as error:
                 assert error.code == status
                 assert json.loads(error.read())["missing_scope"] == "write"
 
 
+@pytest.mark.slow
 def test_a_home_that_cannot_be_written_is_told_with_what_to_do() -> None:
     environment = {
         name: value for name, value in os.environ.items() if name not in {"GELENK_DATA_DIR", "XDG_DATA_HOME"}

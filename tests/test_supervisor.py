@@ -15,6 +15,7 @@ import uvicorn
 
 from gelenk.supervisor import STARTUP_FAILURE, STILL_STARTING, Worker
 from tests.raw_http import processes
+from tests.speed import times_as_slow
 from tests.test_faults import QUICK, called, children, is_alive, wait_for
 from tests.test_serve import HOST, free_port, get, service
 
@@ -47,9 +48,9 @@ def test_a_killed_worker_is_replaced_at_once(running: tuple[int, str]) -> None:
                 is_whole(pid) and victim not in called("worker", pid) and len(crews - set(called("crew", pid))) == CREW
             )
         )
-        seconds.append(time.monotonic() - killed)
+        seconds.append((time.monotonic() - killed) / times_as_slow())
         assert get(f"{url}/v1/robots/planar_2r/fk", "POST", QUICK)[0] == 200
-    assert min(seconds) < 1.0, seconds  # a busy machine takes longer than an idle one, which takes 0.3 s
+    assert min(seconds) < 1.0, seconds  # 0.3 s on an idle machine
 
 
 @pytest.mark.slow
@@ -75,7 +76,7 @@ def test_the_fork_server_is_replaced_with_all_its_children(running: tuple[int, s
     (fork_server,) = children(pid)
     workers = children(fork_server)
     os.kill(fork_server, signal.SIGKILL)
-    wait_for(lambda: not any(is_alive(one) for one in workers), 5.0)
+    wait_for(lambda: not any(is_alive(one) for one in workers))
     wait_for(lambda: is_whole(pid))
     assert get(f"{url}/v1/robots/planar_2r/fk", "POST", QUICK)[0] == 200
 
@@ -87,7 +88,7 @@ def test_no_worker_outlives_the_supervisor(running: tuple[int, str]) -> None:
     everything = list(processes(pid))
     assert len(everything) == 2 + WORKERS * (1 + CREW)
     os.kill(pid, signal.SIGKILL)
-    wait_for(lambda: not any(is_alive(one) for one in everything), 5.0)
+    wait_for(lambda: not any(is_alive(one) for one in everything))
     with pytest.raises(OSError, match="refused"):
         get(f"{url}/healthz")
 

@@ -9,6 +9,8 @@ from http.client import HTTPConnection
 from typing import Any, Literal
 from urllib.parse import urlsplit
 
+import numpy as np
+
 _URDF = """<robot name="r"><link name="base"/><link name="tip">{mesh}</link><joint name="j" type="continuous">
 <parent link="base"/><child link="tip"/><origin xyz="0 0 {number}"/><axis xyz="0 0 1"/></joint></robot>"""
 _MESH = '<visual><geometry><mesh filename="package://arm/part.stl"/></geometry></visual>'
@@ -88,7 +90,7 @@ class Upload:
         """
         if self.form == "scene":
             scene = read(url, f"/v1/scenes/{name}")
-            file = {"name": "part.stl", "size": len(self._mesh())}
+            file = {"name": "part.npy", "size": len(self._cloud())}
             return scene.status == 200 and scene.content == {"name": name, "objects": [self._object()], "files": [file]}
         if self.form == "dh":
             robot = read(url, f"/v1/robots/{name}")
@@ -100,7 +102,7 @@ class Upload:
         return (mesh.status, mesh.body) == (200, self._mesh()) if self.form == "zip" else mesh.status == 404
 
     def _object(self) -> dict[str, Any]:
-        return {"name": f"part {self.number}", "shape": {"type": "mesh", "file": "part.stl"}}
+        return {"name": f"part {self.number}", "shape": {"type": "points", "file": "part.npy", "radius": 0.01}}
 
     def _table(self) -> dict[str, Any]:
         row = {"type": "revolute", "a": float(self.number), "alpha": 0.0, "d": 0.0, "theta": 0.0}
@@ -115,10 +117,16 @@ class Upload:
     def _mesh(self) -> bytes:
         return random.Random(self.number).randbytes(200_000)
 
+    def _cloud(self) -> bytes:
+        """Return points as npy: they are looked at before they are stored."""
+        file = io.BytesIO()
+        np.save(file, np.random.default_rng(self.number).random((16_000, 3), np.float32))
+        return file.getvalue()
+
     def _form(self, fields: dict[str, str]) -> bytes:
         parts = [f'name="{name}"\r\n\r\n{value}'.encode() for name, value in fields.items()]
         if self.form == "scene":
-            parts.append(b'name="files"; filename="part.stl"\r\n\r\n' + self._mesh())
+            parts.append(b'name="files"; filename="part.npy"\r\n\r\n' + self._cloud())
         else:
             parts.append(b'name="archive"; filename="r.zip"\r\n\r\n' + self._archive())
         lines = b"".join(

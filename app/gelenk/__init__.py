@@ -2,7 +2,7 @@
 
 - `main`: builds the application from its parts; `serve` runs it; `settings` is read once, there. `keys`: creates keys.
 - `reload`: restarts it when a source file changes. `supervisor`: starts the worker processes, and replaces them.
-- `connections`: HTTP connections with bounds on time, size and number.
+- `connections`: HTTP connections with bounds on time, size and number. `answering`: each request at once.
 - `preload`: loads what all processes share; `processes`: processes forked from the one that has loaded it.
 - `engine`: the core as a library, `gelenk.Robot`. `client`: the service as a library; `gelenk.show`.
 - `logs`: the log, as lines of JSON.
@@ -19,14 +19,16 @@
 Imports lead only downwards; `./dev lint` checks it.
 """
 
-from typing import TYPE_CHECKING, Any
+TYPE_CHECKING = False  # checkers know the name; `typing` loads slower than all else before `cli.start`
 
 if TYPE_CHECKING:
+    from typing import Any
+
     from gelenk.client.show import show as show
     from gelenk.engine import Robot as Robot
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> "Any":
     """Return `gelenk.__version__`, `gelenk.show` or `gelenk.Robot`, loaded on first use."""
     if name == "__version__":
         from importlib.metadata import version  # noqa: PLC0415  (half of what an import of this package would take)

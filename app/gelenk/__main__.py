@@ -1,5 +1,5 @@
 """`python -m gelenk`: the same as the command `gelenk`."""
 
-from gelenk.cli.main import main
+from gelenk.cli.start import main
 
 main()

@@ -18,6 +18,8 @@ from typing import Any
 import orjson
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol, RequestResponseCycle
 
+from gelenk.answering import answered
+
 AT_ONCE = ("/healthz", "/readyz", "/metrics")
 """Paths that never wait and are never refused: monitoring must see the service when it is busy."""
 
@@ -156,6 +158,7 @@ class BoundedProtocol(HttpToolsProtocol):
         self._in_message = self._in_head = False
         self._stage = self._other_bytes = 0
         self._ends: float | None = None
+        self._arriving: Callable[[], None] | None = None
 
     @property
     def waits_for_client(self) -> bool:
@@ -191,6 +194,7 @@ class BoundedProtocol(HttpToolsProtocol):
                 what = "request line and header fields" if self._in_head else "chunk extensions and trailer fields"
                 status = HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE
                 self._refuse(status, "head-too-large", f"{what} may have {most} bytes in all")
+        self._begin_request()  # though its body is not complete
 
     def _begin_stage(self, *, in_head: bool = False, in_body: bool = False) -> None:
         self._stage, self._in_head, self._in_message = self._stage + 1, in_head, in_head or in_body
@@ -205,7 +209,9 @@ class BoundedProtocol(HttpToolsProtocol):
     def on_header(self, name: bytes, value: bytes) -> None:
         """Store a header field; a trailer field is dropped, since the headers have been acted upon."""
         if self._in_head:
-            super().on_header(name, value)
+            name = name.lower()
+            self.expect_100_continue |= name == b"expect" and value.lower() == b"100-continue"
+            self.headers.append((name, value))
 
     def on_headers_complete(self) -> None:
         """Process the complete head; if its target names a host, that one counts (RFC 9112, 3.2.2)."""
@@ -230,23 +236,47 @@ class BoundedProtocol(HttpToolsProtocol):
         """Note that the request is complete."""
         self._begin_stage()
         super().on_message_complete()
+        self._begin_request()
 
     def on_response_complete(self) -> None:
-        """Note that the response is sent; after a refusal, do not read for a while."""
+        """Note that the response is sent; after a refusal, do not read for a while.
+
+        The server's own timer for idle connections is left out, since there is the check for slow clients.
+        """
         self.since = self.loop.time()
-        super().on_response_complete()
+        self.server_state.total_requests += 1
+        if self.transport.is_closing():
+            return
+        self.flow.resume_reading()
+        if self.pipeline:  # soon and not now, or a hundred would be a hundred calls deep
+            self.loop.call_soon(self._start, *self.pipeline.pop())
         seconds = self.cycle.scope["state"].get("retry_after")
         if self.cycle.response_complete and seconds is not None:
             self._pause(seconds)
 
     def _start_asgi_task(self, cycle: RequestResponseCycle, app: Any) -> None:
-        begin = partial(super()._start_asgi_task, cycle, app)
+        self._arriving = partial(self._start, cycle, app)  # its body may be among the bytes at hand
+
+    def _begin_request(self) -> None:
+        if self._arriving is not None:
+            begin, self._arriving = self._arriving, None
+            begin()
+
+    def _start(self, cycle: RequestResponseCycle, app: Any) -> None:
+        if self.transport.is_closing() and not cycle.disconnected:  # nobody would get the answer
+            return
         if self._gate.is_stopping:
             self.end_with_answer()
+        begin = partial(self._answer, cycle, app)
         if cycle.scope["path"].endswith(AT_ONCE):
             begin()
         elif not self._gate.enter(begin):
             self._turn_away(cycle)
+
+    def _answer(self, cycle: RequestResponseCycle, app: Any) -> None:
+        if (task := answered(cycle, app, self.loop)) is not None:
+            self.tasks.add(task)
+            task.add_done_callback(self.tasks.discard)
 
     def _turn_away(self, cycle: RequestResponseCycle) -> None:
         """Refuse a request; the connection stays open, but is not read for a while."""

@@ -96,12 +96,24 @@ class InvalidInput(KinematicsError):
 
 
 class InvalidUrdf(InvalidInput):
-    """The URDF does not describe a valid robot; where known, the error names the element and the line (1-based)."""
+    """The URDF does not describe a valid robot; where known, the error names the element and the line (1-based).
+
+    For a xacro or MJCF, which may include others, it names the file too.
+    """
 
     reason: str
     element: str | None = None
     line: int | None = None
-    template = "<line {line}: ><{element}: >{reason}"
+    file: str | None = None
+    template = "<file {_file}: ><line {line}: ><{element}: >{reason}"
+
+    @property
+    def _file(self) -> str | None:
+        """The end of the path, which says more than its beginning."""
+        path = self.file
+        return (
+            path if path is None else quoted(path if len(path) <= _QUOTED_LENGTH else f"…{path[1 - _QUOTED_LENGTH :]}")
+        )
 
 
 class InvalidDhTable(InvalidInput):

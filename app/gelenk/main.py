@@ -13,7 +13,6 @@ from fastapi import FastAPI
 from fastapi.routing import iter_route_contexts
 
 from gelenk import __version__
-from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.endpoints import ENDPOINTS
 from gelenk.http import dispatch, pages
 from gelenk.http.access.audit_log import AuditLog
@@ -30,6 +29,7 @@ from gelenk.http.messages import openapi, problems
 from gelenk.http.messages.payloads import Bodies
 from gelenk.http.messages.routes import Application
 from gelenk.http.pictures import picture_route, pictures_router
+from gelenk.http.robots.exports import export_routes
 from gelenk.http.robots.pairs import pair_routes
 from gelenk.http.robots.robots import documented_routes, robots_router
 from gelenk.http.scenes import scene_routes, scenes_router
@@ -38,11 +38,13 @@ from gelenk.http.sheets import sheet_routes
 from gelenk.http.workers.pool_client import PARSED_HERE_BYTES, PoolClient
 from gelenk.http.workers.task import Context
 from gelenk.jobs.cluster import Cluster
+from gelenk.jobs.limits import JobLimits
 from gelenk.jobs.runner import Runner
-from gelenk.jobs.store import JobLimits, JobStore
+from gelenk.jobs.store import JobStore
 from gelenk.jobs.workers import PoolExecutor
 from gelenk.operations.outcome import Limits
 from gelenk.pool.pool import WorkerPool
+from gelenk.processes.memory import keep_freed_memory
 from gelenk.settings import Settings
 from gelenk.store.library import Library
 from gelenk.store.quota import Quota
@@ -126,13 +128,12 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     for endpoint in ENDPOINTS:
         handler = dispatch.handler(endpoint, pool_client, runner, limits)
         most_body = min(size, PARSED_HERE_BYTES) if endpoint.is_job else size
-        route = dispatch.route(endpoint, handler, most_body)
-        app.router.routes.append(route)
-        if isinstance(endpoint, RobotEndpoint):
-            app.operations[endpoint.name] = route
+        app.operations[endpoint.id] = dispatch.route(endpoint, handler, most_body)
+    app.router.routes.extend(app.operations.values())
     app.router.routes.extend(
         [
             *documented_routes(pool_client, size),
+            *export_routes(pool_client, size),
             *pair_routes(pool_client, size),
             *scene_routes(pool_client, size),
             picture_route(pool_client, size),
@@ -191,6 +192,7 @@ async def _start(readiness: Readiness, pool: WorkerPool) -> None:
 def from_environment() -> FastAPI:
     """Build the application as the environment configures it; each worker process starts from it."""
     sys.setswitchinterval(_SWITCH_SECONDS)
+    keep_freed_memory()
     settings = Settings.from_environment(os.environ)
     if settings.otlp_endpoint:
         os.environ.update(exporter_variables(settings.otlp_endpoint, os.environ))

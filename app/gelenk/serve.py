@@ -94,7 +94,6 @@ def main() -> None:
         server_header=False,
         proxy_headers=bool(settings.trusted_proxies),
         forwarded_allow_ips=list(settings.trusted_proxies),
-        timeout_keep_alive=round(bounds.head_seconds),
         timeout_graceful_shutdown=SHUTDOWN_SECONDS,
     )
     with metrics_folder(arguments.workers):

@@ -1,20 +1,26 @@
 /** Bundles the studio into the package, to the same bytes from the same lock file. */
 
+import { createHash } from "node:crypto";
 import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { brotliCompressSync, constants } from "node:zlib";
 
 import { build } from "esbuild";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const out = process.argv[2] ?? join(here, "..", "gelenk", "studio");
-const FONTS_THAT_EVERY_BROWSER_READS = /,url\([^)]*\.(?:woff|ttf)\) format\("[a-z]+"\)/g;
+const COMPRESSED = /\.(?:css|html|js|svg|txt)$/;
+const OLDER_FORMATS = /,url\([^)]*\.(?:woff|ttf)\) format\("[a-z]+"\)/g;
+/** Of commands that no formula of the service has; a test looks for them. */
+const UNUSED_FONTS =
+  /@font-face\{[^}]*KaTeX_(?:Caligraphic|Fraktur|Script|Typewriter|[A-Za-z]+-BoldItalic|SansSerif-(?:Bold|Italic))\b[^}]*\}/g;
 
 const katexStyle = {
   name: "katex-fonts",
   setup(bundler) {
     bundler.onLoad({ filter: /katex\.min\.css$/ }, ({ path }) => ({
-      contents: readFileSync(path, "utf8").replace(FONTS_THAT_EVERY_BROWSER_READS, ""),
+      contents: readFileSync(path, "utf8").replace(OLDER_FORMATS, "").replace(UNUSED_FONTS, ""),
       loader: "css",
     }));
   },
@@ -33,6 +39,35 @@ const withoutReaders = {
   },
 };
 
+/** The module "gelenk:thumbnails": of each robot's small picture the file, named by its content. */
+const thumbnails = {
+  name: "thumbnails",
+  setup(bundler) {
+    bundler.onResolve({ filter: /^gelenk:thumbnails$/ }, ({ path }) => ({ path, namespace: "thumbnails" }));
+    bundler.onLoad({ filter: /.*/, namespace: "thumbnails" }, () => ({
+      contents: JSON.stringify(copiedThumbnails()),
+      loader: "json",
+    }));
+  },
+};
+
+function copiedThumbnails() {
+  const folder = join(here, "thumbnails");
+  mkdirSync(join(out, "thumbnails"), { recursive: true });
+  const pictures = readdirSync(folder).filter((name) => name.endsWith(".webp"));
+  return Object.fromEntries(
+    pictures.sort().map((name) => {
+      const robot = basename(name, ".webp");
+      const hash = createHash("sha256")
+        .update(readFileSync(join(folder, name)))
+        .digest("hex");
+      const file = `thumbnails/${robot}-${hash.slice(0, 8).toUpperCase()}.webp`;
+      cpSync(join(folder, name), join(out, file));
+      return [robot, file];
+    }),
+  );
+}
+
 rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
 const { metafile } = await build({
@@ -49,13 +84,34 @@ const { metafile } = await build({
   legalComments: "none",
   loader: { ".woff2": "file" },
   assetNames: "fonts/[name]-[hash]",
-  plugins: [katexStyle, withoutReaders],
+  plugins: [katexStyle, withoutReaders, thumbnails],
   metafile: true,
   logLevel: "warning",
 });
-cpSync(join(here, "page", "icon.svg"), join(out, "icon.svg"));
+dropLateStyles(metafile);
+for (const name of ["icon.svg", "neutral.svg"]) cpSync(join(here, "page", name), join(out, name));
 writeFileSync(join(out, "index.html"), preloading(readFileSync(join(here, "page", "index.html"), "utf8"), metafile));
 writeFileSync(join(out, "LICENSES.txt"), licences(metafile));
+for (const name of readdirSync(out, { recursive: true })) if (COMPRESSED.test(name)) compress(join(out, name));
+
+/** The bundler writes for each later chunk the style sheets of whatever it imports, which no page asks for: those of the
+ * page have them, or nothing has. */
+function dropLateStyles({ outputs }) {
+  const sheets = Object.entries(outputs).filter(([path]) => path.endsWith(".css"));
+  const [, page] = sheets.find(([path]) => basename(path) === "studio.css");
+  for (const [path, { inputs }] of sheets) {
+    const lacking = Object.keys(inputs).filter((input) => !(input in page.inputs));
+    if (lacking.length) throw new Error(`${lacking} is imported by what is loaded later: import it by what is at once`);
+    if (basename(path) !== "studio.css") rmSync(join(out, "chunks", basename(path)));
+  }
+}
+
+/** Beside a file the same by Brotli, which the service sends to who takes it. */
+function compress(file) {
+  const content = readFileSync(file);
+  const size = { [constants.BROTLI_PARAM_SIZE_HINT]: content.length };
+  writeFileSync(`${file}.br`, brotliCompressSync(content, { params: size }));
+}
 
 /** The page, which asks for what its script imports together with the script itself. */
 function preloading(page, { outputs }) {

@@ -1,13 +1,16 @@
-"""The calls of a page with curl, beside those in Python: derived from what the page's session has sent.
+"""What stands beside the calls of a page: the same with curl, and the studio's calculator with the same numbers.
 
-A page is written once, in Python; its tabs are only in the built handbook. They need no script.
+Both are derived from what the page's session has sent. A page is written once, in Python; its tabs and these links are
+only in the built handbook. They need no script.
 """
 
 import json
 import re
 import shlex
 from collections.abc import Sequence
+from html import escape
 from typing import Any
+from urllib.parse import quote
 
 from httpx2 import QueryParams
 
@@ -20,12 +23,18 @@ _MOST_CALLS = 3
 _MOST_LETTERS = 1200
 """A longer body is not for people."""
 _LINE = 96
+CALCULATORS = frozenset(
+    {"mobility", "dc-motor", "encoder", "orientation", "triangle", "time-law", "spline", "fly-over"}
+)
+"""Operations of the course that the studio has a page for."""
+_COURSE = "v1/course/"
 _USUAL = {JSON, "*/*"}
 _PYTHON = re.compile(r"^```python\n.*?^```\n", re.MULTILINE | re.DOTALL)
 _TAB = (
     '<input type="radio" name="{name}" id="{name}-{value}" value="{value}"{state}>'
     '<label for="{name}-{value}">{label}</label>'
 )
+_STUDIO = '<p class="studio"><a href="{href}">Change the numbers in the studio</a></p>'
 
 
 def curl(call: Call[Any]) -> str | None:
@@ -44,13 +53,23 @@ def curl(call: Call[Any]) -> str | None:
     return f"{command} \\\n    -d {shlex.quote(compact(json.loads(call.body), 4, _LINE))}" if call.body else command
 
 
-def tabbed(part: str, calls: Sequence[Call[Any]], name: str) -> str:
+def calculator(call: Call[Any]) -> str | None:
+    """The link of the studio's calculator with a call's numbers, from where the service is; None if there is none."""
+    operation = call.path.removeprefix(_COURSE)
+    if not call.path.startswith(_COURSE) or operation not in CALCULATORS or len(call.body) > _MOST_LETTERS:
+        return None
+    inputs = quote(json.dumps(json.loads(call.body), separators=(",", ":"), ensure_ascii=False), safe=",")
+    return f"#robot=planar_2r&panel=course&course.task={operation}&course.inputs={inputs}"
+
+
+def tabbed(part: str, calls: Sequence[Call[Any]], name: str, service: str = "../") -> str:
     """A part of a page, its Python in one tab and the calls that it has made in another.
 
     Args:
         part: Markdown with one block of Python.
         calls: What the block has sent.
         name: Of the tabs, another one for each part of a page.
+        service: The way from the page to the service's address.
     """
     commands = list(dict.fromkeys(filter(None, map(curl, calls))))
     if not commands:
@@ -59,6 +78,8 @@ def tabbed(part: str, calls: Sequence[Call[Any]], name: str) -> str:
     shell = "\n\n".join([*commands[:_MOST_CALLS], *more])
     python = _TAB.format(name=name, value="python", label="Python", state=" checked")
     tabs = python + _TAB.format(name=name, value="curl", label="curl", state="")
-    return _PYTHON.sub(
+    shown = _PYTHON.sub(
         lambda block: f'<div class="tabs">{tabs}\n\n{block[0]}\n```sh\n{shell}\n```\n\n</div>\n', part, count=1
     )
+    link = next(filter(None, map(calculator, calls)), None)
+    return f"{shown}\n{_STUDIO.format(href=escape(service + link))}\n" if link else shown

@@ -128,17 +128,23 @@ _GENERATED: Mapping[str, Callable[[str], str]] = {
 }
 
 
-def shown(page: Page) -> str:
-    """A page as it is built: each of its calls also with curl."""
+def shown(page: Page, path: Path) -> str:
+    """A page as it is built: each of its calls also with curl, and those of the course with the studio's calculator."""
     pieces = enumerate(page.calls)
 
     def beside(part: re.Match[str]) -> str:
         if not (part["code"] or part["picture"]):
             return part[0]
         number, calls = next(pieces)
-        return tabbed(part[0], calls, f"call-{number}")
+        return tabbed(part[0], calls, f"call-{number}", _to_service(path))
 
     return _PART.sub(beside, page.text)
+
+
+def _to_service(path: Path) -> str:
+    """The way from a built page to the service, which has the handbook in a folder of its own."""
+    pages, page = Path(__file__).resolve().parents[1], path.resolve()
+    return "../" * (len(page.relative_to(pages).parts) if page.is_relative_to(pages) else 1)
 
 
 def linked(pages: dict[Path, Page]) -> None:
@@ -166,7 +172,7 @@ def renew(paths: list[Path], write: bool) -> Iterator[str]:
     linked(pages)
     for path, page in pages.items():
         yield from (f"{path}: {fault}" for fault in page.faults)
-        SHOWN[path.resolve()] = shown(page)
+        SHOWN[path.resolve()] = shown(page, path)
         files = {path: page.text, **{path.parent / name: text for name, text in page.pictures.items()}}
         for file, text in files.items():
             apart = 1e-9 if file == path else 0.2  # of a picture, a fifth of a point

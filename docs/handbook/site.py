@@ -80,6 +80,8 @@ def _dead_links(site: Path, pages: dict[Path, Page]) -> Iterator[str]:
                 continue
             target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
             place = unquote(parts.fragment)
+            if target == site.resolve().parent:
+                continue  # the service, which shows the studio there
             if not target.is_file():
                 yield f"{path.relative_to(site)}: {link} leads nowhere"
             elif place and target in pages and place not in pages[target].places:

@@ -112,6 +112,7 @@ def test_a_folder_has_at_most_fifteen_modules() -> None:
     assert {folder.name: size for folder, size in sizes.items() if size > 15 and folder.name not in LISTS} == {}
 
 
+@pytest.mark.slow
 def test_no_class_name_stands_for_two_things() -> None:
     trees = [ast.parse(file.read_text(encoding="utf-8")) for file in PACKAGE.rglob("*.py")]
     names = Counter(node.name for tree in trees for node in tree.body if isinstance(node, ast.ClassDef))

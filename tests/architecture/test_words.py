@@ -16,7 +16,7 @@ NOUN = re.compile(r" ([a-z]{3,}s)\b")
 NO_NOUNS = {
     *("belongs", "comes", "follows", "gives", "holds", "keeps", "leads", "lies", "meets", "reaches", "slides", "stays"),
     *("stands", "takes", "this", "was", "has", "does", "names", "needs", "goes", "jumps", "misses", "lists", "answers"),
-    *("vanishes", "bytes", "seconds", "counts"),
+    *("vanishes", "bytes", "seconds", "counts", "attaches"),
 }
 NEVER_ONE = {
     *("len(keys) keys", "count coordinates", "pieces pieces", "count samples", "waypoints waypoints"),
@@ -28,6 +28,7 @@ NEVER_ONE = {
     *("factor times", "bound.ratio times", "jerk.ratio times", "ratios[k, j] times"),
     *("len(names) meshes", "len(parts) - 1 folders", "len(path.trace) configurations", "voxels voxels"),
     *("len(row) numbers", "tried solutions", "rotations orientations", "hard files", "10.0 ** abs(power) times"),
+    *("moving bodies", "len(affix) characters"),
 }
 """Numbers that are two or more, or a limit, or zero; and those whose sentence has a form for one."""
 

@@ -268,7 +268,8 @@ class Eaik(Peer):
         self._chain = arm.chain
 
     def ask(self, T: Array, seed: Array) -> Callable[[], Any]:
-        del seed  # It finds all solutions there are.
+        # It finds all solutions there are; that its answer makes an array of them when it is read is not counted.
+        del seed
         ik = self._robot.IK
         return lambda: ik(T)
 

@@ -1,6 +1,7 @@
-"""Seconds from `./dev serve` to `/readyz`, the environment installed and the kernels' cache warm."""
+"""Seconds from `./dev serve` to `/readyz`, the environment installed and the kernels' cache warm, and of a command."""
 
 import os
+import shlex
 import statistics
 import subprocess
 import sys
@@ -22,7 +23,33 @@ def measure() -> list[Row]:
     return [
         Row("`./dev serve` to `/readyz`, warm cache", f"{whole:.2f} s", wanted="≤ 3 s"),
         Row("share of `./dev` itself", f"{share:.2f} s", wanted="< 0.5 s"),
+        *of_commands(),
     ]
+
+
+COMMANDS = {"--help": 0.2, "fk panda -q '0 0 0 0 0 0 0'": 1.0}
+"""Commands, and the most that each may take, [s]."""
+
+
+def of_commands() -> list[Row]:
+    """What a command takes from start to end, as a multiple of what loading Pinocchio takes in the same run."""
+    words = {command: [sys.executable, "-m", "gelenk", *shlex.split(command)] for command in COMMANDS}
+    peer = [sys.executable, "-c", "import pinocchio"]
+    rounds = [{command: seconds_of(line) for command, line in {**words, "": peer}.items()} for _ in range(ROUNDS + 1)]
+    median = {command: statistics.median(one[command] for one in rounds[1:]) for command in rounds[0]}
+    peer_seconds = median[""]
+    against = f"{peer_seconds:.2f} s: `import pinocchio`"
+    return [
+        Row(f"`gelenk {command}`", f"{median[command]:.2f} s", against, median[command] / peer_seconds, f"≤ {most} s")
+        for command, most in COMMANDS.items()
+    ]
+
+
+def seconds_of(line: list[str]) -> float:
+    """What a process takes, start and end included."""
+    started = time.perf_counter()
+    subprocess.run(line, check=True, stdout=subprocess.DEVNULL)
+    return time.perf_counter() - started
 
 
 def seconds_to_ready() -> float:

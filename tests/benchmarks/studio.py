@@ -34,8 +34,8 @@ WATCH_JOINTS = """(() => {
   globalThis.waits = [];
   const {store} = studio, set = store.set.bind(store);
   let moved = null;
+  addEventListener("pointermove", () => (moved ??= performance.now()), {capture: true});
   store.set = (change) => {
-    if ("target" in change) moved ??= performance.now();
     set(change);
     if (!("positions" in change) || moved === null) return;
     waits.push(performance.now() - moved);
@@ -96,7 +96,7 @@ def visit(launched: Browser, url: str) -> Visit:
     session.send("Network.emulateNetworkConditions", {"offline": False, **limits})
     sizes: list[float] = []
     session.on("Network.loadingFinished", lambda event: sizes.append(event["encodedDataLength"]))
-    studio.page.goto(f"{url}/")
+    studio.page.goto(f"{url}/#robot=panda")
     studio.until("studio.store.value.model && !studio.store.value.loading")
     usable = studio.run(NEXT_DRAWN)
     studio.wait_for_robot("panda")

@@ -134,16 +134,16 @@ def test_xacro_is_expanded_here(shell: Shell, url: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "sentence"),
     [
-        ("<xacro:include filename='away.xacro'/>", "No such file or directory: "),
+        ("<xacro:include filename='away.xacro'/>", "there is no file 'away.xacro'"),
         (
             "<xacro:include filename='$(find nowhere)/a.xacro'/>",
             "package 'nowhere' is not found: name its folder with ",
         ),
-        ("<xacro:include filename='arm.xacro'/>", "it includes itself, or a macro calls itself"),
-        ("<link name='$(arg length)'/>", "Undefined substitution argument length"),
-        ("<link name='${1/0}'/>", "division by zero when evaluating expression '1/0'"),
-        ("<xacro:elbow/>", "unknown macro name: xacro:elbow"),
-        ("<link", "not well-formed"),
+        ("<xacro:include filename='arm.xacro'/>", "macros, conditions and includes are nested deeper than 100"),
+        ("<link name='$(arg length)'/>", "the argument 'length' has no value: give one, or a default in <xacro:arg>"),
+        ("<link name='${1/0}'/>", "division by zero in the expression '1/0'"),
+        ("<xacro:elbow/>", "there is no macro 'elbow'"),
+        ("<link", "not well-formed (invalid token)"),
     ],
 )
 def test_what_is_wrong_with_xacro_is_said_once_and_on_a_line(
@@ -152,8 +152,17 @@ def test_what_is_wrong_with_xacro_is_said_once_and_on_a_line(
     arm = tmp_path / "arm.xacro"
     arm.write_text(f'<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">{content}</robot>')
     err = shell("fk", arm, "-q", "0", code=2)[1]
-    assert err.startswith("gelenk: arm.xacro: xacro cannot expand it: ")
+    assert err.startswith("gelenk: file 'arm.xacro': line 1: ")
     assert err.count(sentence) == err.count("\n") == 1
+
+
+def test_what_is_not_read_of_an_mjcf_is_told_on_standard_error(shell: Shell, tmp_path: Path) -> None:
+    arm = tmp_path / "arm.xml"
+    body = '<body name="a"><joint name="q"/><geom size="1"/></body>'
+    arm.write_text(f"<mujoco><worldbody>{body}</worldbody>\n<actuator><motor joint='q'/></actuator></mujoco>")
+    for command in (("fk", arm, "-q", "0.5"), ("robots", arm), ("add", arm, "--name", "told")):
+        assert shell(*command)[1] == "gelenk: file 'arm.xml': line 2: actuator is not read\n"
+    assert shell("--quiet", "fk", arm, "-q", "0.5")[1] == ""
 
 
 @pytest.mark.parametrize("prefix", ["", "xacro:"])
@@ -167,7 +176,7 @@ def test_a_xacro_of_macros_alone_says_so(shell: Shell, tmp_path: Path, prefix: s
     assert f"defines only the macros '{prefix}arm', '{prefix}hand'; expand one that calls them" in err
     around = tmp_path / "around.xacro"
     around.write_text(file.read_text().replace(macros, '<xacro:include filename="macros.xacro"/>'))
-    assert "around.xacro: the robot has no link" in shell("fk", around, "-q", "0", code=2)[1]
+    assert "file 'around.xacro': line 1: the robot has no link" in shell("fk", around, "-q", "0", code=2)[1]
 
 
 def test_a_faulty_file_is_taken_unless_strict(shell: Shell, tmp_path: Path) -> None:
@@ -241,7 +250,7 @@ def test_what_cannot_be_reached_ends_with_one(shell: Shell) -> None:
         (["ask", "gear", "{]"], "is not JSON"),
         (["ask", "velocity", "{}"], "is needed by this operation"),
         (["--format", "npy", "robots"], "these columns hold others: name"),
-        (["trajectory", "planar_2r", *MOTION, "--plot", "motion.gif"], "must end in .svg or .png"),
+        (["trajectory", "planar_2r", *MOTION, "--plot", "motion.gif"], "must end in .svg, .png or .pdf"),
         (["trajectory", "planar_2r", *MOTION, "--program", "motion.src"], "must end in .yaml, .json or .script"),
         (["--arg", "length", "fk", "arm.xacro", "-q", "1"], "is not NAME=VALUE"),
         (["--package", "my_arm=", "fk", "arm.xacro", "-q", "1"], "'my_arm=' names no folder: it must be NAME=FOLDER"),
@@ -299,3 +308,52 @@ def test_a_joint_is_held_by_its_field(shell: Shell) -> None:
     (result,) = shell.json("ik", "panda", *to, "--fields", held)["results"]
     assert {solution["joint_positions"][6] for solution in result["solutions"]} == {0.6}
     assert result["complete"]
+
+
+def test_options_of_all_commands_stand_anywhere(shell: Shell, tmp_path: Path) -> None:
+    words = "planar_2r", "-q", "0.3 0.8"
+    first = shell("-f", "json", "fk", *words)[0]
+    assert json.loads(first)["joint_names"] == ["joint_1", "joint_2"]
+    lines = (("fk", *words, "-f", "json"), ("fk", "--format=json", *words), ("fk", "-fjson", *words))
+    for line in lines:
+        assert shell(*line)[0] == first
+    shell("fk", *words, "-o", tmp_path / "pose.json")
+    assert json.loads((tmp_path / "pose.json").read_text()) == json.loads(first)
+    assert json.loads(shell("dh", "from-urdf", "planar_2r", "-f", "json")[0])["dh"]["convention"] == "standard"
+    assert "requires an argument" in shell("fk", *words, "-o", code=2)[1]
+
+
+def test_an_ending_that_nothing_writes_is_refused_before_the_work(
+    shell: Shell, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = "fk", "planar_2r", "-q", "0.3 0.8", "-o"
+    with monkeypatch.context() as patch:
+        patch.setattr("gelenk.cli.arms._answer_at", lambda *_: pytest.fail("it computes"))
+        for name in ("pose.xlsx", "pose.pdf", "pose.urdf"):
+            error = shell(*words, tmp_path / name, code=2)[1]
+            assert f"'{name}' must end in one of .txt, .json, .csv, .npy; or name the format" in error
+    shell(*words, tmp_path / "pose.dat", "--format", "csv")
+    assert (tmp_path / "pose.dat").read_text().startswith("x,y,z,")
+    shell(*words, tmp_path / "pose")
+    assert (tmp_path / "pose").read_text().split()[0] == "x"
+
+
+def test_quiet_leaves_the_answer(shell: Shell) -> None:
+    words = "fk", "planar_2r", "-q", "0.3 0.8"
+    told, quiet = shell(*words)[0].splitlines(), shell(*words, "--quiet")[0].splitlines()
+    assert quiet == told[:2]
+    assert told[2].startswith("T of tool in base")
+
+
+def test_a_table_is_named_by_its_robot(shell: Shell) -> None:
+    told = shell("dh", "derive", "planar_2r")[0]
+    assert "a1*c1" in told
+    table = shell.json("dh", "from-urdf", "planar_2r")["dh"]
+    assert shell.json("dh", "convert", "planar_2r", "--convention", "standard")["dh"]["joints"] == table["joints"]
+    assert "no_such_robot" in shell("dh", "derive", "no_such_robot", code=2)[1]
+    assert "there is no file" in shell("dh", "derive", "missing.csv", code=2)[1]
+
+
+def test_a_field_that_no_call_has_is_named(shell: Shell) -> None:
+    error = shell("jacobian", "planar_2r", "-q", "0 0", "--fields", '{"referense": "local"}', code=2)[1]
+    assert error == "gelenk: jacobian has no argument 'referense': did you mean 'reference'?\n"

@@ -14,6 +14,7 @@ import httpx2
 import numpy as np
 import pytest
 
+import gelenk
 from gelenk.cli.local import InProcess
 from gelenk.cli.main import EXIT_CODES
 from gelenk.client import Client
@@ -149,7 +150,7 @@ def test_pictures_into_files(shell: Shell, tmp_path: Path, kind: str) -> None:
 
 def test_what_cannot_be_drawn_is_refused_before_the_work(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("gelenk.cli.local.InProcess", lambda: pytest.fail("it was asked"))
-    assert "must end in .svg or .png" in shell("workspace", "planar_2r", "--plot", "reach.gif", code=2)[1]
+    assert "must end in .svg, .png or .pdf" in shell("workspace", "planar_2r", "--plot", "reach.gif", code=2)[1]
 
 
 @pytest.mark.slow
@@ -235,3 +236,108 @@ def test_an_error_of_the_command_itself_is_no_verdict(shell: Shell, monkeypatch:
     assert err.endswith("gelenk: something went wrong in the command itself: see above\n")
     monkeypatch.setattr("gelenk.cli.arms._answer_at", interrupted)
     assert shell("fk", "planar_2r", "-q", "0 0", code=130) == (out, "")
+
+
+_STARTED = "from gelenk.cli.start import main; print(flush=True); main()"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tenths", [0, 1, 2, 4, 8, 16, 32])
+def test_an_interrupt_at_any_time_leaves_no_traceback(tenths: int) -> None:
+    """While modules load, while it computes, and while it ends."""
+    command = [sys.executable, "-c", _STARTED, "fk", "planar_2r", "-q", "0.3 0.8"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
+        assert run.stdout is not None
+        run.stdout.readline()
+        time.sleep(0.02 + 0.1 * tenths)  # whenever that is: each time is right
+        run.send_signal(signal.SIGINT)
+        told = run.communicate(timeout=120)[1]
+    assert run.returncode in {0, 130, -signal.SIGINT}  # the last where Python has put its own handlers away already
+    assert "Traceback" not in told
+
+
+def started(before: str) -> subprocess.CompletedProcess[str]:
+    """A command that does something before its first module loads, and nothing after that."""
+    program = f"import signal, sys, time, types\n{before}\nfrom gelenk.cli.start import main\nmain()\nprint('went on')"
+    return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=False)
+
+
+def test_an_interrupt_that_a_callback_swallows_comes_again() -> None:
+    """Otherwise it would be told with a traceback, and the command would go on."""
+    run = started("""
+class Swallowing:
+    def __del__(self):
+        signal.raise_signal(signal.SIGINT)
+
+def work():
+    from gelenk.cli.start import raised_interrupts
+    with raised_interrupts():
+        Swallowing()
+        time.sleep(60)
+
+sys.modules["gelenk.cli.main"] = types.SimpleNamespace(main=work)""")
+    assert (run.returncode, run.stdout, run.stderr) == (130, "", "")
+
+
+def test_other_exceptions_that_callbacks_swallow_are_told() -> None:
+    run = started("""
+class Failing:
+    def __del__(self):
+        raise ZeroDivisionError
+
+def work():
+    from gelenk.cli.start import raised_interrupts
+    with raised_interrupts():
+        Failing()
+
+sys.modules["gelenk.cli.main"] = types.SimpleNamespace(main=work)""")
+    assert (run.returncode, run.stdout) == (0, "went on\n")
+    assert "ZeroDivisionError" in run.stderr
+
+
+def test_an_interrupt_ends_at_once_what_has_nothing_to_close() -> None:
+    """Also code that would swallow it: libraries do while they load."""
+    run = started("""
+def work():
+    try:
+        signal.raise_signal(signal.SIGINT)
+    except KeyboardInterrupt:
+        pass
+
+sys.modules["gelenk.cli.main"] = types.SimpleNamespace(main=work)""")
+    assert (run.returncode, run.stdout, run.stderr) == (130, "", "")
+
+
+def test_an_interrupt_closes_what_is_open() -> None:
+    run = started("""
+def work():
+    from gelenk.cli.start import raised_interrupts
+    with raised_interrupts():
+        try:
+            signal.raise_signal(signal.SIGINT)
+        finally:
+            print("closed")
+
+sys.modules["gelenk.cli.main"] = types.SimpleNamespace(main=work)""")
+    assert (run.returncode, run.stdout, run.stderr) == (130, "closed\n", "")
+
+
+def test_an_interrupt_before_it_is_heard_leaves_no_traceback_either() -> None:
+    """While the first module of the command loads what hears it."""
+    run = started("""
+class Interrupted:
+    def find_spec(self, name, *_):
+        if name == "signal":
+            raise KeyboardInterrupt
+
+del sys.modules["signal"]
+sys.meta_path.insert(0, Interrupted())""")
+    assert (run.returncode, run.stdout, run.stderr) == (130, "", "")
+
+
+def test_nothing_loads_before_ctrl_c_is_heard() -> None:
+    """As `typing`, which takes longer than `start`; without site, which loads what it likes."""
+    load = f"import sys; sys.path.append({str(Path(gelenk.__file__).parents[1])!r}); import gelenk.cli.start"
+    program = f"{load}; print('typing' in sys.modules)"
+    run = subprocess.run([sys.executable, "-I", "-S", "-c", program], capture_output=True, text=True, check=True)
+    assert run.stdout == "False\n"

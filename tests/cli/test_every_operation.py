@@ -49,8 +49,9 @@ class Question:
 
     @property
     def fields(self) -> dict[str, Any]:
-        """What the client's method takes; other forms of an answer are those of its `picture`."""
-        query = {name: value for name, value in self.query.items() if self.method == "GET" or name != "format"}
+        """What the client's method takes; other forms of an answer are those of its `picture` and `dh_file`."""
+        has_format = self.method == "GET" and self.id != "get_robot_dh"
+        query = {name: value for name, value in self.query.items() if has_format or name != "format"}
         return {**query, **self.body}
 
     @property
@@ -163,6 +164,8 @@ COMMANDS: dict[str, Callable[[dict[str, Any], Files], Arguments]] = {
     "list_robots": lambda _, __: ["robots"],
     "get_robot": lambda f, _: ["robots", f["robot"]],
     "get_robot_urdf": lambda f, _: ["robots", f["robot"], "--urdf"],
+    "get_robot_mjcf": lambda f, _: ["robots", f["robot"], "--as", "mjcf"],
+    "get_robot_screws": lambda f, _: ["robots", f["robot"], "--as", "screws", *chain(f)],
     "add_robot": lambda f, files: ["add", files.of(f["dh"], f"{f['name']}.json"), "--description", f["description"]],
     "replace_robot": lambda f, files: [
         *("add", files.of(f["dh"], "again.json"), "--replace", "--name", f["robot"]),
@@ -210,6 +213,7 @@ COMMANDS: dict[str, Callable[[dict[str, Any], Files], Arguments]] = {
         *("--title", f["title"], "--secret", f["secret"]),
     ],
     "grade_sheets": lambda f, files: ["grade", files.of(f["csv"], "answers.csv"), "--secret", f["secret"]],
+    "list_jobs": lambda f, _: ["jobs", "list", "--limit", f["limit"], "--before", f["before"]],
     "get_job": lambda f, _: ["jobs", "show", f["job"]],
     "watch_job": lambda f, _: ["jobs", "watch", f["job"]],
     "get_job_result": lambda f, _: ["jobs", "result", f["job"]],
@@ -245,6 +249,8 @@ def comparable(question: Question, answer: Any) -> Any:
     """An answer without what is another one each time: moments, and how much there was to do."""
     if question.id == "metrics":
         return sorted(line for line in answer.decode().splitlines() if line.startswith("# HELP"))
+    if question.id == "list_jobs":  # there may be more by now
+        return sorted(answer)
     if question.id in {"workspace", "cancel_job", "get_job", "watch_job"}:
         moments = MOMENTS | ({"state", "progress", "attempts"} if question.id == "workspace" else set())
         return {name: value for name, value in answer.items() if name not in moments}

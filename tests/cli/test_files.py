@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from gelenk.cli.files.rows import rows_of
+from gelenk.errors import InvalidArray
 from tests.cli.conftest import Shell
 
 TABLE = b"type,a,alpha,d,theta\nrevolute,1.0,0,0,0\nrevolute,0.7,0,0,0\n"
@@ -102,7 +103,7 @@ def test_what_one_command_writes_another_reads(shell: Shell, tmp_path: Path) -> 
     solved, motion, poses = tmp_path / "solved.csv", tmp_path / "motion.csv", tmp_path / "poses.csv"
     there = ["0.4 0.2 0.5 pi 0 0", "0.4 0.25 0.5 3 0.1 0.2"]
     shell("-o", solved, "ik", "ur5", *(word for pose in there for word in ("--to", pose)))
-    for notation in ("rpy", "zyz", "quaternion_wxyz", "rotation_vector"):
+    for notation in ("rpy", "zyz", "quaternion_wxyz", "rotation_vector", "ur", "kuka_abc", "abb", "fanuc_wpr"):
         shell("-o", poses, "fk", "ur5", "--from", solved, "--pose", notation)
         again = shell.json("ik", "ur5", "--from", poses)
         assert [result["status"] for result in again["results"]] == ["solved", "solved"]
@@ -252,3 +253,30 @@ def test_rows_of_arguments_are_plain() -> None:
         [0.1, np.pi / 2],
         [-3 * np.pi / 4, 1e-3],
     ]
+
+
+def test_angles_may_be_in_degrees() -> None:
+    given = rows_of(["30deg, -90°, 0.5rad", "90 1e2deg pi/2"], None, "joint_positions")
+    expected = [[np.pi / 6, -np.pi / 2, 0.5], [90.0, np.deg2rad(100.0), np.pi / 2]]
+    assert np.allclose(given.configurations(list), expected, rtol=1e-15, atol=0.0)
+
+
+@pytest.mark.parametrize("text", ["deg", "30degdeg", "30deg5", "30 grad", "infdeg"])
+def test_other_units_are_refused(text: str) -> None:
+    with pytest.raises(InvalidArray, match="not a finite number"):
+        rows_of([text], None, "joint_positions").configurations(list)
+
+
+def test_way_points_come_from_a_file(shell: Shell, tmp_path: Path) -> None:
+    """The first row is the start; a header sets the order."""
+    (tmp_path / "points.csv").write_text("joint_2,joint_1\n0.1,0.2\n20deg,0.5\n0.4,0.3\n")
+    words = "trajectory", "planar_2r", "--waypoints", tmp_path / "points.csv", "--period", 0.1
+    answer = shell.json(*words)
+    assert answer["joint_positions"][0] == [0.2, 0.1]
+    assert answer["joint_positions"][-1] == pytest.approx([0.3, 0.4], abs=1e-12)
+    apart = np.abs(np.array(answer["joint_positions"]) - [0.5, np.deg2rad(20.0)]).max(axis=1)
+    assert apart.min() < 0.05  # samples come that near to the point between
+    assert shell.json(*words, "--start", "0 0")["joint_positions"][0] == [0.0, 0.0]
+    (tmp_path / "points.csv").write_text("0.1,0.2\n")
+    assert "give at least one more row" in shell(*words, code=2)[1]
+    assert "give no --joint" in shell(*words, "--joint", "0 0", code=2)[1]

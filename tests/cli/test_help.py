@@ -43,7 +43,9 @@ def test_each_command_shows_a_call_and_each_call_answers(
 
 
 def chosen(model: Any, field: str) -> tuple[str, ...]:
-    return get_args(model.model_fields[field].annotation)
+    """The words of a field, whose type is one list of them or several."""
+    kinds = get_args(model.model_fields[field].annotation)
+    return tuple(word for kind in kinds for word in (get_args(kind) or (kind,)))
 
 
 def test_words_that_complete_are_those_of_the_schema() -> None:

@@ -130,9 +130,10 @@ def test_a_row_is_named_by_its_place_in_the_whole_batch(shell: Shell, url: str, 
 
 
 LONG = {
-    "fk": ["fk", "planar_2r", "-q", "0 0"],
-    "jacobian": ["jacobian", "planar_2r", "-q", "0 0"],
-    "manipulability": ["manipulability", "planar_2r", "-q", "0 0"],
+    # More configurations than are computed without the application.
+    "fk": ["fk", "planar_2r", *["-q", "0 0"] * 17],
+    "jacobian": ["jacobian", "planar_2r", *["-q", "0 0"] * 17],
+    "manipulability": ["manipulability", "planar_2r", *["-q", "0 0"] * 17],
     "ik": ["ik", "planar_2r", "--to", "1 0 0", "--task", "x,y"],
     "trajectory": ["trajectory", "planar_2r", "--start", "0 0", "--joint", "0.5 0.2"],
     "workspace": ["workspace", "planar_2r", "--samples", "2000"],

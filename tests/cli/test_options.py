@@ -60,6 +60,7 @@ WELD = Asked(
     {"path": {"poses": SEAM, "free": []}, "sample_period": 0.1},
 )
 WORKSPACE = Asked(["workspace", "ur5", "--samples", "500"], "robots/ur5/workspace", {"samples": 500})
+SCREWS = Asked(["robots", "ur5", "--as", "screws"], "robots/ur5/screws", {})
 FROM_URDF = Asked(["dh", "from-urdf", "ur5"], "robots/ur5/dh", {})
 TO_URDF = Asked(["dh", "to-urdf", "table.json"], "dh/to-urdf", {"name": "robot", "dh": TABLE})
 CONVERT = Asked(
@@ -71,7 +72,11 @@ COMPARE = Asked(
 DERIVE = Asked(["dh", "derive", "table.json"], "dh/derive", {"dh": TABLE})
 BASE, TIP = (["--base", "base"], {"base_frame": "base"}), (["--tip", "wrist_3_link"], {"tip_frame": "wrist_3_link"})
 CASES: list[tuple[Asked, list[str], dict[str, Any]]] = [
-    *((asked, *end) for asked in (FK, JACOBIAN, MEASURES, IK, MOTION, WORKSPACE, FROM_URDF) for end in (BASE, TIP)),
+    *(
+        (asked, *end)
+        for asked in (FK, JACOBIAN, MEASURES, IK, MOTION, WORKSPACE, FROM_URDF, SCREWS)
+        for end in (BASE, TIP)
+    ),
     (FK, ["--at", said(THERE)], {"joint_positions": [START, THERE]}),
     (FK, ["--pose", "zyz"], {"pose_format": "zyz"}),
     (JACOBIAN, ["--at", said(THERE)], {"joint_positions": [START, THERE]}),
@@ -104,8 +109,10 @@ CASES: list[tuple[Asked, list[str], dict[str, Any]]] = [
     (DERIVE, ["--values"], {"symbolic": False}),
 ]
 ELSEWHERE = {
-    **dict.fromkeys(("from", "fields", "output", "plot", "program"), "test_files, test_every_operation, test_ends"),
-    **dict.fromkeys(("job", "motion", "description", "replace", "robot", "urdf"), "test_every_operation"),
+    **dict.fromkeys(
+        ("from", "fields", "output", "plot", "program", "waypoints"), "test_files, test_every_operation, test_ends"
+    ),
+    **dict.fromkeys(("job", "motion", "description", "replace", "robot", "urdf", "as"), "test_every_operation"),
     **dict.fromkeys(("batch", "seconds"), "test_ends"),
     "latex": "test_commands: only what people see",
     "help": "test_help",
@@ -119,7 +126,7 @@ def answer(url: str, asked: Asked, further: dict[str, Any]) -> Any:
     if asked.path.endswith("/workspace"):
         with Client(url) as gelenk, gelenk.jobs.workspace("ur5", **fields) as job:
             return json.loads(job.result().model_dump_json(exclude_unset=True))
-    if asked is FROM_URDF:
+    if asked in (FROM_URDF, SCREWS):
         return get(f"{url}/v1/{asked.path}?{urlencode(fields)}")[1]
     return get(f"{url}/v1/{asked.path}", "POST", fields)[1]
 
@@ -189,5 +196,8 @@ def test_each_option_is_compared() -> None:
         ("add", "name"),
         ("add", "file"),
         ("scenes put", "name"),
+        ("add", "argument"),
         ("jobs cancel", "finished"),
+        ("jobs list", "limit"),
+        ("jobs list", "before"),
     }

@@ -171,7 +171,7 @@ def test_a_connection_that_was_closed_meanwhile_costs_nothing() -> None:
     """Not even of a call that may not be sent again."""
     with scripted(then(ROBOTS, hangs_up), JOB) as service, Client(service.url) as gelenk:
         gelenk.robots()
-        assert service.left.wait(20)
+        assert service.left.wait(60)
         assert gelenk.workspace("arm").id == "mine"
         assert [visit.number for visit in service.visits] == [1, 2]
 
@@ -216,7 +216,7 @@ def test_a_call_that_is_cancelled_leaves_nothing_behind(monkeypatch: pytest.Monk
             asked.cancel()
             with pytest.raises(asyncio.CancelledError):
                 await asked
-            assert await asyncio.to_thread(service.left.wait, 20)  # the service is told by the end of the connection
+            assert await asyncio.to_thread(service.left.wait, 60)  # the service is told by the end of the connection
             assert (await gelenk.robots()).robots == []  # its turn is free again
 
     with scripted(keeps_silent, ROBOTS) as service:
@@ -326,7 +326,7 @@ def test_who_looks_no_longer_hangs_up() -> None:
         async with AsyncClient(service.url) as gelenk:
             with pytest.raises(KeyError):
                 await gelenk.wait("mine", stop)
-            assert await asyncio.to_thread(service.left.wait, 20)
+            assert await asyncio.to_thread(service.left.wait, 60)
 
     with scripted(begins) as service:
         asyncio.run(ask(service))

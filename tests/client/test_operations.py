@@ -2,6 +2,7 @@
 
 import asyncio
 import inspect
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, assert_type
@@ -16,7 +17,7 @@ from gelenk.client.operations import Operations
 from gelenk.contract.fk import ForwardAnswer
 from gelenk.contract.jobs import JobInfo
 from gelenk.contract.pose import Pose
-from gelenk.errors import InvalidArchive
+from gelenk.errors import InvalidArchive, InvalidField
 from gelenk.robot.arrays import Array
 from tests.corpus import zips
 from tests.robots import robot, samples
@@ -29,6 +30,7 @@ OF_ITS_OWN = {
     "replace_archive",
     "add_scene_files",
     "replace_scene_files",
+    "dh_file",
     "workspace_result",
     "ik_result",
     "trajectories_result",
@@ -41,6 +43,8 @@ NAMES = {
     "get_robot": "robot",
     "get_robot_urdf": "urdf",
     "get_robot_mesh": "mesh",
+    "get_robot_mjcf": "mjcf",
+    "get_robot_screws": "screws",
     "get_robot_dh": "dh_table",
     "get_collision_bodies": "collision_bodies",
     "get_collision_pairs": "collision_pairs",
@@ -204,3 +208,20 @@ def test_a_call_is_data() -> None:
     call = vars(Operations)["fk"].describe("two/links", joint_positions=[[0.0, 0.0]])
     assert isinstance(call, Call)
     assert (call.method, call.path) == ("POST", "v1/robots/two%2Flinks/fk")
+
+
+def test_what_is_wrong_at_sight_is_not_sent() -> None:
+    """Nobody listens at this address, and nobody is asked."""
+    with Client("http://127.0.0.1:9") as nobody:
+        loose: Any = nobody
+        with pytest.raises(TypeError, match="fk has no argument 'pose_fromat': did you mean 'pose_format'"):
+            loose.fk("ur5", joint_positions=[[0.0] * 6], pose_fromat="rpy")
+        with pytest.raises(TypeError, match="health has no argument 'loud'"):
+            loose.health(loud=True)
+        with pytest.raises(InvalidField, match=r"joint_positions.*at 0/1 is not finite"):
+            nobody.fk("ur5", joint_positions=[[0.0, math.nan, 0.0, 0.0, 0.0, 0.0]])
+        target: Any = {"position": [0.4, 0.0, math.inf], "rpy": [0.0, 0.0, 0.0]}
+        with pytest.raises(InvalidField, match=r"targets.*at 0/position/2 is not finite"):
+            nobody.ik("ur5", targets=[target])
+        with pytest.raises(InvalidField, match=r"position_tolerance.*the number is not finite"):
+            nobody.ik("ur5", targets=[], position_tolerance=math.nan)

@@ -40,10 +40,10 @@ def test_the_exceptions_are_the_core_s(gelenk: Client) -> None:
 
 def test_what_is_http_s_alone_is_refused_as_well(gelenk: Client) -> None:
     with pytest.raises(Refused) as refused:
-        gelenk.fk("panda", joint_positions=[[0.0] * 7], colour="red")  # type: ignore[call-arg]
+        gelenk.fk("panda", joint_positions=[[0.0] * 7], pose_format="red")  # type: ignore[arg-type]
     assert refused.value.kind == "invalid-payload"
     assert refused.value.status == 422
-    assert "#/colour" in refused.value.detail
+    assert "#/pose_format" in refused.value.detail
     assert not isinstance(refused.value, errors.InvalidInput)
 
 

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from gelenk.collision.bodies import Body
 from gelenk.collision.contact.flat import flat_bodies
 from gelenk.collision.contact.gjk import WORK
-from gelenk.collision.contact.pair import is_near, pair_distance
+from gelenk.collision.contact.pair import is_near, pair_distance, relative
 from gelenk.collision.contact.penetration import empty_polytope
 from gelenk.robot.arrays import Array
 from tests.collision.arms import random_piece
@@ -34,7 +34,14 @@ def measured(a: Body, b: Body, poses: Array) -> Measured:
     """Return what the kernels say of two pieces."""
     bodies, T, points = flat_bodies([(a, 0, np.eye(4)), (b, 0, np.eye(4))]), np.empty(12), np.empty(6)
     distance = pair_distance(bodies, 0, 1, poses, math.inf, T, _WORK, _ROOM, points)
-    return Measured(a, b, poses, distance, is_near(bodies, 0, 1, poses, 0.0, T, _WORK), points)
+    return Measured(a, b, poses, distance, near(a, b, poses, 0.0), points)
+
+
+def near(a: Body, b: Body, poses: Array, most: float) -> bool:
+    """Return whether the kernels find two pieces at most so far apart, [m]."""
+    bodies, T = flat_bodies([(a, 0, np.eye(4)), (b, 0, np.eye(4))]), np.empty(12)
+    relative(poses[0], poses[1], T)
+    return is_near(bodies, 0, 1, most, T, _WORK)
 
 
 def random_pair(rng: np.random.Generator) -> Measured:

@@ -1,12 +1,13 @@
 """Contacts of a whole robot in its scene, against Pinocchio and Coal; what the judge withholds."""
 
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from gelenk.collision.contact.judge import PairContacts, certify_clearances, certify_contacts
-from gelenk.collision.contact.kernels import all_contacts, first_contacts, nearest_pairs, pair_distances
+from gelenk.collision.contact.kernels import all_contacts, first_contacts, first_free, nearest_pairs, pair_distances
 from gelenk.collision.contact.world import build_world
 from gelenk.collision.robot_bodies import find_bodies
 from gelenk.collision.scene import Obstacle
@@ -38,6 +39,20 @@ def test_contacts_and_clearances_are_as_coal_says(others: dict[str, float]) -> N
         assert certify_contacts(here, QS[part], found[part] >= 0, NOTHING).samples == 16
         distances = slacks[part] + here.flat.margins[pairs[part]]
         certify_clearances(here, QS[part], slacks[part], of_pairs(pairs[part], distances, points[part]))
+
+
+@pytest.mark.parametrize("sizes", [[], [0], [40], [3, 0, 17], [1] * 20, [5, 0, 1, 2] * 8, [9] * 12])
+def test_of_each_group_the_first_free_configuration_is_found(sizes: list[int]) -> None:
+    rng, count = np.random.default_rng(len(sizes)), sum(sizes)
+    qs = QS[rng.integers(len(QS), size=count + 5)]
+    order, firsts = rng.permutation(len(qs))[:count], np.concatenate(([0], np.cumsum(sizes))).astype(np.int64)
+    is_free = first_contacts(WORLD.flat, qs) < 0
+    if sizes == [40]:
+        # Of a group alone, all lanes take the last configuration but a few.
+        qs[order[:-2]], is_free[order] = qs[~is_free][0], np.append(np.zeros(38, dtype=bool), is_free[order[-2:]])
+    found = first_free(WORLD.flat, qs, order, firsts)
+    free = [[row for row in order[a:b] if is_free[row]] for a, b in pairwise(firsts)]
+    assert found.tolist() == [rows[0] if rows else -1 for rows in free]
 
 
 def test_the_nearest_pair_is_the_nearest_of_all() -> None:

@@ -6,7 +6,7 @@ from scipy.optimize import linprog
 
 from gelenk.collision.bodies import Body, PieceKind
 from gelenk.robot.arrays import Array
-from tests.collision.pairs import faults, measured, random_pair
+from tests.collision.pairs import faults, measured, near, random_pair
 
 
 def _piece(kind: PieceKind, *size: float, points: Array | None = None) -> Body:
@@ -81,6 +81,22 @@ def test_random_pairs_are_as_coal_says() -> None:
     pairs = [random_pair(rng) for _ in range(150)]
     assert {pair.is_contact for pair in pairs} == {True, False}
     assert [found for pair in pairs for found in faults(pair)] == []
+
+
+def test_a_hull_is_near_a_box_just_from_its_distance_on() -> None:
+    rng, seen = np.random.default_rng(4), {"a vertex inside": 0, "beyond a face": 0, "neither": 0}
+    while min(seen.values()) < 20:
+        pair = random_pair(rng)
+        if (pair.a.kind, pair.b.kind) != ("convex", "box") or abs(pair.distance) < 1e-6:
+            continue
+        (A, p), (B, q) = ((pose[:9].reshape(3, 3), pose[9:]) for pose in pair.poses)
+        local, half = (pair.a.points @ A.T + p - q) @ B, 0.5 * np.array(pair.b.size)
+        inside = (np.abs(local) <= half).all(axis=1).any()
+        outside = ((local > half).all(axis=0) | (local < -half).all(axis=0)).any()
+        seen["a vertex inside" if inside else "beyond a face" if outside else "neither"] += 1
+        assert near(pair.a, pair.b, pair.poses, 1.001 * max(pair.distance, 0.0))
+        if pair.distance > 0.0:
+            assert not near(pair.a, pair.b, pair.poses, 0.999 * pair.distance)
 
 
 @pytest.mark.slow

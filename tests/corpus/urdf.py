@@ -1,4 +1,4 @@
-"""Robot descriptions with their verdict: `REFUSED`, `FORGIVEN`, `ODD`, `MISSING_MESHES`, `VALID`.
+"""Robot descriptions with their verdict: `REFUSED`, `EXPANDED`, `FORGIVEN`, `ODD`, `MISSING_MESHES`, `VALID`.
 
 A text reaches the reader as UTF-8. Most of them are one small arm, a `base` that carries a `forearm` by the
 joint `elbow`, with one thing changed; as it stands the arm is valid and gives no warning. `mentions` are
@@ -502,6 +502,8 @@ SIZES = (
 )
 """Beyond the limits: each of these costs a parser, a stack or a matrix far more than it cost to send."""
 
+EXPANDED = frozenset({"xacro macro left in", "xacro property left in"})
+"""What the reader of URDFs refuses, and an upload of a robot expands first."""
 REFUSED: tuple[Refused, ...] = (
     *XML,
     *FORBIDDEN_XML,

@@ -12,6 +12,9 @@ from functools import partial
 from io import BytesIO
 from typing import NamedTuple
 
+MACROS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="arm"><link name="a"/></xacro:macro>
+</robot>"""
 URDF = """<robot name="arm">
   <link name="base"/>
   <link name="arm"><visual><geometry><mesh filename="package://arm_description/meshes/arm.stl"/></geometry></visual></link>
@@ -247,14 +250,14 @@ NO_ZIP = (
 """Not an archive, or broken where its list of entries is."""
 
 NO_ROBOT = (
-    RefusedZip("nothing in it", partial(zipped, {}), "no urdf"),
-    RefusedZip("no description", partial(zipped, {"a.stl": "x"}), "no urdf"),
+    RefusedZip("nothing in it", partial(zipped, {}), "no description"),
+    RefusedZip("no description", partial(zipped, {"a.stl": "x"}), "no description"),
     RefusedZip("two descriptions", partial(zipped, {"a.urdf": URDF, "b.urdf": URDF}), "name one"),
     RefusedZip("two descriptions in capitals", partial(zipped, {"a.urdf": URDF, "b.URDF": URDF}), "name one"),
     RefusedZip("the same description twice", partial(with_file, "a.urdf", URDF), "twice"),
-    RefusedZip("a folder that is called a description", partial(zipped, {"a.urdf/": ""}), "no urdf"),
-    RefusedZip("a zip in a zip in a zip", nested, "no urdf"),
-    RefusedZip("a xacro", partial(zipped, {"a.urdf.xacro": URDF}), "no urdf"),
+    RefusedZip("a folder that is called a description", partial(zipped, {"a.urdf/": ""}), "no description"),
+    RefusedZip("a zip in a zip in a zip", nested, "no description"),
+    RefusedZip("xacro macros alone", partial(zipped, {"a.xacro": MACROS}), "no description"),
     RefusedZip("a description of no text", partial(zipped, {"a.urdf": b"\xff\xfe"}), "utf-8"),
     RefusedZip("a description that is empty", partial(zipped, {"a.urdf": b""}), "xml"),
     RefusedZip("a description of a ball joint", partial(zipped, {"a.urdf": URDF.replace("revolute", "ball")}), "ball"),

@@ -69,7 +69,7 @@ def in_front_of(service: str, folder: Path) -> Iterator[tuple[str, str, Path]]:
             yield f"https://{HOST}:{secure}", f"http://{HOST}:{plain}", certificate
         finally:
             run.terminate()
-            run.wait(timeout=20)
+            run.wait(timeout=60)
 
 
 def wait_for(pid_file: Path, run: subprocess.Popen[bytes]) -> None:

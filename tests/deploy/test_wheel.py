@@ -57,7 +57,8 @@ def client_alone() -> str:
     owners = metadata.packages_distributions()
     normal = {module: {re.sub(r"[-_.]+", "-", name).lower() for name in names} for module, names in owners.items()}
     blocked = sorted(module for module, names in normal.items() if not names & {*kept, "gelenk"})
-    return CLIENT_ALONE.format(blocked=blocked)
+    in_prefix = ["coal", "eigenpy", "pinocchio"]  # whose distributions list no module
+    return CLIENT_ALONE.format(blocked=[*blocked, *in_prefix])
 
 
 def python(code: str, **environment: str) -> subprocess.CompletedProcess[str]:
@@ -68,7 +69,7 @@ def python(code: str, **environment: str) -> subprocess.CompletedProcess[str]:
 
 def test_a_client_installs_nothing_that_computes_or_serves() -> None:
     pulled = closure(PROJECT["dependencies"])
-    assert {"httpx2", "numpy", "xacro"} <= pulled
+    assert {"httpx2", "numpy", "pyyaml"} <= pulled
     assert not pulled & (COMPUTING | SERVING)
     files = [Path(str(file.locate())) for name in pulled for file in metadata.distribution(name).files or ()]
     assert sum(file.stat().st_size for file in files if file.is_file()) < CLIENT_BYTES
@@ -87,7 +88,7 @@ def test_a_client_loads_and_converts_poses_without_what_computes(client_alone: s
 import numpy as np
 from gelenk.client import AsyncClient, Client
 from gelenk.contract.pose import Pose
-import gelenk.cli.main, gelenk.cli.files.inputs, xacro
+import gelenk.cli.main, gelenk.cli.files.inputs, gelenk.robot.formats.reading
 turns = dict(quaternion_xyzw=[0, 0, 0, 1], quaternion_wxyz=[1, 0, 0, 0], rpy=[0, 0, 0], zyz=[0, 0, 0],
              rotation_vector=[0, 0, 0], rotation=np.eye(3).tolist())
 for name, value in turns.items():
@@ -142,7 +143,8 @@ def test_the_wheel_holds_the_package_the_robots_and_the_page(wheel: Path) -> Non
     assert {"gelenk/py.typed", "gelenk/robots/panda/robot.json", "gelenk/studio/index.html"} <= names
     assert "gelenk/texts/de/LC_MESSAGES/gelenk.mo" in names
     assert ("gelenk/handbook/index.html" in names) == bool(built)
-    assert wheel.stat().st_size < (5e6 if built else 3e6)
+    # The package itself has 3.54 MB, with the page as text and by Brotli: one more folder of pictures is noticed.
+    assert wheel.stat().st_size < (6.7e6 if built else 3.7e6)
 
 
 @pytest.fixture(scope="module")

@@ -62,7 +62,8 @@ PUBLISHED = [
     Published("panda_standard", PANDA, np.eye(4), np.eye(4), 1e-15, 2e-15),
     Published("xarm7_dh", ("xarm7", "link_base", "link_eef"), np.eye(4), np.eye(4), 5.3e-6, 2.1e-5),
 ]
-OWN = [name for name in catalogue.TABLES if name not in {"panda_dh", "ur3_dh", "ur5_dh", "ur10_dh", "xarm7_dh"}]
+AGAIN = {"panda_dh", "ur3_dh", "ur5_dh", "ur10_dh", "xarm7_dh"} | catalogue.ARMS
+OWN = [name for name in catalogue.TABLES if name not in AGAIN]
 
 Q = np.pi / 2
 PANDA_STANDARD = rows(

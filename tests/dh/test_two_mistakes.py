@@ -35,7 +35,8 @@ def random_table(seed: int) -> DhTable:
     return rows(convention, [(row[0], row[1], row[2], row[3]) for row in numbers.tolist()], types)
 
 
-SIX = [name for name in catalogue.TABLES if len(catalogue.dh_table(name)["joints"]) >= 6]
+OWN = set(catalogue.TABLES) - catalogue.ARMS
+SIX = [name for name in sorted(OWN) if len(catalogue.dh_table(name)["joints"]) >= 6]
 TABLES = {name: replace(table(catalogue.dh_table(name)), base=np.eye(4), tool=np.eye(4)) for name in SIX}
 TABLES |= {f"random-{seed}": random_table(seed) for seed in range(20 - len(SIX) + 4)}
 

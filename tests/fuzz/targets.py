@@ -20,6 +20,7 @@ from gelenk.http.messages.problems import InvalidPayload, status_of
 from gelenk.kinematics.judge.tables import certify_table
 from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.robot.description import Description
+from gelenk.robot.formats.reading import as_urdf
 from gelenk.robot.robot import RobotModel
 from gelenk.robot.urdf import read_urdf, write_urdf
 from gelenk.store.archive import UnpackedRobot, unpacked
@@ -136,16 +137,17 @@ def read_archive(data: bytes) -> bool:
             if {"", ".", ".."} & set(path.split("/")) or PurePosixPath(path).suffix.lower() not in KEPT_SUFFIXES:
                 raise Unsound(f"the path {path!r}")
             archive.writestr(path, content)
-        archive.writestr("robot.urdf", robot.urdf)
+        read = as_urdf(robot.model, robot.path, robot.sources)
+        archive.writestr("robot.urdf", read.urdf)
     if sum(map(len, files.values())) > _MOST_UNPACKED:
         raise Unsound("more bytes than are allowed")
     with zipfile.ZipFile(BytesIO(data)) as judge:
         if any(judge.read(path) != content for path, content in files.items()):
             raise Unsound("other bytes than Python's reader finds")
     with unpacked(packed, _MOST_UNPACKED) as again:
-        if again.urdf != robot.urdf or _contents(again) != files:
+        if again.model != read.urdf or _contents(again) != files:
             raise Unsound("other bytes than were packed")
-    describe("fuzzed", "urdf", robot.urdf)
+    describe("fuzzed", "urdf", read.urdf)
     return True
 
 

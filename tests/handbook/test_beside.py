@@ -5,13 +5,16 @@ import re
 import subprocess
 import threading
 from collections.abc import Iterator
+from html import unescape
 from http.server import BaseHTTPRequestHandler, HTTPServer
+from pathlib import Path
+from urllib.parse import parse_qsl
 
 import httpx2
 import numpy as np
 import pytest
 
-from docs.handbook.beside import curl, tabbed
+from docs.handbook.beside import CALCULATORS, calculator, curl, tabbed
 from gelenk.client import Client
 from gelenk.client.call import Call
 from gelenk.client.operations import Operations
@@ -104,6 +107,29 @@ def test_of_a_loop_the_first_calls_are_shown() -> None:
     text = tabbed(PART, [Operations.robot.describe(f"arm_{n}") for n in range(5)], "call")
     assert text.count("curl -s") == 3
     assert "# and so on\n```" in text
+
+
+def test_a_call_of_the_course_leads_to_its_calculator_with_the_same_numbers() -> None:
+    law = Operations.time_law.describe(law="cubic", start=[0.2], target=[1.4], duration=2.0)
+    text = tabbed(PART, [CALLS[0], law], "call", "../../")
+    (href,) = re.findall(r'<p class="studio"><a href="([^"]+)">', text)
+    path, _, fragment = unescape(href).partition("#")
+    given = dict(parse_qsl(fragment))
+    assert path == "../../"
+    assert (given["panel"], given["course.task"]) == ("course", "time-law")
+    assert json.loads(given["course.inputs"]) == json.loads(law.body)
+    assert text.rstrip().endswith("</p>")
+
+
+def test_other_calls_have_no_calculator() -> None:
+    assert [calculator(call) for call in CALLS[:5]] == [None] * 5
+    assert calculator(Operations.gear.describe(ratio=100.0)) is None
+
+
+def test_the_studio_has_these_calculators() -> None:
+    sources = Path(__file__).parents[2] / "app" / "studio" / "src" / "panels" / "course"
+    paths = re.findall(r'path: "v1/course/([\w-]+)"', "".join(path.read_text("utf-8") for path in sources.glob("*.ts")))
+    assert sorted(paths) == sorted(CALCULATORS)
 
 
 def test_a_part_without_calls_is_left_alone() -> None:

@@ -25,6 +25,12 @@ def test_a_sound_handbook_has_no_faults(site: Path) -> None:
     assert faults(site, PAGES) == []
 
 
+def test_a_link_to_the_studio_leaves_the_handbook(site: Path) -> None:
+    page = site / "course" / "statics.html"
+    page.write_text(page.read_text() + '<a href="../../#panel=course">')
+    assert faults(site, PAGES) == []
+
+
 @pytest.mark.parametrize(
     ("added", "fault"),
     [

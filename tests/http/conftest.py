@@ -28,7 +28,7 @@ def ready_client(data_dir: Path) -> Iterator[TestClient]:
     """A client of an application over a data folder, once it is ready."""
     app = create_app(Settings(data_dir=data_dir))
     with TestClient(app, raise_server_exceptions=False) as client:
-        deadline = time.monotonic() + 120
+        deadline = time.monotonic() + 300
         while client.get("/readyz").status_code != 200:
             assert time.monotonic() < deadline, "the service does not get ready"
             time.sleep(0.05)

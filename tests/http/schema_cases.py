@@ -35,7 +35,7 @@ _OF_ALL = (
 )
 CHECKS = {GenerationMode.POSITIVE: _OF_ALL, GenerationMode.NEGATIVE: (*_OF_ALL, negative_data_rejection)}
 """Of the answers to requests that the schema allows, and that it forbids."""
-JOB = "panda-workspace"
+JOB = "real"
 """A job that is done."""
 NEW_JOB = "generated"
 """The job that a generated request for one makes, and that others cancel."""

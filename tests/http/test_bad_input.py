@@ -14,7 +14,8 @@ from starlette.testclient import TestClient
 from gelenk.contract.dh_from_urdf import FromUrdfRequest
 from gelenk.http.messages.payloads import read_json
 from tests.corpus.dh import GOOD_BODY, REFUSED_DH, REFUSED_JSON, TABLE, RefusedDh
-from tests.corpus.urdf import ODD, REFUSED, VALID, Odd, Refused, Valid
+from tests.corpus.urdf import EXPANDED, ODD, REFUSED, VALID, Odd, Refused, Valid
+from tests.speed import is_within
 
 JSON = {"content-type": "application/json"}
 MAX_PROBLEM_BYTES = 16 * 1024
@@ -35,7 +36,7 @@ def check_refusal(client: TestClient, body: Any, mentions: tuple[str, ...], stat
         answer = client.post("/v1/robots", content=body, headers=JSON)
     else:
         answer = client.post("/v1/robots", json=body)
-    assert time.process_time() - started < 1.0
+    assert is_within(time.process_time() - started, 1.0)
     assert answer.status_code in statuses, answer.text[:500]
     assert answer.headers["content-type"] == "application/problem+json"
     assert len(answer.content) < MAX_PROBLEM_BYTES
@@ -48,7 +49,7 @@ def check_refusal(client: TestClient, body: Any, mentions: tuple[str, ...], stat
 
 
 @pytest.mark.quick(5)
-@pytest.mark.parametrize("case", REFUSED, ids=lambda case: case.name)
+@pytest.mark.parametrize("case", [case for case in REFUSED if case.name not in EXPANDED], ids=lambda case: case.name)
 def test_a_urdf_that_is_no_robot(client: TestClient, case: Refused) -> None:
     body = b'{"name": "refused", "urdf": ' + to_json(case.text) + b"}"
     check_refusal(client, body, case.mentions, {400, 422})
@@ -183,7 +184,7 @@ def test_a_large_list_of_nonsense_is_refused_at_its_first_entry(client: TestClie
     body = '{"joint_positions": [' + ",".join([entry] * 200_000) + "]}"
     started = time.process_time()
     answer = client.post("/v1/robots/panda/fk", content=body, headers=JSON)
-    assert time.process_time() - started < 1.0
+    assert is_within(time.process_time() - started, 1.0)
     assert answer.status_code == 422
     assert len(answer.content) < MAX_PROBLEM_BYTES
 
@@ -193,7 +194,7 @@ def test_a_long_text_of_quotes_is_read_at_once(text: str) -> None:
     """A request may be answered in another process, whose time is not seen from here: so without one."""
     started = time.process_time()
     assert read_json(FromUrdfRequest, to_json({"urdf": text})).urdf == text
-    assert time.process_time() - started < 0.5
+    assert is_within(time.process_time() - started, 0.5)
 
 
 def test_unknown_paths_and_methods_are_problems(client: TestClient) -> None:

@@ -178,17 +178,6 @@ def test_a_mesh_that_is_not_convex_says_how_much_larger_it_counts(own: TestClien
     assert "not closed" in ask(own, {"scene": "cell"})["warnings"][0]
 
 
-@pytest.mark.parametrize(
-    ("name", "content", "words"),
-    [("broken.stl", b"solid", "'broken.stl'"), ("none.obj", b"v 0 0 0", "'none.obj'"), ("bomb.dae", b"<a/>", "'bomb.")],
-)
-def test_a_mesh_that_cannot_be_read_is_named(own: TestClient, name: str, content: bytes, words: str) -> None:
-    store(own, {"type": "mesh", "file": name}, content)
-    answer = own.post("/v1/robots/panda/collisions", json={"joint_positions": [READY], "scene": "cell"})
-    assert (answer.status_code, answer.json()["type"]) == (422, "urn:gelenk:invalid-mesh")
-    assert words in answer.json()["detail"]
-
-
 @pytest.mark.slow
 def test_a_stored_cloud_is_never_farther_than_its_points(own: TestClient) -> None:
     cloud = {"type": "points", "file": "scan.npy", "radius": 0.005}

@@ -11,6 +11,7 @@ from starlette.testclient import TestClient
 
 from gelenk.contract.endpoints import BY_NAME
 from gelenk.contract.fly_over import FlyOverAnswer
+from tests.speed import is_within
 
 EXAMPLE_FLY_OVER = BY_NAME["fly_over"].example
 
@@ -175,7 +176,7 @@ REFUSED = [
 def test_a_field_that_cannot_be_is_named(client: TestClient, fields: dict[str, Any], field: str) -> None:
     started = time.perf_counter()
     answer = client.post(PATH, json=changed(**fields))
-    assert time.perf_counter() - started < 1.0
+    assert is_within(time.perf_counter() - started, 1.0)
     assert answer.status_code == 422, answer.text
     assert answer.headers["content-type"] == "application/problem+json"
     problem = answer.json()
@@ -254,7 +255,7 @@ def test_random_corners_have_finite_answers(client: TestClient) -> None:
 def test_ten_thousand_samples(client: TestClient) -> None:
     started = time.perf_counter()
     content = good(client, {**IN_SPACE, "samples": 10_000})
-    assert time.perf_counter() - started < 2.0
+    assert is_within(time.perf_counter() - started, 2.0)
     assert len(content["samples"]["positions"]) == 10_000
 
 

@@ -30,7 +30,7 @@ def test_the_example_is_the_lectures(client: TestClient) -> None:
 def test_two_triangles_are_drawn_and_listed(client: TestClient) -> None:
     body = {"a": 3.0, "b": 4.0, "alpha": 0.6}
     assert len(client.post(PATH, json=body).json()["triangles"]) == 2
-    for kind, start in (("image/svg+xml", b"<?xml"), ("image/png", b"\x89PNG")):
+    for kind, start in (("image/svg+xml", b"<?xml"), ("image/png", b"\x89PNG"), ("application/pdf", b"%PDF")):
         picture = client.post(PATH, json=body, headers={"accept": kind})
         assert picture.status_code == 200
         assert picture.content.startswith(start)

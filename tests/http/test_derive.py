@@ -21,6 +21,7 @@ from gelenk.operations import derive_dh
 from gelenk.settings import Settings
 from tests.oracles import catalogue, dh_columns, expressions
 from tests.robots import swept
+from tests.speed import is_within
 
 PATH = "/v1/dh/derive"
 PANDA = catalogue.dh_table("panda_dh")
@@ -70,11 +71,13 @@ def test_the_anthropomorphic_arm(client: TestClient) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", swept(catalogue.TABLES))
 @pytest.mark.parametrize("options", [{}, {"notation": "full", "symbolic": False}], ids=str)
-def test_the_catalogue_by_its_text(client: TestClient, name: str, options: dict[str, Any]) -> None:
+def test_the_catalogue_by_its_text(name: str, options: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    """With more time than a request has: what a busy machine leaves out for lack of it cannot be judged."""
+    monkeypatch.setattr(derive_dh, "SECONDS", 200.0)
     dh = catalogue.dh_table(name)
     judge = dh_columns.from_json(dh)
     q = [0.3 + 0.1 * i for i in range(len(dh["joints"]))]
-    answer = posted(client, {"dh": dh, "joint_positions": [q], **options})
+    answer = derived_here({"dh": dh, "joint_positions": [q], **options})
     names = expressions.namespace(answer["legend"], q)
     tip = [[expressions.value(entry, names) for entry in row] for row in answer["T_base_tool"]["plain"]]
     np.testing.assert_allclose(tip, judge.pose(q), atol=1e-12)
@@ -229,7 +232,7 @@ def test_a_spatial_arm_has_no_equations_of_motion_and_all_else(client: TestClien
 def test_masses_that_cannot_be_are_told_where_they_are(client: TestClient, change: Any, pointer: str) -> None:
     started = time.monotonic()
     answer = client.post(PATH, json={**EXAMPLE_MOTION, "dynamics": {**EXAMPLE_MOTION["dynamics"], **change}})
-    assert time.monotonic() - started < 1
+    assert is_within(time.monotonic() - started, 1)
     assert answer.status_code == 422, answer.text
     problem = answer.json()
     assert problem.get("pointer", problem.get("errors", [{}])[0].get("pointer")) == pointer
@@ -347,7 +350,7 @@ def test_what_takes_too_long_is_broken_off_and_what_comes_after_it_is_not() -> N
 
 
 def test_an_import_is_never_broken_off(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "slow_to_load.py").write_text("import time\ntime.sleep(0.3)\nis_whole = True\n")
+    (tmp_path / "slow_to_load.py").write_text("import time\ntime.sleep(0.75)\nis_whole = True\n")
     monkeypatch.syspath_prepend(tmp_path)
 
     def load(_: None) -> None:
@@ -356,7 +359,7 @@ def test_an_import_is_never_broken_off(tmp_path: Path, monkeypatch: pytest.Monke
         time.sleep(30.0)
 
     with pytest.raises(TimeoutError):
-        derive_dh.in_time(load, None, 0.05)
+        derive_dh.in_time(load, None, 0.25)
     assert sys.modules["slow_to_load"].is_whole
 
 
@@ -369,7 +372,7 @@ def test_a_textbook_arm_is_answered_well_within_a_second_once_warm(client: TestC
         started = time.monotonic()
         posted(client, {"dh": {**dh, "tool": {"position": [0, 0, length], "rpy": [0, 0, 0]}}})
         seconds.append(time.monotonic() - started)
-    assert min(seconds) < 1.0, seconds
+    assert is_within(min(seconds), 1.0), seconds
 
 
 def test_no_process_is_left_behind(tmp_path: Path) -> None:

@@ -24,6 +24,7 @@ from tests.dh.test_convert import random_table
 from tests.dh.test_from_chain import distance, textbook_poses
 from tests.oracles import catalogue
 from tests.oracles.urdf_product import UrdfProduct
+from tests.speed import is_within
 
 JSON = {"content-type": "application/json"}
 CALLS = ("to-urdf", "from-urdf", "convert")
@@ -200,13 +201,13 @@ def test_the_largest_table_within_a_second(client: TestClient) -> None:
     dh = {"convention": "standard", "joints": [row] * 64}
     started = time.process_time()
     written = good(client, "to-urdf", name="snake", dh=dh)
-    assert time.process_time() - started < 1.0
+    assert is_within(time.process_time() - started, 1.0)
     started = time.process_time()
     good(client, "from-urdf", urdf=written["urdf"])
-    assert time.process_time() - started < 1.0
+    assert is_within(time.process_time() - started, 1.0)
     started = time.process_time()
     good(client, "convert", dh=dh, convention="modified")
-    assert time.process_time() - started < 1.0
+    assert is_within(time.process_time() - started, 1.0)
 
 
 # What is refused

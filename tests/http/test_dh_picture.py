@@ -16,7 +16,8 @@ PATH = "/v1/dh/picture"
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("method", ["GET", "POST"])
 @pytest.mark.parametrize(
-    ("accept", "begins"), [("*/*", b"<?xml"), ("image/png", b"\x89PNG"), ("text/html,*/*;q=0.8", b"<?xml")]
+    ("accept", "begins"),
+    [("*/*", b"<?xml"), ("image/png", b"\x89PNG"), ("application/pdf", b"%PDF"), ("text/html,*/*;q=0.8", b"<?xml")],
 )
 def test_it_is_a_picture_in_either_form(client: TestClient, method: str, accept: str, begins: bytes) -> None:
     body = two_links("standard") if method == "POST" else None

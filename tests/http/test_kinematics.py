@@ -206,7 +206,7 @@ def test_json_and_npy_run_the_same_compiled_code(client: TestClient) -> None:
     """A second signature would be a compilation while somebody waits."""
     fk(client, joint_positions=[READY])
     client.post("/v1/robots/panda/fk", content=npy(np.zeros((2, 7))), headers={"content-type": NPY})
-    compiled: list[Any] = [kernels.chain_poses, kernels.chain_jacobians, configuration._within]
+    compiled: list[Any] = [kernels.chain_poses, kernels.chain_jacobians, configuration._beyond]
     assert [len(kernel.signatures) for kernel in compiled] == [1, 1, 1]
 
 

@@ -26,7 +26,7 @@ from gelenk.robot.arrays import Array
 from gelenk.settings import Settings
 
 JSON, NPY, CSV = "application/json", "application/x-npy", "text/csv"
-SVG, PNG = "image/svg+xml", "image/png"
+SVG, PNG, PDF = "image/svg+xml", "image/png", "application/pdf"
 LATER = {"Prefer": "respond-async"}
 
 
@@ -195,7 +195,7 @@ MOTION: dict[str, Any] = {
     ids=["several parts", "all there is to tell", "without poses", "out of reach"],
 )
 def test_trajectories(client: TestClient, options: dict[str, Any]) -> None:
-    same(client, "/v1/robots/panda/trajectory", (JSON, NPY, CSV, SVG, PNG), json={**MOTION, **options})
+    same(client, "/v1/robots/panda/trajectory", (JSON, NPY, CSV, SVG, PNG, PDF), json={**MOTION, **options})
 
 
 @pytest.mark.slow
@@ -287,7 +287,7 @@ def test_a_job_and_its_result_say_for_which_version_of_a_robot(client: TestClien
         job = client.post(f"/v1/robots/changing/{path}", json=calls[path], headers=LATER)
         assert job.json()["robot_digest"] == digests[-1]
         client.delete("/v1/robots/changing")
-        result, deadline = f"{job.headers['location']}/result", time.monotonic() + 30.0
+        result, deadline = f"{job.headers['location']}/result", time.monotonic() + 60.0
         while client.get(result).status_code == 409:
             assert time.monotonic() < deadline
             time.sleep(0.02)

@@ -22,8 +22,9 @@ from gelenk.http.messages.problems import status_of
 from gelenk.http.workers.pool_client import PoolClient
 from gelenk.http.workers.task import Context
 from gelenk.jobs.job import Failure
+from gelenk.jobs.limits import JobLimits
 from gelenk.jobs.runner import Runner
-from gelenk.jobs.store import JobLimits, JobStore
+from gelenk.jobs.store import JobStore
 from gelenk.kinematics.judge.judge import certify_poses
 from gelenk.operations.outcome import Limits
 from gelenk.pool.pool import WorkerPool

@@ -4,6 +4,7 @@ import errno
 import gzip
 import json
 import os
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -38,6 +39,10 @@ def test_the_list_holds_the_catalogue(client: TestClient) -> None:
     assert len(CATALOGUE) >= 70
     assert robots["panda"]["source"] == "catalogue"
     assert robots["scara"]["format"] == "dh"
+    about = {"maker": "Universal Robots", "kind": "collaborative arm", "closed_form": "three parallel axes"}
+    assert about.items() <= robots["ur5"].items()
+    assert about.items() <= client.get("/v1/robots/ur5").json().items()
+    assert robots["panda"]["closed_form"] is None
 
 
 @pytest.mark.quick(3)
@@ -168,7 +173,14 @@ def test_a_dh_table_becomes_a_robot(own: TestClient) -> None:
     assert created.json()["joint_names"] == ["shoulder", "elbow"]
     assert sum("±π" in warning for warning in created.json()["warnings"]) == 2
     assert own.post("/v1/robots", json=EXAMPLE_DH).status_code == 200
-    urdf = own.get(f"/v1/robots/{EXAMPLE_DH['name']}/urdf").text
+    answer = own.get(f"/v1/robots/{EXAMPLE_DH['name']}/urdf")
+    urdf = answer.text
+    remark = re.fullmatch(
+        r"Of a DH table, against .* at 100 configurations: at most (\S+) m and (\S+) rad off",
+        answer.headers["gelenk-certificate"],
+    )
+    assert remark is not None
+    assert max(map(float, remark.groups())) < 1e-14
     copy = own.post("/v1/robots", json={"name": "copy", "urdf": urdf})
     assert copy.status_code == 201, copy.text
     call = {"joint_positions": [[0.4, -0.9]]}

@@ -9,6 +9,7 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
+import trimesh
 from starlette.testclient import TestClient
 
 from gelenk.contract.common import Payload
@@ -32,6 +33,11 @@ def npy(array: Any) -> bytes:
     return stream.getvalue()
 
 
+TETRAHEDRON = (
+    b"\n".join(b"v %d %d %d" % corner for corner in [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+    + b"\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+)
+STL: bytes = cast(Any, trimesh.load_mesh(io.BytesIO(TETRAHEDRON), file_type="obj")).export(file_type="stl")
 POINTS = npy(np.arange(12.0).reshape(4, 3))
 
 
@@ -72,11 +78,14 @@ def test_a_scene_is_added_returned_replaced_and_removed(own: TestClient) -> None
 
 
 def test_a_scene_comes_with_its_files_and_keeps_those_it_still_names(own: TestClient) -> None:
-    answer = form(own, [SHELF, SCAN], [("scan.npy", POINTS), ("shelf.stl", b"not looked at")])
+    answer = form(own, [SHELF, SCAN], [("scan.npy", POINTS), ("shelf.stl", STL)])
     assert answer.status_code == 201, answer.text
-    assert answer.json()["files"] == [{"name": "shelf.stl", "size": 13}, {"name": "scan.npy", "size": len(POINTS)}]
+    assert answer.json()["files"] == [
+        {"name": "shelf.stl", "size": len(STL)},
+        {"name": "scan.npy", "size": len(POINTS)},
+    ]
     for file, content, kind in (
-        ("shelf.stl", b"not looked at", "model/stl"),
+        ("shelf.stl", STL, "model/stl"),
         ("scan.npy", POINTS, "application/x-npy"),
     ):
         got = own.get(f"/v1/scenes/packed/files/{file}")
@@ -86,14 +95,14 @@ def test_a_scene_comes_with_its_files_and_keeps_those_it_still_names(own: TestCl
         missing = own.get(f"/v1/scenes/packed/files/{other}")
         assert (missing.status_code, missing.headers["content-type"]) == (404, "application/problem+json")
     assert own.put("/v1/scenes/packed", json={"objects": [BALL, SHELF]}).json()["files"] == [
-        {"name": "shelf.stl", "size": 13}
+        {"name": "shelf.stl", "size": len(STL)}
     ]
     replaced = form(own, [SHELF, SCAN], [("scan.npy", POINTS)], "packed")
     assert {file["name"] for file in replaced.json()["files"]} == {"shelf.stl", "scan.npy"}
     as_field = own.post(
         "/v1/scenes",
         data={"scene": json.dumps({"name": "field", "objects": [SHELF]})},
-        files=[("files", ("shelf.stl", b"x"))],
+        files=[("files", ("shelf.stl", STL))],
     )
     assert as_field.status_code == 201, as_field.text
 
@@ -134,6 +143,21 @@ def test_a_cloud_that_cannot_be(own: TestClient, content: bytes, words: str) -> 
     answer = form(own, [SCAN], [("scan.npy", content)])
     assert answer.status_code in {413, 422}
     assert words in answer.json()["detail"]
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"solid nothing", "it has no triangle"),
+        (b"", "it has no triangle"),
+        (STL[:100] + b"\xff" * 12 + STL[112:], "a coordinate is not a number"),
+    ],
+)
+def test_a_mesh_that_cannot_be(own: TestClient, content: bytes, words: str) -> None:
+    answer = form(own, [SHELF], [("shelf.stl", content)])
+    assert answer.status_code == 422
+    assert f"'shelf.stl': {words}" in answer.json()["detail"]
+    assert own.get("/v1/scenes").json() == {"scenes": []}
 
 
 def test_a_form_that_cannot_be(own: TestClient) -> None:

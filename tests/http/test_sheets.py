@@ -71,7 +71,8 @@ def test_why_there_is_no_pdf(program: str | None, reason: str, tmp_path: Path, m
     place = tmp_path / "chromium"
     place.write_text(f"#!/bin/sh\n{program}\n")
     place.chmod(0o755)
-    monkeypatch.setattr(pdf, "_SECONDS", 1)
+    if program == "sleep 60":
+        monkeypatch.setattr(pdf, "_SECONDS", 1)
     monkeypatch.setattr("shutil.which", lambda _: program and str(place))
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     with pytest.raises(NotPrinted, match=reason):

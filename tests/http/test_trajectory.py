@@ -343,7 +343,8 @@ def test_nothing_at_all_is_an_answer(client: TestClient) -> None:
 @pytest.mark.parametrize("name", sorted(NAMES))
 def test_every_robot_moves_its_joints(client: TestClient, name: str) -> None:
     chain = robot_of(name).chain(None, None)
-    low, high = np.maximum(chain.lower, -1.0), np.minimum(chain.upper, 1.0)
+    near = np.clip(0.0, chain.lower, chain.upper)
+    low, high = np.maximum(chain.lower, near - 1.0), np.minimum(chain.upper, near + 1.0)
     start, target = 0.6 * low + 0.4 * high, 0.4 * low + 0.6 * high
     segment = {"type": "joint", "target": target.tolist()}
     answer = trajectory(client, name, start=start.tolist(), segments=[segment], sample_period=0.1)

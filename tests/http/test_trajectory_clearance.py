@@ -116,6 +116,8 @@ def test_a_start_in_contact_is_an_answer_with_the_pair(client: TestClient) -> No
     assert failure["first_contact"]["pair"]["b"] == "table"
     assert clearance["value"] == failure["first_contact"]["value"] < 0.0
     assert failure["detail"].startswith("at the start ")
+    assert answer["audit"]["passed"] is False
+    assert [reason["check"] for reason in answer["audit"]["reasons"]] == ["clearance"]
 
 
 def test_links_alone_are_enough_for_a_clearance(client: TestClient) -> None:

@@ -190,6 +190,7 @@ def test_pictures(client: TestClient) -> None:
         assert client.get(result, headers={"Accept": SVG}).content == svg.content
         png = client.get(result, headers={"Accept": PNG})
         assert png.content.startswith(b"\x89PNG")
+        assert client.get(result, headers={"Accept": "application/pdf"}).content.startswith(b"%PDF")
 
 
 def test_an_empty_slice_has_an_answer_and_a_picture(client: TestClient) -> None:
@@ -326,7 +327,7 @@ def test_the_service_writes_where_it_is_told(tmp_path: Path) -> None:
         assert not (tmp_path / "jobs").exists()
         finished(client, {"samples": 10, "job_id": "mine"})
     # What it needed meanwhile goes after it has said that it has succeeded.
-    wait_for(lambda: names_in(tmp_path / "jobs" / "mine") == ["result.json", "result.npy"], 20.0)
+    wait_for(lambda: names_in(tmp_path / "jobs" / "mine") == ["result.json", "result.npy"], 60.0)
 
 
 @pytest.mark.slow

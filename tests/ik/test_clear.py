@@ -11,14 +11,19 @@ from gelenk.collision.contact.world import build_world
 from gelenk.collision.robot_bodies import find_bodies
 from gelenk.collision.scene import Obstacle
 from gelenk.collision.shapes.covers import covered_body
-from gelenk.ik.clear import _of_self_motion
+from gelenk.errors import CertificationFailed
+from gelenk.ik.clear import NEAR, _of_self_motion
 from gelenk.ik.search.bounds import target_rows
 from gelenk.ik.search.problem import Objective, Options, TargetProblem
-from gelenk.ik.search.restarts import solutions_around
+from gelenk.ik.search.restarts import solutions_from
 from gelenk.ik.search.task import Task
 from gelenk.ik.solve import solve
+from gelenk.kinematics.judge import judge
+from gelenk.kinematics.judge.placements import walk_to
+from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 from tests.ik.arms import UR5, draw, middle, poses, table_arm
 
@@ -111,27 +116,46 @@ def test_a_self_motion_is_left_in_contact_only_if_all_of_it_is() -> None:
     for i in one.failures:
         target, base = target_rows(problem.target(i)), problem.seeds
         goal = replace(problem, options=Options(random_seed=7)).goal(600)
-        others, _ = solutions_around(arm[1].flat, goal, target, base, base, 17)
+        others, _ = solutions_from(arm[1].flat, goal, target, base, base, NEAR + 1, NEAR)
         assert len(others) > 100
         assert cell.touching(others).all()
 
 
 @pytest.mark.slow
-def test_of_a_round_of_starts_the_nearest_free_solution_counts() -> None:
+@pytest.mark.parametrize(("away", "first", "last"), [(0.2, 1, NEAR + 1), (2.0, NEAR + 1, 2 * NEAR + 2)])
+def test_of_a_round_of_starts_the_nearest_free_solution_counts(away: float, first: int, last: int) -> None:
     arm = table_arm(SEVEN, "RRRRRRR")
-    cell, problem = cell_of(arm), asked(arm, 12)
+    cell, problem = cell_of(arm), asked(arm, 24)
     plain = solve(problem)
+    problem.seeds = plain.qs + away
     one = _of_self_motion(problem, cell, plain.qs)
-    some, counts = solutions_around(
-        arm[1].flat, problem.goal(17), target_rows(problem.targets), plain.qs, problem.seeds, 1
+    some, owners = solutions_from(
+        arm[1].flat, problem.goal(last), target_rows(problem.targets), plain.qs, problem.seeds, first, NEAR
     )
-    ends, is_free = np.cumsum(counts), free_by_coal(cell, some)
-    rows = [slice(end - count, end) for end, count in zip(ends, counts, strict=True)]
-    first = [i for i, own in enumerate(rows) if is_free[own].any()]
-    assert len(first) >= 6
-    for i in first:
-        found = one.qs[one.firsts[i]]
-        assert nearest(found[None], problem.seeds[0]) == nearest(some[rows[i]][is_free[rows[i]]], problem.seeds[0])
+    is_free = free_by_coal(cell, some)
+    found = np.unique(owners[is_free])
+    assert len(found) >= 6
+    for i in found:
+        q, seed = one.qs[one.firsts[i]], problem.seed(i)
+        assert one.restarts[one.firsts[i]] == first
+        assert nearest(q[None], seed) == nearest(some[is_free & (owners == i)], seed)
+
+
+@pytest.mark.slow
+def test_starts_lead_to_the_same_solutions_alone_and_among_others() -> None:
+    robot, chain = table_arm(SEVEN, "RRRRRRR")
+    problem, starts = asked((robot, chain), 11), (1, NEAR)
+    rows, bases = target_rows(problem.targets), draw(chain, 11)
+    qs, owners = solutions_from(chain.flat, problem.goal(20), rows, bases, problem.seeds, *starts)
+    alone = [
+        solutions_from(chain.flat, problem.goal(20), rows[i : i + 1], bases[i : i + 1], problem.seeds, *starts)[0]
+        for i in range(11)
+    ]
+    np.testing.assert_array_equal(owners, np.repeat(np.arange(11), [len(some) for some in alone]))
+    np.testing.assert_array_equal(qs, np.concatenate(alone))
+    poses_found = chain_poses(chain.flat, qs)
+    np.testing.assert_allclose(poses_found[0], problem.targets.positions[owners], atol=1e-6)
+    np.testing.assert_allclose(poses_found[1], problem.targets.rotations[owners], atol=1e-6)
 
 
 @pytest.mark.slow
@@ -147,6 +171,33 @@ def test_a_method_from_one_start_says_that_its_end_is_in_contact() -> None:
     assert [here.statuses[i] for i in range(40) if i not in free] == [
         plain.statuses[i] for i in range(40) if i not in free
     ]
+
+
+@pytest.mark.parametrize("every", [False, True])
+def test_an_answer_of_several_stages_is_compared_with_pinocchio_once(
+    every: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    arm = table_arm(SEVEN, "RRRRRRR")
+    cell, problem = cell_of(arm), asked(arm, 4, every=every, most=5)
+    problem.targets.positions[3] += 5.0
+    compared, compare = [], judge.poses_at
+
+    def comparing(robot: RobotModel, chain: Chain, frame: str, full_qs: Array) -> Poses:
+        if len(full_qs):
+            compared.append(full_qs)
+        return compare(robot, chain, frame, full_qs)
+
+    monkeypatch.setattr(judge, "poses_at", comparing)
+    found = solve(problem, cell)
+    assert 3 in found.failures
+    nearest = [failure.nearest for failure in found.failures.values()]
+    np.testing.assert_array_equal(compared[0], np.vstack((found.qs, *nearest)))
+    assert every or len(compared) == 1, "families of solutions are compared apart"
+    wrong = walk_to(arm[0], arm[1].tip_frame).copy()
+    wrong[-1, 1] += 1e-8
+    monkeypatch.setattr(judge, "walk_to", lambda _, frame: wrong if frame == arm[1].tip_frame else walk_to(_, frame))
+    with pytest.raises(CertificationFailed, match="position"):
+        solve(problem, cell)
 
 
 @pytest.mark.slow

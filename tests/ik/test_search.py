@@ -1,18 +1,25 @@
 """The search of many starts: the same answers whatever else is asked, everything solved, the near solution first."""
 
+import subprocess
+import sys
 import time
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from gelenk.errors import CertificationFailed
+from gelenk.ik import quick
 from gelenk.ik.closed.closed_form import closed_form
 from gelenk.ik.search.retrace import retrace
 from gelenk.ik.search.search import Found, start_of
 from gelenk.ik.search.task import Task
-from gelenk.ik.solve import Options, inverse_kinematics, solve_quickly
+from gelenk.ik.solve import Options, inverse_kinematics, solve, solve_quickly
+from gelenk.ik.verdict.result import COLUMNS
+from gelenk.kinematics.judge import judge
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
@@ -279,19 +286,55 @@ def test_quick_answers_are_the_same_answers(name: str) -> None:
     given_up = 0
     for i in range(60):
         target = part(targets, slice(i, i + 1))
-        quick = solve_quickly(replace(problem(chain, target, middle(chain)), robot=machine), 8)
+        few = solve_quickly(replace(problem(chain, target, middle(chain)), robot=machine), 8)
         answer = inverse_kinematics(machine, chain, target, middle(chain), Options())
-        if quick is None:
+        if few is None:
             given_up += 1
             assert answer.restarts[0] >= 8
             continue
-        assert quick.statuses == answer.statuses == ["solved"]
-        np.testing.assert_array_equal(quick.qs, answer.qs)
-        np.testing.assert_array_equal(quick.restarts, answer.restarts)
-        np.testing.assert_array_equal(quick.position_errors, answer.position_errors)
+        assert few.statuses == answer.statuses == ["solved"]
+        for column in COLUMNS:
+            np.testing.assert_array_equal(getattr(few, column), getattr(answer, column))
     assert given_up < 20
     away = moved(part(targets, slice(0, 2)), np.array([[0.0] * 3, [9.0] * 3]), np.zeros((2, 3)))
     assert solve_quickly(replace(problem(chain, away, middle(chain)), robot=machine), 8) is None
+
+
+@pytest.mark.parametrize("quantity", ["position", "orientation"])
+def test_an_answer_that_pinocchios_own_poses_deny_is_withheld(quantity: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    machine, chain = catalogue_arm("panda")
+    asked = replace(problem(chain, poses(machine, chain, draw(chain, 3)), middle(chain)), robot=machine)
+    closed_form(chain)
+    found = solve_quickly(asked, 1000)
+    assert found is not None
+    assert found.verdicts == {"solved": 3}
+    poses_at = judge.poses_at
+
+    def denying(*ends: Any) -> Poses:
+        own = poses_at(*ends)
+        away, turn = (np.full((3, 3), 1e-6 * (name == quantity)) for name in ("position", "orientation"))
+        return moved(own, away, turn)
+
+    for module in (judge, quick):
+        monkeypatch.setattr(module, "poses_at", denying)
+    for solver in (solve, lambda asked: solve_quickly(asked, 1000)):
+        with pytest.raises(CertificationFailed, match=quantity):
+            solver(asked)
+
+
+@pytest.mark.slow
+def test_a_service_that_is_ready_has_loaded_the_kernels_of_quick_answers() -> None:
+    code = """
+from gelenk.kinematics.warm_up import quick
+quick()
+from gelenk.ik.quick import _searched
+from gelenk.ik.verdict.judge import accept
+from gelenk.kinematics.judge.placements import expand
+from gelenk.robot.notations import turn_by_quaternions_xyzw
+print(*(len(kernel.signatures) for kernel in (_searched, accept, expand, turn_by_quaternions_xyzw)))
+"""
+    ran = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert ran.stdout.split() == ["1"] * 4
 
 
 # Everything is solved

@@ -1,8 +1,12 @@
 """The subproblems of closed forms: against NumPy's roots of polynomials, and against a fine sweep of the unknown."""
 
 import math
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
+from types import FunctionType
+from typing import cast
 
+import numba
 import numpy as np
 import numpy.typing as npt
 import pytest
@@ -10,6 +14,7 @@ from numpy.polynomial import polynomial
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
+from gelenk.ik.closed import subproblems
 from gelenk.ik.closed.subproblems import (
     Quadratic,
     angle_onto,
@@ -22,6 +27,7 @@ from gelenk.ik.closed.subproblems import (
     value,
 )
 from gelenk.kinematics.simd.vectors import Vector
+from gelenk.robot import compilation
 from gelenk.robot.arrays import Array
 
 TURN = 2.0 * np.pi
@@ -191,6 +197,14 @@ def test_roots_of_random_quartics() -> None:
     assert (counts[[0, 2, 4]] > 100).all()
 
 
+def inlined_of_quartic() -> Callable[..., int]:
+    """`roots_of_quartic` with all that it calls inlined into it, so that values are rounded where they are used."""
+    room, options = dict(vars(subproblems)), {**compilation._UNMANAGED, "cache": False, "forceinline": True}
+    for name in ("_root_between", "roots_of_quartic"):
+        room[name] = numba.njit(**options)(FunctionType(room[name].py_func.__code__, room, name))
+    return cast(Callable[..., int], room["roots_of_quartic"])
+
+
 def quartics_with_roots() -> Iterator[tuple[Array, list[float]]]:
     rng = np.random.default_rng(9)
     for _ in range(50):
@@ -205,7 +219,11 @@ def quartics_with_roots() -> Iterator[tuple[Array, list[float]]]:
         yield scale * np.poly([r[0], r[0], 1j, -1j]).real, [r[0]]
 
 
-def test_double_roots_are_found_whichever_side_rounding_puts_them() -> None:
+@pytest.mark.quick(1)
+@pytest.mark.parametrize("way", ["alone", "inlined"])
+def test_double_roots_are_found_whichever_side_rounding_puts_them(way: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    if way == "inlined":
+        monkeypatch.setattr(sys.modules[__name__], "roots_of_quartic", inlined_of_quartic())
     for coefficients, expected in quartics_with_roots():
         found = of_quartic(coefficients)
         assert len(found) <= 8

@@ -139,6 +139,7 @@ def test_far_targets_in_a_batch_leave_the_others_alone() -> None:
     answer = inverse_kinematics(machine, chain, mixed, middle(chain), Options())
     assert answer.statuses == ["unreachable" if hopeless else "solved" for hopeless in far]
     assert sorted(answer.failures) == np.flatnonzero(far).tolist()
+    assert answer.verdicts == {"solved": 240, "unreachable": 60}
     np.testing.assert_array_equal(np.diff(answer.firsts), 1 - far)
     for i in np.flatnonzero(far).tolist():
         check_nearest(machine, chain, part(mixed, slice(i, i + 1)), answer.failures[i])

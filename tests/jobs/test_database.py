@@ -18,7 +18,8 @@ import pytest
 
 from gelenk.errors import TooLarge, UnknownJob
 from gelenk.jobs.job import Failure
-from gelenk.jobs.store import JobLimits, JobStore
+from gelenk.jobs.limits import JobLimits
+from gelenk.jobs.store import JobStore
 
 START = (
     "import os, signal, sys, time; from pathlib import Path; from gelenk.jobs.store import *\n"

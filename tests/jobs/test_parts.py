@@ -88,5 +88,8 @@ def test_arrays_come_back_to_the_last_bit() -> None:
     assert found["numbers"].tolist() == [1, 2**62]
     assert (found["bytes"].tobytes(), found["none"].shape, int(found["number"])) == (b"odd", (0, 3), 7)
     assert all(array.flags.aligned and array.flags.writeable for array in found.values())
+    two = unpacked(packed(values=values, **named), "flipped", "number", "nothing")
+    assert list(two) == ["flipped", "number"]
+    assert two["flipped"].tobytes() == values.T.tobytes()
     with pytest.raises(ValueError, match="only numbers"):
         packed(values=np.array([object()]))

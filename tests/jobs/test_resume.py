@@ -13,8 +13,9 @@ from typing import Any
 import pytest
 
 from gelenk.errors import JobInterrupted
+from gelenk.jobs.limits import JobLimits
 from gelenk.jobs.runner import Runner
-from gelenk.jobs.store import JobLimits, JobStore
+from gelenk.jobs.store import JobStore
 from tests.jobs.parts import fatal, made_by, of_parts
 from tests.jobs.workers import Workers
 
@@ -65,7 +66,7 @@ def finished(folder: Path) -> Runner:
     """A process of the service that is let go on to the end of the job."""
     runner = opened(folder)
     runner.start()
-    deadline = time.monotonic() + 20.0
+    deadline = time.monotonic() + 60.0
     while not runner.store.get("mine").is_final:
         assert time.monotonic() < deadline
         time.sleep(0.02)

@@ -22,9 +22,10 @@ from gelenk.errors import (
     UnknownJob,
 )
 from gelenk.jobs.job import JobRecord
+from gelenk.jobs.limits import JobLimits
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Runner, Work
-from gelenk.jobs.store import JobLimits, JobStore
+from gelenk.jobs.store import JobStore
 from tests.jobs.parts import gone, made_by, of_parts
 from tests.jobs.workers import Workers
 
@@ -57,9 +58,9 @@ def submitted(runner: Runner, function: str, values: list[Any], name: str | None
 
 
 def watched(runner: Runner, job: JobRecord) -> list[JobRecord]:
-    """Every state of a job until its end, and that does not take long."""
+    """Every state of a job until its end."""
     seen = [runner.store.get(job.id)]
-    deadline = time.monotonic() + 20.0
+    deadline = time.monotonic() + 60.0
     while not seen[-1].is_final:
         assert time.monotonic() < deadline
         time.sleep(0.02)
@@ -67,6 +68,14 @@ def watched(runner: Runner, job: JobRecord) -> list[JobRecord]:
         if now != seen[-1]:
             seen.append(now)
     return seen
+
+
+def wait_until_running(runner: Runner, job: JobRecord) -> None:
+    """Wait until a job is at work."""
+    deadline = time.monotonic() + 60.0
+    while runner.store.get(job.id).state != "running":
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
 
 
 def test_results_come_in_order_and_progress_only_grows(runner: Runner) -> None:
@@ -109,9 +118,8 @@ def test_a_name_that_stands_is_not_done_again(runner: Runner) -> None:
 
 @pytest.mark.slow
 def test_a_cancelled_job_ends_at_once_and_the_next_one_runs(runner: Runner) -> None:
-    hanging = submitted(runner, "sleep", [60.0] * 4)
-    time.sleep(0.5)
-    assert runner.store.get(hanging.id).state == "running"
+    hanging = submitted(runner, "sleep", [600.0] * 4)
+    wait_until_running(runner, hanging)
     with pytest.raises(JobNotFinished):
         runner.result(hanging.id, "result.txt")
     started = time.monotonic()
@@ -119,27 +127,27 @@ def test_a_cancelled_job_ends_at_once_and_the_next_one_runs(runner: Runner) -> N
     with pytest.raises(JobCancelled):
         runner.result(hanging.id, "result.txt")
     assert watched(runner, submitted(runner, "double", [3]))[-1].state == "succeeded"
-    assert time.monotonic() - started < 5.0
+    assert time.monotonic() - started < 60.0
     assert runner.store.get(hanging.id).state == "cancelled"
 
 
 def test_jobs_that_another_process_cancels_make_room_for_others(runner: Runner) -> None:
-    jobs = [submitted(runner, "sleep", [0.2] * 100) for _ in range(2)]
-    time.sleep(0.4)
+    jobs = [submitted(runner, "sleep", [0.2] * 1000) for _ in range(2)]
     for job in jobs:
+        wait_until_running(runner, job)
         runner.store.change(job.id, state="cancelled")
     started = time.monotonic()
     assert watched(runner, submitted(runner, "double", [3]))[-1].state == "succeeded"
-    assert time.monotonic() - started < 5.0, "those would have taken twenty seconds"
+    assert time.monotonic() - started < 50.0, "those would have taken minutes"
 
 
 def test_a_job_that_is_cancelled_before_its_turn_is_never_begun(runner: Runner) -> None:
-    ahead = [submitted(runner, "sleep", [0.3]) for _ in range(2)]
+    ahead = [submitted(runner, "sleep", [0.05] * 1000) for _ in range(2)]
     last = submitted(runner, "fail", ["never"])
     runner.cancel(last.id)
     for job in ahead:
-        watched(runner, job)
-    time.sleep(0.1)
+        runner.cancel(job.id)
+    watched(runner, submitted(runner, "double", [1]))  # whose turn is after that of the last one
     assert (runner.store.get(last.id).state, runner.store.get(last.id).started) == ("cancelled", None)
 
 
@@ -151,7 +159,7 @@ def test_turns_go_round_the_clients(tmp_path: Path) -> None:
         return runner.submit("parts", "x", made_by("sleep", [0.1] * parts), client=client)
 
     heavy = [asked("heavy", 1000) for _ in range(4)]
-    deadline = time.monotonic() + 20.0
+    deadline = time.monotonic() + 60.0
     while [runner.store.get(job.id).state for job in heavy] != ["running"] * 2 + ["queued"] * 2:
         assert time.monotonic() < deadline
         time.sleep(0.02)
@@ -229,10 +237,8 @@ def test_a_part_that_is_killed_is_tried_again_and_named_in_the_end(runner: Runne
 def test_a_job_that_takes_too_long_is_ended(tmp_path: Path) -> None:
     runner = opened(tmp_path, workers=1, running=1, seconds=0.5)
     try:
-        job = submitted(runner, "sleep", [60.0])
-        started = time.monotonic()
+        job = submitted(runner, "sleep", [600.0])
         assert watched(runner, job)[-1].state == "failed"
-        assert time.monotonic() - started < 3.0
         with pytest.raises(JobTookTooLong):
             runner.result(job.id, "result.txt")
     finally:
@@ -244,7 +250,7 @@ def test_the_end_of_the_service_leaves_its_jobs_to_the_next_one(tmp_path: Path) 
     runner = opened(tmp_path, running=1)
     first = submitted(runner, "sleep", [0.0, 0.0, 0.0, 0.0, 60.0])
     waiting = submitted(runner, "double", [7])
-    deadline = time.monotonic() + 20.0
+    deadline = time.monotonic() + 60.0
     while runner.store.get(first.id).progress < 0.8:
         assert time.monotonic() < deadline
         time.sleep(0.02)
@@ -252,7 +258,7 @@ def test_the_end_of_the_service_leaves_its_jobs_to_the_next_one(tmp_path: Path) 
     pids = runner.workers.pids
     started = time.monotonic()
     runner.close()
-    assert time.monotonic() - started < 2.0
+    assert time.monotonic() - started < 30.0
     assert len(pids) == 2
     assert all(gone(pid) for pid in pids)
     with pytest.raises(ServiceStopping):

@@ -16,7 +16,8 @@ from gelenk import errors
 from gelenk.errors import JobExists, TooManyJobs, UnknownJob
 from gelenk.jobs import store as shelf_module
 from gelenk.jobs.job import Failure
-from gelenk.jobs.store import JobLimits, JobStore, write_result
+from gelenk.jobs.limits import JobLimits
+from gelenk.jobs.store import JobStore, write_result
 from tests.test_errors import CONCRETE, example
 
 
@@ -320,3 +321,14 @@ def test_a_failure_is_raised_again_as_it_was(store: JobStore, cls: type[errors.K
     raised = again.error_again()
     assert raised.detail == error.detail
     assert type(raised) is cls
+
+
+def test_the_newest_jobs_of_a_client_come_in_pieces(store: JobStore) -> None:
+    mine = [store.add("workspace", str(i), {}, client="key me")[0] for i in range(3)]
+    store.add("workspace", "theirs", {}, client="key they")
+    first = store.newest("key me", 2, 2**53)
+    assert [job.id for job in first] == [mine[2].id, mine[1].id]
+    assert [job.id for job in store.newest("key me", 2, first[-1].number)] == [mine[0].id]
+    assert store.newest("key nobody", 2, 2**53) == []
+    store.remove(mine[1].id)
+    assert [job.id for job in store.newest("key me", 9, 2**53)] == [mine[2].id, mine[0].id]

@@ -14,7 +14,7 @@ from gelenk.pool.pool import BACKGROUND
 from tests.jobs.parts import double, fail, gone, killed, own_pid, sleep
 from tests.jobs.workers import Workers
 
-SOON = 20.0
+SOON = 60.0
 
 
 @pytest.fixture(scope="module")
@@ -28,16 +28,24 @@ def soon(seconds: float = SOON) -> float:
     return time.monotonic() + seconds
 
 
+def at_work(workers: Workers, count: int) -> None:
+    """Wait until so many processes have something to do."""
+    deadline = soon()
+    while workers.pool.background.busy < count:
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
 def test_nothing_runs_before_the_first_part_and_nothing_is_left_at_the_end() -> None:
     pool = Workers(2)
     assert pool.pids == []
     assert pool.submit(double, 21, soon()).result(SOON) == 42
     pids = [pool.submit(own_pid, 0, soon()).result(SOON), *pool.pids]
-    slow, waiting = pool.submit(sleep, 60.0, soon(90.0)), [pool.submit(sleep, 60.0, soon(90.0)) for _ in range(3)]
-    time.sleep(0.3)
+    slow, waiting = pool.submit(sleep, 600.0, soon(900.0)), [pool.submit(sleep, 600.0, soon(900.0)) for _ in range(3)]
+    at_work(pool, 2)
     started = time.monotonic()
     pool.close()
-    assert time.monotonic() - started < 2.0
+    assert time.monotonic() - started < SOON
     for future in (slow, *waiting):
         with pytest.raises(Cancelled):
             future.result(SOON)
@@ -84,14 +92,14 @@ def test_what_hangs_is_killed_when_it_is_cancelled_and_nothing_else_is(workers: 
     for future in [workers.submit(sleep, 0.3, soon()) for _ in range(2)]:
         future.result(SOON)
     pids = workers.pids
-    hanging, beside = workers.submit(sleep, 60.0, soon(90.0)), workers.submit(sleep, 5.0, soon())
-    time.sleep(0.2)
+    hanging, beside = workers.submit(sleep, 600.0, soon(900.0)), workers.submit(sleep, 5.0, soon())
+    at_work(workers, 2)
     started = time.monotonic()
     hanging.cancel()
     with pytest.raises(CancelledError):
         hanging.result(SOON)
     while not any(gone(pid) for pid in pids):
-        assert time.monotonic() < started + 4.0
+        assert time.monotonic() < started + SOON
         time.sleep(0.02)
     assert time.monotonic() > started + 0.5, "it may finish within the grace time"
     assert beside.result(SOON) == 5.0
@@ -104,7 +112,7 @@ def test_what_is_cancelled_and_finishes_soon_costs_no_process(workers: Workers) 
         future.result(SOON)
     pids = workers.pids
     hanging = workers.submit(sleep, 0.5, soon())
-    time.sleep(0.2)
+    at_work(workers, 1)
     hanging.cancel()
     time.sleep(1.5)
     assert workers.pids == pids
@@ -121,7 +129,7 @@ def test_a_process_without_work_is_let_go(monkeypatch: pytest.MonkeyPatch) -> No
     pool = Workers(1)
     try:
         pid = pool.submit(own_pid, 0, soon()).result(SOON)
-        deadline = time.monotonic() + 5.0
+        deadline = soon()
         while not gone(pid):
             assert time.monotonic() < deadline
             time.sleep(0.02)

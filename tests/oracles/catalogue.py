@@ -16,8 +16,10 @@ def entry(name: str) -> dict[str, Any]:
 
 
 def family(name: str) -> str:
-    """The folder that a robot's description shares with its variants; a table is its own."""
-    return entry(name)["model"]["path"].split("/")[1] if entry(name)["format"] == "urdf" else name
+    """What a robot shares with its variants: the folder of its description, or, of a maker's arm, its geometry."""
+    if entry(name)["format"] == "urdf":
+        return str(entry(name)["model"]["path"].split("/")[1])
+    return f"{len(dh_table(name)['joints'])}, {entry(name).get('closed_form')}" if name in ARMS else name
 
 
 def urdf_text(name: str) -> str:
@@ -32,6 +34,7 @@ def dh_table(name: str) -> dict[str, Any]:
     return content
 
 
+ARMS = set(json.loads((Path(__file__).parents[1] / "dh" / "arms.json").read_text()))
 NAMES = sorted(path.parent.name for path in CATALOGUE.glob("*/robot.json"))
 URDFS = [name for name in NAMES if entry(name)["format"] == "urdf"]
 TABLES = [name for name in NAMES if entry(name)["format"] == "dh"]

@@ -33,6 +33,21 @@ def test_text_is_never_mathematics() -> None:
     assert as_bytes(figure, "svg").startswith(b"<?xml")
 
 
+def test_a_pdf_holds_its_typeface_and_no_moment() -> None:
+    """So it is the same file each time; its text can be searched, and looks the same elsewhere."""
+
+    def drawn() -> bytes:
+        figure = new_figure(2.0, 1.0)
+        write(figure, 0.1, 0.9, ["φ = 30°"])
+        return as_bytes(figure, "pdf")
+
+    found = drawn()
+    assert found.startswith(b"%PDF-1.")
+    assert found == drawn()
+    assert b"/FontDescriptor" in found and b"DejaVuSans" in found
+    assert b"CreationDate" not in found
+
+
 def test_threads_draw_the_same_bytes_as_one_alone() -> None:
     def draw(scale: float) -> bytes:
         figure = new_figure(3.0, 3.0)

@@ -7,9 +7,11 @@ import subprocess
 import sys
 import threading
 import time
+import zlib
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
+import llvmlite.binding
 import numba
 import numpy as np
 import pytest
@@ -63,10 +65,27 @@ def test_a_limit_of_time_does_not_count_compiling(
 def test_the_cache_knows_every_source_that_kernels_are_made_of() -> None:
     """Numba itself looks at the file of a function alone."""
     package = Path(compilation.__file__).parents[1]
-    decorated = re.compile(r"^@(compiled|unmanaged|inlined)$", re.MULTILINE)
+    decorated = re.compile(r"^@(compiled|unmanaged|inlined|exclusive)$", re.MULTILINE)
     defining = {str(p.relative_to(package)) for p in package.rglob("*.py") if decorated.search(p.read_text("utf-8"))}
     assert len(defining) >= 10
     assert defining <= compilation.kernel_digests().keys()
+
+
+def test_code_is_the_same_whichever_function_calls_it_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Numba's default is to inline what an inlined function calls, and to store that for all."""
+    monkeypatch.setitem(compilation._UNMANAGED, "cache", False)
+
+    def half(x: float) -> float:
+        return 0.5 * x
+
+    def half_and_one(x: float) -> float:
+        return inside(x) + 1.0
+
+    alone, inside, around = compilation.unmanaged(half), compilation.unmanaged(half), compilation.inlined(half_and_one)
+    assert (alone(3.0), around(3.0)) == (1.5, 2.5)
+    for one, is_inlined in ((alone, False), (inside, False), (around, True)):
+        (code,) = cast(Any, one).overloads.values()
+        assert code.fndesc.inline == is_inlined
 
 
 def test_a_change_recompiles_what_it_is_compiled_into_and_nothing_else(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -132,6 +151,19 @@ def test_where_nothing_can_be_written_it_says_so_and_goes_on(is_set: bool, tmp_p
     assert run.returncode == 0, run.stderr
     assert run.stderr.count("\n") == 1
     assert f"nothing can be written to {nowhere}" in run.stderr
+
+
+@pytest.mark.skipif(compilation.STORE is None, reason="nothing is stored")
+def test_a_stored_kernel_brings_the_names_that_its_code_defines(monkeypatch: pytest.MonkeyPatch) -> None:
+    rotations_from_zyz(np.zeros((1, 3)))
+    kernel: Any = rotations_from_zyz
+    engine = kernel.targetctx.codegen()._engine
+    monkeypatch.setattr(engine, "_defined_symbols", set())
+    library = kernel._cache.load_overload(kernel.signatures[0], kernel.targetctx).library
+    module = llvmlite.binding.parse_bitcode(zlib.decompress(library._packed))
+    values = [*module.functions, *module.global_variables]
+    assert engine._defined_symbols == {value.name for value in values if not value.is_declaration}
+    assert library.get_pointer_to_function(kernel.overloads[kernel.signatures[0]].fndesc.llvm_cpython_wrapper_name)
 
 
 @pytest.mark.skipif(compilation.STORE is None, reason="nothing is stored")

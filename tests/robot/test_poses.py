@@ -12,7 +12,7 @@ from gelenk.errors import InvalidPose
 from gelenk.robot import notations
 from gelenk.robot.arrays import Array
 from gelenk.robot.notations import placement, pose_errors
-from gelenk.robot.poses import Poses, inverse, nearest_rotation, transform, unit_quaternion
+from gelenk.robot.poses import Poses, _is_rotation, inverse, nearest_rotation, transform, unit_quaternion
 
 NEAR = [sign * size for size in (1e-15, 1e-13, 1e-12, 1e-9, 1e-7, 1e-6, 1e-3) for sign in (1, -1)] + [0.0]
 """Distances from an angle at which something degenerates."""
@@ -219,11 +219,13 @@ def test_a_matrix_near_a_rotation_is_projected(Rs: Array) -> None:
 @pytest.mark.parametrize("quaternion", [[0, 0, 0, 0], [0, 0, 0, 1.001], [0.5, 0.5, 0.5, 0.4], [1e308] * 4])
 def test_a_quaternion_far_from_unit_length_is_refused(quaternion: list[float]) -> None:
     with pytest.raises(InvalidPose, match="quaternion has length"):
-        unit_quaternion(np.array(quaternion))
+        unit_quaternion(quaternion)
 
 
 def test_a_quaternion_near_unit_length_is_normalised() -> None:
-    assert unit_quaternion(np.array([0.6, 0.0, 0.8, 0.0]) * (1 + 5e-7)) == pytest.approx([0.6, 0, 0.8, 0], abs=1e-15)
+    assert unit_quaternion([part * (1 + 5e-7) for part in (0.6, 0.0, 0.8, 0.0)]) == pytest.approx(
+        [0.6, 0, 0.8, 0], abs=1e-15
+    )
 
 
 # How far two batches are apart
@@ -246,3 +248,18 @@ def test_pose_errors_of_nan_are_nan(where: str) -> None:
     positions, Rs = np.zeros((2, 3)), np.array([np.eye(3)] * 2)
     (positions if where == "position" else Rs)[1, 2] = np.nan
     assert np.isnan(pose_errors(positions, Rs, np.zeros((2, 3)), np.array([np.eye(3)] * 2))[:2]).all()
+
+
+@pytest.mark.parametrize("noise", [0.0, 1e-16, 1e-15, 3e-15, 1e-14, 1e-9])
+def test_what_is_taken_for_a_rotation_unseen_is_as_near_as_its_decomposition_says(noise: float) -> None:
+    rng = np.random.default_rng(4)
+    taken = 0
+    for R in notations.rotations_from_vectors(rng.normal(size=(300, 3))):
+        matrix = R + noise * rng.normal(size=(3, 3))
+        U, _, Vt = np.linalg.svd(matrix)
+        distance = np.linalg.norm(matrix - U @ Vt)
+        if _is_rotation(*matrix.tolist()):
+            taken += 1
+            assert distance <= 5e-15
+        assert not _is_rotation(*(-matrix).tolist())
+    assert taken == 300 if noise <= 1e-16 else taken < 300

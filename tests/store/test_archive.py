@@ -1,6 +1,8 @@
 """An archive while it is unpacked and kept; what is refused stands in the corpus of hostile ones."""
 
+import re
 import stat
+import struct
 import threading
 import time
 from collections.abc import Callable
@@ -12,6 +14,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 
 from gelenk.errors import InvalidArchive, KinematicsError, TooLarge
+from gelenk.robot.formats.reading import as_urdf
 from gelenk.store.archive import MAX_FOLDERS, unpacked
 from gelenk.store.folders import FileRange, pieces
 from gelenk.store.library import Library, RobotUpload
@@ -36,7 +39,7 @@ def zipped(entries: list[tuple[str, bytes]]) -> BytesIO:
 
 def kept(library: Library, name: str, file: BytesIO) -> None:
     with unpacked(file, root=library.uploads) as robot:
-        library.add(RobotUpload(name, "urdf", robot.urdf, meshes=robot.meshes, urdf_folder=robot.urdf_folder))
+        library.add(RobotUpload(name, "urdf", robot.model, meshes=robot.meshes, urdf_folder=robot.folder))
 
 
 def within(seconds: float, work: Callable[[], object]) -> bool:
@@ -50,7 +53,7 @@ def within(seconds: float, work: Callable[[], object]) -> bool:
 def test_what_is_unpacked_has_no_name_that_a_kill_could_leave_behind(tmp_path: Path) -> None:
     meshes = {"meshes/a.stl": b"a" * 2_500_000, "meshes/empty.obj": b"", "b.dae": bytes(range(256))}
     with unpacked(zipped([("arm.urdf", b"<robot/>"), *meshes.items()]), root=tmp_path) as robot:
-        assert robot.urdf == b"<robot/>"
+        assert (robot.model, robot.folder) == (b"<robot/>", "")
         for _ in range(2):
             assert {path: b"".join(pieces(stretch)) for path, stretch in robot.meshes.items()} == meshes
         assert list(tmp_path.iterdir()) == []
@@ -167,3 +170,21 @@ def test_other_uploads_go_on_while_leftovers_are_removed(tmp_path: Path, monkeyp
     monkeypatch.undo()
     library.prepare()
     assert {path.name for path in tmp_path.iterdir()} == {".lock", ".index", "arm"}
+
+
+def test_a_mesh_of_mujoco_s_own_format_is_kept_and_weighs_its_body(tmp_path: Path) -> None:
+    corners = [(0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, 3)]
+    mesh = struct.pack("<4i12f", 4, 0, 0, 0, *(number for corner in corners for number in corner))
+    model = (
+        b'<mujoco><asset><mesh name="m" file="m.msh" inertia="%s"/></asset>'
+        b'<worldbody><body name="b"><geom type="mesh" mesh="m" density="2"/></body></worldbody></mujoco>'
+    )
+    masses = {}
+    for inertia in (b"convex", b"shell"):
+        with unpacked(zipped([("arm.xml", model % inertia), ("m.msh", mesh)]), root=tmp_path) as robot:
+            assert list(robot.meshes) == ["m.msh"]
+            read = as_urdf(robot.model, robot.path, robot.sources)
+            (masses[inertia],) = re.findall(rb'<mass value="([\d.]+)"', read.urdf)
+            assert read.notes == ()
+    assert float(masses[b"convex"]) == pytest.approx(2.0)
+    assert float(masses[b"shell"]) == pytest.approx(2.0 * (1.0 + 1.5 + 3.0 + 3.5))

@@ -6,10 +6,17 @@ from pathlib import Path
 
 import pytest
 
+from gelenk.ik.closed.closed_form import closed_form
 from gelenk.prune import catalogue_files, mapped_files, unneeded
 from gelenk.store.records import package_data
+from tests.oracles import catalogue
+from tests.robots import robot, swept
 
 ROBOTS = Path("robots")
+KINDS = {
+    "biped", "collaborative arm", "finger", "flying robot", "hand", "hobby arm", "humanoid", "industrial arm",
+    "mobile manipulator", "quadruped", "SCARA", "textbook arm", "two-armed robot",
+}  # fmt: skip
 
 
 def test_every_urdf_of_the_package_is_used_or_left_out_for_a_reason() -> None:
@@ -27,6 +34,19 @@ def test_every_robot_says_its_licence_and_source() -> None:
         record = json.loads(path.read_text())
         assert re.fullmatch(r"[A-Za-z0-9.-]+", record["licence"]), path
         assert record["source"], path
+
+
+def test_every_robot_says_its_kind_and_a_maker_where_it_has_one() -> None:
+    files = {name: catalogue.entry(name) for name in catalogue.NAMES}
+    assert {file["kind"] for file in files.values()} == KINDS
+    nobodys = {name for name, file in files.items() if "maker" not in file}
+    assert {files[name]["kind"] for name in nobodys} <= {"textbook arm", "quadruped", "flying robot"}
+
+
+@pytest.mark.parametrize("name", swept(catalogue.NAMES))
+def test_the_closed_form_is_that_which_the_service_finds(name: str) -> None:
+    found = closed_form(robot(name).chain(None, None))
+    assert catalogue.entry(name).get("closed_form") == (found and found.name)
 
 
 @pytest.mark.slow

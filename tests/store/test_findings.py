@@ -30,7 +30,7 @@ def stored(folder: Path, mesh: bytes, srdf: bytes, *more: tuple[str, bytes]) -> 
             archive.writestr(name, content)
     library = Library(Path("robots"), folder)
     with unpacked(file) as robot:
-        library.add(RobotUpload("arm", "urdf", robot.urdf, meshes=robot.meshes, srdf=robot.srdf))
+        library.add(RobotUpload("arm", "urdf", robot.model, meshes=robot.meshes, srdf=robot.srdf))
     return library.get("arm")
 
 

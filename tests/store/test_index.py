@@ -138,3 +138,17 @@ def test_outdated_lines_are_dropped_when_there_are_many(
         assert listed(other) == {"arm": str(number), "still": ""} == listed(library)
         assert (tmp_path / "robots" / ".index").read_bytes().count(b"arm") < 60
     assert listed(new()) == {"arm": "59", "still": ""}
+
+
+def test_lines_of_another_release_are_read_anew(
+    new: Callable[[], Library], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A list kept by an older release lacks the fields that were added since."""
+    with monkeypatch.context() as older:
+        older.setattr(index, "ABOUT", ("description",))
+        older.setattr(index, "_FORM", 0)
+        new().add(upload("arm", "kept"))
+        assert b"maker" not in (tmp_path / "robots" / ".index").read_bytes()
+    (line,) = new().summaries()
+    assert json.loads(line)["maker"] is None
+    assert json.loads(line)["description"] == "kept"

@@ -81,7 +81,7 @@ def test_which_file_a_name_means(reference: str, paths: list[str], urdf_folder: 
     ("found", "words"),
     [
         ({"a.stl": ["a.stl"]}, []),
-        ({"a.glb": []}, ["mesh 'a.glb' is not shown: glb is not read: STL, OBJ, DAE"]),
+        ({"a.glb": []}, ["mesh 'a.glb' is not shown: glb is not read: STL, OBJ, DAE, MSH"]),
         ({"a.glb": [], "b.PLY": []}, ["2 meshes ('a.glb', 'b.PLY') are not shown: PLY, glb are not read"]),
         ({"a.stl": []}, ["mesh 'a.stl' is missing"]),
         ({f"{n}.stl": [] for n in range(14)}, ["14 meshes ('0.stl', '1.stl'"]),
@@ -102,7 +102,7 @@ def test_files_that_fit_alike_are_told_and_none_is_taken(tmp_path: Path) -> None
     found = library.get("arm")
     assert set(found.meshes.values()) == {None}
     told = " ".join(found.warnings)
-    assert "glb is not read: STL, OBJ, DAE" in told
+    assert "glb is not read: STL, OBJ, DAE, MSH" in told
     assert "2 meshes ('c.dae', 'd.dae') are missing" in told
     assert "several files match: 'r/o/m/a.stl', 'r/q/m/a.stl'" in told
 

@@ -11,8 +11,9 @@ from pathlib import Path
 import pytest
 
 from gelenk.errors import KinematicsError
+from gelenk.jobs.limits import JobLimits
 from gelenk.jobs.robot_files import robot_text
-from gelenk.jobs.store import JobLimits, JobStore
+from gelenk.jobs.store import JobStore
 from gelenk.store.folders import read_plain
 from gelenk.store.library import Library, RobotUpload
 from tests.store.test_archive import CATALOGUE, urdf

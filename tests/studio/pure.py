@@ -21,7 +21,7 @@ def values(module: str, expressions: list[str]) -> list[Any]:
     source = f"import * as module from './src/{module}';\nconst m = module;\nconsole.log(JSON.stringify([{listed}]));"
     bundle = [str(_BUNDLER), "--bundle", "--format=esm", "--platform=node", "--loader=ts"]
     made = subprocess.run(bundle, input=source, cwd=_STUDIO, capture_output=True, text=True, check=True)
-    command = [node, "--input-type=module", "--eval", made.stdout]
-    ran = subprocess.run(command, capture_output=True, text=True, check=True)
+    command = [node, "--input-type=module"]
+    ran = subprocess.run(command, input=made.stdout, capture_output=True, text=True, check=True)
     found: list[Any] = json.loads(ran.stdout)
     return found

@@ -30,4 +30,4 @@ def test_operations_are_found_by_words_of_path_name_or_description(studio: Studi
     page.locator(".opblock").first.wait_for()
     assert page.locator(".opblock").count() == all_of_them
     page.get_by_role("link", name="Handbook").click()
-    assert page.url == f"{studio.url}/handbook/"
+    page.wait_for_url(f"{studio.url}/handbook/")

@@ -71,7 +71,7 @@ def test_names_and_frames_can_be_read(another: Callable[..., Studio], size: tupl
             studio.page.locator("canvas[role=img]").focus()
             for _ in range(3):
                 studio.page.keyboard.press(key)
-        studio.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        studio.drawn()
         seen = studio.run(SEEN)
         assert len(seen) > (20 if size[0] > 1000 else 12)
         assert [(a[0], b[0]) for a, b in combinations(seen, 2) if covers(a[1], b[1])] == []

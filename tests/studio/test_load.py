@@ -2,12 +2,11 @@
 
 import io
 import json
-import time
 from typing import Any
 
 import pytest
 from PIL import Image
-from playwright.sync_api import Route
+from playwright.sync_api import Route, expect
 
 from tests.studio.browser import Studio
 
@@ -15,21 +14,40 @@ HELD_FRAMES = """
 const queue = [], now = requestAnimationFrame.bind(globalThis);
 globalThis.isHeld = false;
 globalThis.requestAnimationFrame = (draw) => (isHeld ? queue.push(draw) : now(draw));
+globalThis.hold = () => new Promise((held) => { isHeld = true; now(held); });
 globalThis.release = () => { isHeld = false; queue.splice(0).forEach((draw) => now(draw)); };
 """
-"""Frames of the page that wait as on a busy machine, while the browser itself goes on showing what there is."""
+"""Frames of the page that wait as on a busy machine, while the browser itself goes on showing what there is.
+
+Those that were asked for before have come when `hold` is done.
+"""
+MARKS = """
+globalThis.marks = [];
+const { view } = studio, keep = (when) => marks.push(`${when}: ${view.canvas.dataset.drawn ?? "none"}`);
+const show = view.show.bind(view);
+view.show = (model) => { show(model); keep("put there"); view.before.add(() => keep("to be drawn")); };
+"""
+"""Which robot the canvas names right after another is put there, and right before that is drawn.
+
+A frame, a timer and another size all draw, and whichever comes first on a busy machine is told.
+"""
 BODY = '<visual><geometry><box size="0.2 0.2 1"/></geometry></visual>'
 BARE = (
     f'<robot name="r"><link name="base">{BODY}</link><link name="tip"/><joint name="j" type="continuous">'
     '<parent link="base"/><child link="tip"/><origin xyz="0 0 1"/><axis xyz="0 0 1"/></joint></robot>'
 )
+AT_A_TIME = 6
+"""As many meshes as the page asks for before one has come."""
 DRAWN = "studio.view.canvas.dataset.drawn"
+AT_REST = "studio.view.canvas.width === 2 * studio.view.canvas.clientWidth"
+"""With frames held, nothing is drawn any more by a timer."""
 
 
 def colours(studio: Studio) -> int:
-    """How many colours the canvas shows: one where it is blank."""
+    """How many colours the middle of the canvas shows, where no words are: one where it is blank."""
     shown = Image.open(io.BytesIO(studio.page.locator("canvas").first.screenshot()))
-    return len(shown.convert("RGB").getcolors(1 << 24) or [])
+    middle = shown.crop((0, shown.height // 4, shown.width, 3 * shown.height // 4))
+    return len(middle.convert("RGB").getcolors(1 << 24) or [])
 
 
 def upload(studio: Studio, name: str) -> None:
@@ -42,11 +60,9 @@ def test_the_canvas_says_when_a_robot_has_been_drawn(studio: Studio) -> None:
     """A robot without meshes is loaded long before a busy machine draws it; a picture taken then is blank."""
     studio.open(robot="planar_2r")
     upload(studio, "drawn_late")
-    studio.run(HELD_FRAMES + "; isHeld = true; studio.store.set({robot: 'drawn_late'})")
-    studio.until("studio.store.value.model.name === 'drawn_late' && !studio.store.value.loading")
-    assert studio.run(f"{DRAWN} ?? null") is None
-    studio.run("release()")
+    studio.run(MARKS + "; studio.store.set({robot: 'drawn_late'})")
     studio.until(f"{DRAWN} === 'drawn_late'")
+    assert studio.run("marks")[:2] == ["put there: none", "to be drawn: none"]
     assert colours(studio) > 50
 
 
@@ -54,13 +70,13 @@ def test_the_canvas_says_when_a_robot_has_been_drawn(studio: Studio) -> None:
 def test_the_canvas_is_never_blank_while_its_size_changes(studio: Studio) -> None:
     """Another size wipes a canvas, as when remarks above it take another line; it is drawn in the same frame."""
     studio.open(robot="planar_2r")
-    studio.until(f"{DRAWN} === 'planar_2r'")
+    studio.run(HELD_FRAMES + "; hold()")
+    studio.until(AT_REST)
     before = colours(studio)
     assert before > 50
-    width = studio.run("studio.view.canvas.width")
-    studio.run(HELD_FRAMES + "; isHeld = true")
+    width = studio.run("studio.view.canvas.clientWidth")
     studio.page.set_viewport_size({"width": 1100, "height": 700})
-    studio.until(f"studio.view.canvas.width !== {width}")
+    studio.until(f"studio.view.canvas.clientWidth !== {width}")
     assert colours(studio) > before / 2
     studio.run("release()")
 
@@ -97,17 +113,13 @@ def test_meshes_of_a_robot_that_is_left_are_fetched_no_longer(studio: Studio) ->
     studio.page.route("**/panda/meshes/**", hold)
     studio.go("#panel=pose&robot=panda")
     studio.until("studio.store.value.model?.name === 'panda' && studio.view.canvas.dataset.drawn === 'panda'")
-    assert studio.page.get_by_role("status").first.text_content() == "Meshes: 0 of 11, 0.0 MB …"
+    expect(studio.page.get_by_role("status").first).to_have_text("Meshes: 0 of 11, 0.0 MB …")
     assert studio.run("studio.view.countMeshes()") > 0, "until the meshes come, something moves"
-    asked = len(held)
-    assert 0 < asked <= 6
+    studio.hear(held, AT_A_TIME)
     studio.run("studio.store.set({robot: 'planar_2r'})")
     studio.wait_for_robot("planar_2r")
-    deadline = time.monotonic() + 60
-    while len(aborted) < asked:
-        assert time.monotonic() < deadline, "they are still being fetched"
-        studio.run("1")  # so that Playwright hears of them
-    assert len(held) == asked, "and no others are begun"
+    studio.hear(aborted, AT_A_TIME)
+    assert len(held) == AT_A_TIME, "and no others are begun"
     assert studio.run("studio.store.value.model.meshes.failed.length") == 0
     studio.page.unroute_all(behavior="ignoreErrors")
 

@@ -12,12 +12,33 @@ import numpy as np
 import pytest
 from playwright.sync_api import Browser
 
+from tests.speed import is_within
 from tests.studio.browser import Studio
 from tests.studio.proxy import stripping_proxy
 from tests.test_serve import service
 
 AXE = Path(__file__).parents[2] / "app" / "studio" / "node_modules" / "axe-core" / "axe.min.js"
-PANELS = ["robot", "pose", "ik", "jacobian", "trajectory", "workspace", "cell", "worked", "exercises"]
+PANELS = [
+    "robot",
+    "pose",
+    "ik",
+    "jacobian",
+    "trajectory",
+    "workspace",
+    "cell",
+    "compare",
+    "worked",
+    "course",
+    "exercises",
+]
+
+
+def axe(studio: Studio) -> list[Any]:
+    """What axe finds against the page as it is, with the first place of each."""
+    if not AXE.exists():
+        pytest.skip("axe-core is not there: ./dev studio installs it")
+    findings: list[Any] = studio.run(AXE.read_text() + "; axe.run().then(({violations}) => violations)")
+    return [(found["id"], found["impact"], found["nodes"][0]["html"]) for found in findings]
 
 
 @pytest.mark.slow
@@ -85,14 +106,18 @@ def test_nothing_is_cut_off_at_the_smallest_width(another: Callable[..., Studio]
 
 @pytest.mark.slow
 def test_a_narrow_page_has_the_picture_above_the_panel(another: Callable[..., Studio]) -> None:
-    """Exercises alone have none; nothing makes the page wider than its window."""
+    """Exercises and calculators have none; nothing makes the page wider than its window."""
     studio = another(width=390, height=844)
     studio.open("robot", robot="planar_2r")
     for panel in PANELS:
         studio.run("(panel) => studio.store.set({panel})", panel)
         if panel == "exercises":
             studio.page.locator(".exercise").first.wait_for()
-        assert studio.run("document.querySelector('.view').clientWidth") == (0 if panel == "exercises" else 390)
+        if panel == "course":
+            studio.page.locator(".course-facts dd").first.wait_for()
+        assert studio.run("document.querySelector('.view').clientWidth") == (
+            0 if panel in {"course", "exercises"} else 390
+        )
         place = studio.run("document.querySelector('#panel').getBoundingClientRect().toJSON()")
         assert (place["left"], place["right"], place["bottom"]) == (0, 390, 844), panel
         assert studio.run("document.documentElement.scrollWidth") == 390, panel
@@ -152,11 +177,11 @@ def test_the_keyboard_reaches_everything(studio: Studio) -> None:
 def test_the_first_robot_is_there_within_two_seconds(studio: Studio) -> None:
     """The best of a few visits, the first of which has warmed the service: what else the machine does is not ours."""
     times: list[float] = []
-    while len(times) < VISITS and min(times, default=math.inf) > 2000 * SLOW:
-        studio.go("")
+    while len(times) < VISITS and min(times, default=math.inf) > 2 * SLOW:
+        studio.go("#robot=panda")
         studio.wait_for_robot("panda")
-        times.append(studio.run("performance.now()"))
-    assert min(times) < 2000 * SLOW
+        times.append(studio.run("performance.now() / 1000"))
+    assert is_within(min(times), 2 * SLOW)
     # Fonts apart: Chromium fetches those of earlier visits by itself.
     formulas = [name for name in loaded(studio) if "katex" in name.lower() and name.endswith(".js")]
     assert not formulas, "the first robot waits for none"

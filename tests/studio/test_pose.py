@@ -265,9 +265,10 @@ def test_the_arrow_keys_move_a_slider_and_turn_the_view(studio: Studio) -> None:
     studio.open(robot="planar_2r", q="0,0")
     studio.field("joint_1").press("ArrowRight")
     assert studio.state("positions")["joint_1"] == pytest.approx(2 * math.pi / 100)
-    before = studio.run("studio.view.camera.position.toArray()")
+    turned = "(studio.view.camera.updateMatrixWorld(), studio.view.camera.matrixWorld.toArray())"
+    before = studio.run(turned)
     studio.page.locator("canvas").press("ArrowLeft")
-    assert np.abs(np.array(studio.run("studio.view.camera.position.toArray()")) - before).max() > 0.01
+    assert np.abs(np.array(studio.run(turned)) - before).max() > 0.01
 
 
 @pytest.mark.slow

@@ -3,6 +3,7 @@
 import io
 import json
 import math
+import re
 import zipfile
 from collections.abc import Callable
 from typing import Any
@@ -26,13 +27,6 @@ URDF = """<robot name="two links">
 """
 STL = b"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n"
 
-FRAMES = """(count) => {
-  const {view, store} = studio;
-  view.scene.updateMatrixWorld(true);
-  const all = [...Array(count).keys()];
-  const drawn = all.map((i) => view.scene.getObjectByName(`DH frame ${i}`).matrixWorld.elements);
-  return [drawn, all.map((i) => store.value.model.link(`frame_${i}`).matrixWorld.elements)];
-}"""
 PLACES = """(link) => studio.store.value.model.link(link).children
     .filter(({type}) => type === "Mesh").map(({position}) => position.toArray())"""
 DROP = """([name, bytes]) => {
@@ -112,6 +106,113 @@ def test_a_zip_dropped_on_the_page_becomes_a_robot(studio: Studio) -> None:
         expect(dialog).to_have_count(0)
         studio.wait_for_robot("my_arm" if is_left else "panda")
     assert get(f"{studio.url}/v1/robots/my_arm")[0] == 404
+
+
+XACRO = """<robot name="$(arg side)_arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <!-- <xacro:arg name="old" default="0"/> -->
+  <xacro:arg name="side" default="left"/>
+  <xacro:arg name="reach" default="0.4"/>
+  <xacro:arg name="load"/>
+  <link name="foot"/><link name="hand"/>
+  <joint name="turn" type="revolute"><parent link="foot"/><child link="hand"/>
+    <origin xyz="0 0 $(arg reach)"/><axis xyz="0 1 0"/>
+    <limit lower="-2" upper="2" velocity="1" effort="$(arg load)"/></joint>
+</robot>
+"""
+
+
+@pytest.mark.slow
+def test_arguments_of_a_xacro_are_fields(studio: Studio, refusals: set[int]) -> None:
+    refusals.add(422)
+    studio.open("robot")
+    studio.run(DROP, ["arm.urdf.xacro", list(XACRO.encode())])
+    labels = studio.page.locator(".arguments label")
+    expect(labels).to_have_text(["side", "reach", "load"])
+    presets = {"side": "left", "reach": "0.4", "load": ""}
+    for name, preset in presets.items():
+        expect(studio.field(name)).to_have_value(preset)
+    add = studio.page.get_by_role("button", name="Add", exact=True)
+    studio.page.locator("#robot-name").fill("by_xacro")
+    add.click()  # `load` has no value
+    load = studio.field("load")
+    expect(load).to_have_attribute("aria-invalid", "true")
+    expect(load).to_have_accessible_description(re.compile("the argument 'load' has no value"))
+    expect(studio.field("side")).to_have_attribute("aria-invalid", "false")
+    load.fill("7")
+    studio.field("reach").fill("9" * 1001)
+    add.click()
+    expect(studio.field("reach")).to_have_attribute("aria-invalid", "true")
+    expect(load).to_have_attribute("aria-invalid", "false")
+    studio.field("reach").fill("0.9")
+    add.click()
+    studio.wait_for_robot("by_xacro")
+    urdf = studio.page.request.get(f"{studio.url}/v1/robots/by_xacro/urdf").text()
+    assert 'name="left_arm"' in urdf
+    assert "0 0 0.9" in urdf
+    assert 'effort="7"' in urdf
+    expect(labels).to_have_count(0)
+
+
+SIZES = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="reach" default="0.5"/>
+  <xacro:arg name="load" default="3"/>
+</robot>
+"""
+
+
+def packed(**robots: str) -> dict[str, str | bytes]:
+    """Return the files of a package whose xacros include one that declares arguments too."""
+    line = '<xacro:include filename="$(find arm)/urdf/sizes.xacro"/>\n  <link name="foot"/>'
+    files = {f"arm/urdf/{name}.urdf.xacro": text.replace('<link name="foot"/>', line) for name, text in robots.items()}
+    return {"arm/package.xml": "<package><name>arm</name></package>", "arm/urdf/sizes.xacro": SIZES, **files}
+
+
+@pytest.mark.slow
+def test_arguments_of_the_xacro_in_a_zip_are_fields(studio: Studio, refusals: set[int]) -> None:
+    """Also those of a file that it includes."""
+    refusals.add(422)
+    studio.open("robot")
+    name = "packed"
+    studio.run(DROP, ["packed.zip", list(zipped(packed(arm=XACRO.replace('<xacro:arg name="load"/>', ""))))])
+    expect(studio.page.locator(".arguments label")).to_have_text(["side", "reach", "load"])
+    for field, preset in {"side": "left", "reach": "0.4", "load": "3"}.items():
+        expect(studio.field(field)).to_have_value(preset)
+    add = studio.page.get_by_role("button", name="Add", exact=True)
+    studio.field("reach").fill("x")
+    add.click()
+    expect(studio.page.locator(".problem:visible").first).to_contain_text("x")
+    studio.field("reach").fill("0.9")
+    studio.field("load").fill("8")
+    add.click()
+    studio.wait_for_robot(name)
+    urdf = studio.page.request.get(f"{studio.url}/v1/robots/{name}/urdf").text()
+    assert 'name="left_arm"' in urdf
+    assert "0 0 0.9" in urdf
+    assert 'effort="8"' in urdf
+
+
+@pytest.mark.slow
+def test_of_several_xacros_in_a_zip_the_chosen_one_has_its_fields(studio: Studio, refusals: set[int]) -> None:
+    refusals.add(422)
+    studio.open("robot")
+    other = XACRO.replace("side", "colour").replace("left", "red")
+    studio.run(DROP, ["two.zip", list(zipped(packed(plain=URDF, one=XACRO, two=other)))])
+    which = studio.field("Description in the zip")
+    expect(which.locator("option")).to_have_count(4)
+    labels = studio.page.locator(".arguments label")
+    which.select_option("arm/urdf/one.urdf.xacro")
+    expect(labels).to_have_text(["side", "reach", "load"])
+    which.select_option("arm/urdf/two.urdf.xacro")
+    expect(labels).to_have_text(["colour", "reach", "load"])
+    studio.field("colour").fill("blue")
+    studio.field("load").fill("5")
+    studio.page.get_by_role("button", name="Add", exact=True).click()
+    studio.wait_for_robot("two")
+    urdf = studio.page.request.get(f"{studio.url}/v1/robots/two/urdf").text()
+    assert 'name="blue_arm"' in urdf
+    assert 'effort="5"' in urdf
+    expect(which).to_be_hidden()
+    expect(labels).to_have_count(0)
 
 
 @pytest.mark.slow
@@ -199,18 +300,6 @@ def test_a_typed_table_is_on_the_screen_with_its_frames(studio: Studio) -> None:
     assert {"x₀", "z₀", "x₃", "z₃", "a₂", "a₃"} <= texts
     assert not {"a₁", "d₁", "d₂"} & texts  # they are zero
     assert studio.run("studio.view.countMeshes()") > 0
-
-
-@pytest.mark.slow
-def test_the_frames_of_a_table_are_those_of_its_urdf(studio: Studio) -> None:
-    """The picture's own product of rows against the links `frame_i` of the URDF that the service writes."""
-    for name in catalogue.TABLES:
-        studio.open("pose", robot=name, show="dh")
-        studio.until("studio.store.value.table")
-        studio.button("Random").click()
-        count = len(catalogue.dh_table(name)["joints"])
-        drawn, written = np.array(studio.run(FRAMES, count + 1))
-        assert np.abs(drawn - written).max() < 1e-12, name
 
 
 @pytest.mark.slow

@@ -1,6 +1,7 @@
 """The Worked solution panel: formulas as the service writes them, numbers that follow the joints."""
 
 import json
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -106,8 +107,7 @@ def test_numbers_follow_the_slider_while_formulas_stay(studio: Studio) -> None:
     studio.run(SLIDE)
     q = np.array([0.3, 0.9, -0.8])
     assert numbers(studio, "J")[:3] == pytest.approx(arm_pose(q)[1], abs=ROUNDING)
-    while not calls:
-        studio.page.wait_for_timeout(50)
+    studio.hear(calls)
     studio.until(AGREES)
     assert studio.run("before === document.querySelector('.sheet .katex')")
     assert calls == [f"{studio.url}/v1/dh/derive"]  # once, at rest
@@ -180,7 +180,7 @@ def test_it_is_written_otherwise_copied_and_reopened(studio: Studio) -> None:
     copied = studio.run("navigator.clipboard.readText()")
     assert copied.startswith("\\paragraph{Forward kinematics}\nT\\_0\\_i")
     assert f"\\[ {last} \\approx \\begin{{bmatrix}}" in copied
-    studio.page.wait_for_timeout(400)
+    studio.address()
     studio.page.reload()
     studio.wait_for_robot(None)
     studio.until(f"{FORMULAS}.includes({json.dumps(last)})")
@@ -210,6 +210,7 @@ def test_long_work_is_stopped(studio: Studio) -> None:
     held: list[Callable[[], None]] = []
     studio.page.route("**/v1/dh/derive", lambda route: held.append(route.continue_))
     studio.button("Values").click()
+    studio.hear(held)
     studio.button("Stop").click()
     assert studio.page.get_by_role("status").all_text_contents().count("Working it out …") == 0
     assert "a_{2}" in " ".join(studio.run(FORMULAS))
@@ -217,3 +218,112 @@ def test_long_work_is_stopped(studio: Studio) -> None:
     studio.button("Symbols").click()
     studio.until(AGREES)
     assert len(held) == 1
+
+
+SLANTED = {
+    "convention": "standard",
+    "joints": [
+        {"type": "revolute", "a": 0.5, "alpha": math.pi / 4, "d": 0.25, "theta": 0},
+        {"type": "revolute", "a": 0.3, "alpha": math.pi / 3, "d": 0, "theta": 0},
+        {"type": "prismatic", "a": 0, "alpha": 0, "d": 0, "theta": math.pi / 6, "lower": 0, "upper": 1},
+    ],
+}
+"""Roots and fractions in the upper rows of its matrices, and none in the lowest."""
+
+APART = """[...document.querySelectorAll(".line:has(.numeric)")].flatMap((line) => {
+  const baseline = (host) => {
+    const mark = document.createElement("span");
+    mark.style.cssText = "display: inline-block; width: 0; height: 0";
+    host.append(mark);
+    const {bottom} = mark.getBoundingClientRect();
+    mark.remove();
+    return bottom;
+  };
+  const column = line.querySelector(".katex-html .mtable [class^=col-align] .vlist");
+  const symbols = [...column.children].map((row) => baseline(row.lastElementChild));
+  const numbers = [...line.querySelectorAll(".matrix-row")].map((row) => baseline(row.firstElementChild));
+  const below = line.querySelector(".numeric").offsetTop > line.querySelector(".wide").offsetTop + 60;
+  return below ? [] : [[line.querySelector(".wide").ariaLabel, numbers.map((y, i) => y - symbols[i])]];
+})"""
+"""By how much each row of numbers stands below that of the formula beside it, [px]."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("options", ["", ",full"])
+def test_rows_of_numbers_stand_on_those_of_the_formula_beside_them(
+    another: Callable[..., Studio], options: str
+) -> None:
+    studio = another(width=1920, height=1080)
+    studio.open("worked", dh_table=json.dumps(SLANTED), worked=f"transforms{options}", q="0.3,0.6,0.2")
+    studio.run("studio.store.set({width: 900})")
+    studio.until(AGREES)
+    for name in ("DH and Aᵢ", "T⁰ᵢ", "Jacobian"):
+        part(studio, name)
+        rows = dict(studio.run(APART))
+        assert len(rows) >= (1 if name == "T⁰ᵢ" else 3)
+        assert np.abs(np.concatenate(list(rows.values()))).max() < 1, rows
+
+
+TINTS = """[...document.querySelectorAll(".line.tinted")].map((line) => {
+  const [symbol, matrix] = line.querySelectorAll(".katex-html > *");
+  const colour = (element) => getComputedStyle(element).color;
+  return [colour(symbol), getComputedStyle(line).borderLeftColor, matrix && colour(matrix)];
+})"""
+TONED = """[...document.querySelectorAll(".line:has(.toned)")].map((line) =>
+  [...line.querySelectorAll(".toned")].map((column) => getComputedStyle(column).color))"""
+NAMES = "[...document.querySelectorAll('.joint-name')].map((name) => getComputedStyle(name).borderLeftColor)"
+CONTRASTS = """(() => {
+  const probe = document.body.appendChild(document.createElement("span"));
+  const canvas = document.createElement("canvas").getContext("2d", {willReadFrequently: true});
+  const luminance = (name) => {
+    probe.style.color = `var(--${name})`;
+    canvas.fillStyle = getComputedStyle(probe).color;
+    canvas.fillRect(0, 0, 1, 1);
+    const [r, g, b] = [...canvas.getImageData(0, 0, 1, 1).data].map((value) => {
+      const share = value / 255;
+      return share <= 0.04045 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4;
+    });
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b + 0.05;
+  };
+  const found = ["panel", "view"].flatMap((ground) => [1, 2, 3, 4, 5, 6, 7, 8].map((i) => {
+    const [low, high] = [luminance(ground), luminance(`joint-${i}`)].sort((a, b) => a - b);
+    return high / low;
+  }));
+  probe.remove();
+  return found;
+})()"""
+"""Contrast of each tint, by the rule of WCAG, on the panel and on the picture."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_what_belongs_to_a_link_is_written_in_its_colour(another: Callable[..., Studio], scheme: str) -> None:
+    studio = another(scheme=scheme)
+    studio.open("worked", robot="anthropomorphic")
+    studio.until(AGREES)
+    colours = studio.run(NAMES)
+    assert len(set(colours)) == 3
+    ink = studio.run("getComputedStyle(document.body).color")
+    expected = [[colour, colour, ink] for colour in colours]
+    assert studio.run(TONED) == [colours * 5], "i, a, α, d and ϑ of each row"
+    assert studio.run(TINTS) == expected
+    part(studio, "T⁰ᵢ")
+    assert studio.run(TINTS) == expected
+    part(studio, "Jacobian")
+    assert studio.run(TINTS) == [line for line in expected for _ in range(3)], "z, p and z × p of each joint"
+    assert studio.run(TONED) == [colours, colours], "J by its columns, and J"
+    assert min(studio.run(CONTRASTS)) >= 4.5
+
+
+@pytest.mark.slow
+def test_it_says_that_it_stays_in_metres_and_radians(studio: Studio) -> None:
+    studio.open("worked", robot="anthropomorphic", q="0.3,0.6,-0.8")
+    studio.until(AGREES)
+    said = studio.page.get_by_text("in metres and radians, whatever")
+    assert not said.is_visible()
+    before = numbers(studio, "A_2")
+    for unit in ("millimetres", "degrees"):
+        studio.run("(unit) => studio.store.set({[unit]: true})", unit)
+        assert said.is_visible()
+        assert (numbers(studio, "A_2") == before).all()
+        studio.run("(unit) => studio.store.set({[unit]: false})", unit)

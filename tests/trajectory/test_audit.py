@@ -16,6 +16,7 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.audit import DERIVATIVES, audit
 from gelenk.trajectory.audit.demands import Demands, JointLimits, TipLimits
+from gelenk.trajectory.audit.examine import Examined, examined
 from gelenk.trajectory.audit.joints import joint_figures
 from gelenk.trajectory.audit.pieces import pieces_of
 from gelenk.trajectory.audit.result import Audit
@@ -454,13 +455,11 @@ def test_a_wrist_that_passes_its_singularity() -> None:
 def test_pinocchio_has_a_say(monkeypatch: pytest.MonkeyPatch) -> None:
     motion = some_motion(ARM)
 
-    def wrong(*args: object) -> tuple[Array, Poses]:
-        qs, poses = poses_at(*args)  # type: ignore[arg-type]
-        return qs, Poses(poses.positions + 1e-6, poses.rotations)
+    def wrong(*args: object) -> Examined:
+        found = examined(*args)  # type: ignore[arg-type]
+        return found._replace(poses=Poses(found.poses.positions + 1e-6, found.poses.rotations))
 
-    from gelenk.trajectory.audit.tip import poses_at
-
-    monkeypatch.setattr("gelenk.trajectory.audit.audit.poses_at", wrong)
+    monkeypatch.setattr("gelenk.trajectory.audit.audit.examined", wrong)
     with pytest.raises(CertificationFailed):
         judged(motion)
 

@@ -3,13 +3,14 @@
 import numpy as np
 import pinocchio as pin
 import pytest
+from scipy.interpolate import PPoly
 
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.joints import joint_figures
 from gelenk.trajectory.audit.kernels import smallest_singular_values, tip_rates
-from gelenk.trajectory.audit.pieces import Pieces, pieces_of, positions_at
+from gelenk.trajectory.audit.pieces import Pieces, enough, pieces_of, positions_at, spread_times, travels
 from gelenk.trajectory.audit.tip import smallest_singular_value, tip_peaks
 from tests.robots import robot
 from tests.trajectory.test_audit import some_motion
@@ -41,12 +42,16 @@ def judged_rates(machine: RobotModel, chain: Chain, pieces: Pieces, times: Array
     return np.array(rows)
 
 
+@pytest.mark.parametrize("is_sorted", [False, True])
 @pytest.mark.parametrize("name", ARMS)
-def test_rates_of_the_tip_are_pinocchio_s(name: str) -> None:
+def test_rates_of_the_tip_are_pinocchio_s(name: str, is_sorted: bool) -> None:
+    """Sorted samples are in one piece where eight of them are computed at a time, and in two."""
     machine = robot(name)
     chain = machine.chain(None, None)
     pieces = pieces_of(some_motion(chain, 3, reach=0.8))
-    piece, tau = samples(pieces, 13)
+    piece, tau = samples(pieces, 37 if is_sorted else 13)
+    if is_sorted:
+        piece = np.sort(piece)
     found = tip_rates(chain.flat, pieces, piece, tau)
     assert found == pytest.approx(judged_rates(machine, chain, pieces, pieces.times(piece, tau)), rel=1e-10, abs=1e-12)
 
@@ -93,6 +98,42 @@ def test_the_smallest_singular_value_is_the_least_of_dense_samples() -> None:
         dense = smallest_singular_values(chain.flat, positions_at(pieces, times), np.arange(6), False)
         assert dense[-1] == pytest.approx(found.value, rel=1e-9)
         assert dense.min() >= found.value * (1.0 - 1e-9)
+
+
+def test_samples_are_spread_over_time_and_travel() -> None:
+    """A thousandth of the time with all of the travel holds half of the samples; joints at rest are sampled evenly."""
+    widths, c = np.array([5.0, 0.01, 4.99]), np.zeros((3, 3, 2))
+    c[1, 1] = [0.5, -1.5]
+    c[2, 0] = c[1, 1]
+    pieces = Pieces(np.cumsum(widths) - widths, widths, c)
+    travel = travels(pieces)
+    times = spread_times(pieces, travel, 200)
+    assert (times[0], times[-1], len(times)) == (0.0, 10.0, 201)
+    assert (np.diff(times) > 0.0).all()
+    assert ((times >= 5.0) & (times <= 5.01)).sum() == pytest.approx(100, abs=2)
+    assert enough(travel, 60, 10.0, 1000) == 80
+    assert enough(travel, 60, 10.0, 70) == 70
+    assert spread_times(pieces, np.zeros(3), 4) == pytest.approx([0, 2.5, 5, 7.5, 10])
+
+
+def test_a_dip_in_a_short_quick_piece_is_found() -> None:
+    """The elbow goes through its stretched pose within a hundredth of the time, once there and once back."""
+    chain = robot("ur5").chain(None, None)
+    n, elbow = len(chain), 2
+    widths, c = np.array([6.0, 0.03, 0.03, 6.0]), np.zeros((4, 2, n))
+    c[:, 0] = [0.1, -1.0, 0.0, -1.2, 1.3, 0.2]
+    c[:, 0, elbow], c[:, 1, elbow] = [0.9, 1.0, -0.02, 1.0], [0.1, -1.02, 1.02, -0.1]
+    found = smallest_singular_value(Pieces(np.cumsum(widths) - widths, widths, c), chain)
+    assert 6.0 < found.time < 6.06
+    assert found.value < 1e-9
+
+
+def test_positions_do_not_depend_on_the_order_of_the_times() -> None:
+    motion = some_motion(robot("panda").chain(None, None), 6)
+    times = np.sort(np.concatenate((motion.breaks, np.linspace(-0.1, 4.1, 60))))
+    pieces, found = pieces_of(motion), PPoly(motion.coefficients[:, ::-1].swapaxes(0, 1), motion.breaks)
+    for each in (times, times[::-1].copy(), np.random.default_rng(0).permutation(times)):
+        assert positions_at(pieces, each) == pytest.approx(found(each), rel=1e-11, abs=1e-11)
 
 
 @pytest.mark.parametrize("row", range(5))

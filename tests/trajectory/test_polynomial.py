@@ -35,6 +35,13 @@ def test_values_with_two_derivatives_at_once(pieces: int, degree: int, n: int) -
         np.testing.assert_allclose(values, by_scipy(motion)(times, nu=order), rtol=1e-12, atol=1e-10)
 
 
+def test_values_do_not_depend_on_the_order_of_the_times() -> None:
+    motion = some(7, 3, 2, 5)
+    times = np.sort(np.concatenate((motion.breaks, np.linspace(motion.breaks[0] - 0.1, motion.breaks[-1] + 0.1, 50))))
+    for each in (times, times[::-1], np.random.default_rng(0).permutation(times)):
+        np.testing.assert_allclose(motion.at(each), by_scipy(motion)(each), rtol=1e-12, atol=1e-10)
+
+
 @pytest.mark.parametrize("order", [1, 2, 3])
 @pytest.mark.parametrize(("pieces", "degree", "n"), [(1, 0, 1), (1, 1, 2), (4, 2, 3), (5, 7, 6), (9, 10, 2)])
 def test_the_largest_ratio_by_brute_force(pieces: int, degree: int, n: int, order: int) -> None:

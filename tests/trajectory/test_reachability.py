@@ -26,13 +26,18 @@ def rows(c: Array, length: float, velocity: float, acceleration: float) -> Array
     return np.hstack((along, np.negative(along), squares)).T
 
 
+@pytest.mark.parametrize(("second", "factor"), [(1, 1.0), (1, 0.1), (0, 9.0), (2, 9.0)])
 @pytest.mark.parametrize("degree", [1, 3, 5])
-def test_lines_and_largest_speeds_are_those_of_all_rows(degree: int) -> None:
+def test_lines_and_largest_speeds_are_those_of_all_rows(degree: int, second: int, factor: float) -> None:
+    """One joint may be slow everywhere, so that its speed does not count, or slow at the start or the end alone."""
     rng = np.random.default_rng(degree)
     count, n = 11, 3  # More than one block of eight, and an incomplete one.
     pieces, lengths = rng.normal(size=(count, degree + 1, n)), rng.uniform(0.1, 0.7, count)
     limits, squares, shares = rng.uniform(1.0, 3.0, (2, n)), rng.uniform(1.0, 4.0, count), rng.uniform(0.0, 0.5, count)
     more = rng.normal(size=(2, count, 2))
+    pieces[:, :, 1] *= factor
+    if second != 1 and degree > 1:
+        pieces[:, 3:, 1], pieces[:, 1, 1] = 0.0, pieces[:, 2, 1] * -lengths * second
     found = stages(pieces, lengths, limits, Further(more[0], more[1], squares, shares))
     for i, length in enumerate(lengths):
         own = [rows(pieces[i, :, j], length, *limits[:, j]) for j in range(n)]

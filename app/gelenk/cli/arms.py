@@ -1,5 +1,6 @@
 """Commands about a robot's chain: forward and inverse kinematics, the Jacobian, manipulability."""
 
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -10,7 +11,7 @@ from gelenk.cli.batches import in_calls
 from gelenk.cli.completion import METHODS, REFERENCES, REPRESENTATIONS, one_of
 from gelenk.cli.files.inputs import fields_of
 from gelenk.cli.files.outputs import AnswerRows, largest
-from gelenk.cli.files.rows import AXES, ORIENTATIONS, InputRows, numbers_of, rows_of
+from gelenk.cli.files.rows import AXES, ORIENTATIONS, PENDANTS, InputRows, numbers_of, rows_of
 from gelenk.cli.session import (
     BaseOption,
     ClearanceOption,
@@ -30,6 +31,7 @@ from gelenk.cli.session import (
 from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:
+    from gelenk.client import Client
     from gelenk.contract.fk import ForwardAnswer
     from gelenk.contract.ik import InverseAnswer
     from gelenk.contract.jacobian import JacobianAnswer
@@ -41,6 +43,8 @@ QOption = Annotated[
         "-q", "--at", help="A configuration: one number per joint, [rad] or [m], separated by commas or blanks."
     ),
 ]
+_POSES = {notation: (*AXES, *columns) for notation, columns in ORIENTATIONS.items()} | PENDANTS
+"""Columns of a pose by its notation."""
 _DEFAULT_POSE = "quaternion_xyzw"
 _TARGETS_FIRST = 50
 """Targets of the first call: an unreachable target takes a thousand times as long as a reachable one."""
@@ -57,34 +61,40 @@ def fk(
     tip: TipOption = None,
     pose_format: Annotated[
         str,
-        typer.Option(
-            "--pose", help=f"Notation: {', '.join(ORIENTATIONS)}.", autocompletion=one_of(tuple(ORIENTATIONS))
-        ),
+        typer.Option("--pose", help=f"Notation: {', '.join(_POSES)}.", autocompletion=one_of(tuple(_POSES))),
     ] = _DEFAULT_POSE,
     fields: FieldsOption = None,
 ) -> None:
     """Forward kinematics: the pose of the tip at each configuration."""
-    if pose_format not in ORIENTATIONS:
-        raise InvalidField("pose", f"must be one of {', '.join(ORIENTATIONS)}")
+    if pose_format not in _POSES:
+        raise InvalidField("pose", f"must be one of {', '.join(_POSES)}")
     shared, given = session(context), rows_of(at or [], file, "joint_positions")
     body = {"base_frame": base, "tip_frame": tip, "pose_format": pose_format, **fields_of(fields)}
     answer: ForwardAnswer = _answer_at(shared, robot, "fk", given, body)
-    rows = [[*(pose.position or ()), *getattr(pose, pose_format)] for pose in answer.poses]
+    place = slice(0 if pose_format in PENDANTS else len(AXES))  # a pendant's notation has it
+    rows = [[*pose.position[place], *getattr(pose, pose_format)] for pose in answer.poses]
     note = f"T of {answer.tip_frame} in {answer.base_frame}; Pinocchio's differ by {largest(answer.certificate)}"
-    shared.write(answer, AnswerRows((*AXES, *ORIENTATIONS[pose_format]), rows, (note,)))
+    shared.write(answer, AnswerRows(_POSES[pose_format], rows, (note,)))
+
+
+def joint_names_of(client: "Client", robot: str, body: Mapping[str, Any]) -> list[str]:
+    """Return the joints of the chain that a request is about, base to tip."""
+    ends = {end: body[end] for end in ("base_frame", "tip_frame")}
+    return client.fk(robot, joint_positions=[], **ends).joint_names
 
 
 def _answer_at(
     shared: Session, robot: str, operation: str, given: InputRows, body: dict[str, Any], plot: Path | None = None
 ) -> Any:
     """Return what an operation answers at the given configurations, unless the fields of its request have others."""
+    if shared.server is None and plot is None and not given.header:
+        from gelenk.cli.light.quick import quick_answer  # noqa: PLC0415 - not for a call of a service
+
+        fields = {"joint_positions": given.configurations(list), **body}
+        if (found := quick_answer(operation, robot, fields)) is not None:
+            return found
     with shared.robot(robot) as (client, name):
-
-        def joint_names() -> list[str]:
-            ends = {end: body[end] for end in ("base_frame", "tip_frame")}
-            return client.fk(name, joint_positions=[], **ends).joint_names
-
-        body = {"joint_positions": given.configurations(joint_names), **body}
+        body = {"joint_positions": given.configurations(lambda: joint_names_of(client, name, body)), **body}
         with shared.bar(operation) as progress:
             answer = in_calls(partial(getattr(client, operation), name), body, "joint_positions", progress)
         draw(client, plot, f"v1/robots/{name}/{operation}", body)

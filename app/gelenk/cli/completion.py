@@ -3,8 +3,6 @@
 import json
 import os
 import re
-import urllib.error
-import urllib.request
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, get_args
@@ -18,7 +16,7 @@ from gelenk.trajectory.audit.words import Law
 METHODS = ("auto", "analytic", "newton", "gradient", "gradient_then_newton", "damped_least_squares")
 LAWS = sorted(get_args(Law), key=lambda law: law != "trapezoidal")
 """Time laws of a trajectory, the default first."""
-REFERENCES = ("local_world_aligned", "local", "world")
+REFERENCES = ("local_world_aligned", "local", "world", "space_screws", "body_screws")
 REPRESENTATIONS = ("geometric", "zyz", "rpy")
 CONVENTIONS = ("standard", "modified")
 WORKSPACES = ("cloud", "grid", "dexterity")
@@ -79,6 +77,8 @@ def _text_of(file: Path) -> str:
 
 def _asked(server: str, path: str) -> dict[str, Any]:
     """Return a server's answer, or {} without one. It avoids the client, which takes a second to load."""
+    import urllib.request  # noqa: PLC0415 - only completion needs it
+
     key = os.environ.get("GELENK_KEY")
     headers = {"Authorization": f"Bearer {key}"} if key else {}
     try:

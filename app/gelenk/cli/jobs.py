@@ -4,13 +4,29 @@ from typing import Annotated, Literal
 
 import typer
 
-from gelenk.cli.files.outputs import Format
-from gelenk.cli.session import session
+from gelenk.cli.files.outputs import AnswerRows, Format
+from gelenk.cli.session import JOB_COLUMNS, job_row, session
 
 JobArgument = Annotated[str, typer.Argument(metavar="JOB", help="Its id.")]
 
 
-jobs = typer.Typer(name="jobs", help="Jobs of a service: follow, read, cancel or remove them.")
+jobs = typer.Typer(name="jobs", help="Jobs of a service: list, follow, read, cancel or remove them.")
+
+
+@jobs.command("list")
+def list_jobs(
+    context: typer.Context,
+    limit: Annotated[int, typer.Option(min=1, max=1000, help="How many at most.")] = 50,
+    before: Annotated[
+        int | None, typer.Option(min=1, help="`next` of the list before: goes on with older ones.")
+    ] = None,
+) -> None:
+    """Your jobs, the newest first."""
+    shared = session(context)
+    with shared.client() as client:
+        answer = client.list_jobs(limit, before)
+    notes = () if answer.next is None else (f"there are older ones: --before {answer.next}",)
+    shared.write(answer, AnswerRows(JOB_COLUMNS, [job_row(info) for info in answer.jobs], notes))
 
 
 @jobs.command("show")

@@ -1,6 +1,5 @@
 """The command `gelenk`: its options, its commands, and its exit codes (`EXIT_CODES`)."""
 
-import runpy
 import sys
 import traceback
 from http import HTTPStatus
@@ -8,13 +7,11 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 import gelenk
-from gelenk.cli import arms, ask, bench, homework, jobs, motions, robots, tables
-from gelenk.cli.files.outputs import Format, Output, check_place
-from gelenk.cli.session import Session, example_of
-from gelenk.client.refusals import NotAnswering, Refused
+from gelenk.cli.files.outputs import Format, Output, check_ending, check_place
+from gelenk.cli.light.group import Commands
+from gelenk.client.refusals import NotAnswering, Refused, UnknownKeyword
 from gelenk.errors import InvalidInput, KinematicsError, NotFound
 
 _ASKED_WRONG, _NO_SERVICE, _FAILED, _INTERRUPTED = 2, 3, 4, 130
@@ -28,6 +25,7 @@ _NO_FAULT_OF_THE_CALL = frozenset({HTTPStatus.UNAUTHORIZED, HTTPStatus.TOO_MANY_
 
 cli = typer.Typer(
     name="gelenk",
+    cls=Commands,
     help="Robot kinematics in a shell: on a server with --server, otherwise in this process.",
     epilog=EXIT_CODES,
     no_args_is_help=True,
@@ -63,44 +61,19 @@ def options(
     strict: Annotated[
         bool, typer.Option("--strict", help="Also refuse a URDF for faults that do not affect kinematics.")
     ] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Only the answer: no notes, no progress.")] = False,
     version: Annotated[  # noqa: ARG001  (answered by its callback)
         bool, typer.Option("--version", help="Print the version.", callback=_print_version, is_eager=True)
     ] = False,
 ) -> None:
-    """Read the options that all commands share; they come before the command's name."""
+    """Read the options that all commands share; they may stand anywhere on the line."""
+    from gelenk.cli.session import Session  # noqa: PLC0415 - as each command, but not --help
+
     if output is not None:
         check_place(output)
-    context.obj = Session(server, Output(form, output), arg or (), package or (), strict)
-
-
-_PASSED_ON = {"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []}
-
-
-@cli.command(context_settings=_PASSED_ON)
-def serve(context: typer.Context) -> None:
-    """Run the service: --host, --port, --workers; --help says more."""
-    sys.argv = ["gelenk serve", *context.args]
-    runpy.run_module("gelenk.serve", run_name="__main__")
-
-
-@cli.command(context_settings=_PASSED_ON)
-def keys(context: typer.Context) -> None:
-    """Create an API key: NAME, --scopes, --file; --help says more."""
-    sys.argv = ["gelenk keys", *context.args]
-    runpy.run_module("gelenk.keys", run_name="__main__")
-
-
-for command in (
-    *(robots.robots, robots.add, robots.remove),
-    *(arms.fk, arms.jacobian, arms.ik, arms.manipulability),
-    *(motions.trajectory, motions.workspace),
-    *(homework.exercises, homework.sheet, homework.grade),
-    *(bench.bench, ask.ask),
-):
-    cli.command(epilog=example_of(command.__name__))(command)
-cli.add_typer(tables.tables)
-cli.add_typer(jobs.jobs)
-cli.add_typer(robots.scenes)
+        if form is None:
+            check_ending(output, context.invoked_subcommand or "")
+    context.obj = Session(server, Output(form, output, quiet), arg or (), package or (), strict)
 
 
 def main() -> None:
@@ -113,6 +86,8 @@ def main() -> None:
         wants_key = isinstance(error, Refused) and error.status == HTTPStatus.UNAUTHORIZED
         hint = " (gelenk sends the one in GELENK_KEY)" if wants_key else ""
         _end(error.detail + hint, _ASKED_WRONG if _is_the_callers(error) else _FAILED)
+    except UnknownKeyword as error:
+        _end(str(error), _ASKED_WRONG)
     except ModuleNotFoundError as error:
         if error.name == "gelenk" or str(error.name).startswith("gelenk."):
             raise
@@ -138,6 +113,8 @@ def _is_the_callers(error: KinematicsError) -> bool:
 
 
 def _end(sentence: str, code: int) -> None:
+    from rich.console import Console  # noqa: PLC0415 - few calls end like this
+
     Console(stderr=True).print(f"gelenk: {sentence}", markup=False, highlight=False, soft_wrap=True)
     sys.exit(code)
 

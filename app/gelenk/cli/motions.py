@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from gelenk.cli.arms import UNREACHED
+from gelenk.cli.arms import UNREACHED, joint_names_of
 from gelenk.cli.completion import LAWS, WORKSPACES, one_of
 from gelenk.cli.files.inputs import fields_of
 from gelenk.cli.files.outputs import AnswerRows, Format, check_place
@@ -43,6 +43,13 @@ def trajectory(
         str | None,
         typer.Option(help="Lead the tool through the poses in a file, `-` for stdin: CSV, npy or JSON."),
     ] = None,
+    waypoints: Annotated[
+        str | None,
+        typer.Option(
+            help="Lead the joints along a spline through the configurations in a file, the first the start unless "
+            "--start is given; `-` for stdin: CSV, npy or JSON."
+        ),
+    ] = None,
     free: Annotated[
         str | None,
         typer.Option(help="Axis about which that tool may turn: rx, ry, rz.", autocompletion=one_of(_AXES)),
@@ -62,11 +69,14 @@ def trajectory(
     later: LaterOption = False,
 ) -> None:
     """A motion through configurations and poses, joints first, or of a tool; exit code 1 if it cannot be completed."""
-    shared, fields = session(context), _motion(start, joint or [], line or [], motion, path, free)
+    shared, fields = session(context), _motion(start, joint or [], line or [], motion, path, free, waypoints)
     around = cell_fields(scene, clearance)
     fields = {"base_frame": base, "tip_frame": tip, "law": law, "sample_period": period, **around, **fields}
     kind = None if program is None else _program_kind(program)
+    through = None if waypoints is None else rows_of([], waypoints, "waypoints")
     with shared.robot(robot) as (client, name):
+        if through is not None:
+            fields |= _spline(through.configurations(lambda: joint_names_of(client, name, fields)), start)
         if later:
             shared.tell_job(client.jobs.trajectory(name, **fields).info)
             return
@@ -105,14 +115,22 @@ def _program_kind(file: Path) -> Literal["joint_trajectory", "yaml", "urscript"]
 
 
 def _motion(
-    start: str | None, joint: list[str], line: list[str], motion: str | None, path: str | None, free: str | None
+    start: str | None,
+    joint: list[str],
+    line: list[str],
+    motion: str | None,
+    path: str | None,
+    free: str | None,
+    waypoints: str | None,
 ) -> dict[str, Any]:
     if free is not None and path is None:
         raise InvalidField("free", "is for the tool that --path leads: give that too, or `path` in --motion")
     first = {} if start is None else {"start": numbers_of(start, "start")}
-    for name, given in (("motion", motion), ("path", path)):
-        if given is not None and (joint or line or (motion is not None and path is not None)):
-            raise InvalidField(name, "leads all the way: give no --joint, no --line and no other beside it")
+    whole = [name for name, one in (("motion", motion), ("path", path), ("waypoints", waypoints)) if one is not None]
+    if whole and (joint or line or len(whole) > 1):
+        raise InvalidField(whole[0], "leads all the way: give no --joint, no --line and no other beside it")
+    if waypoints is not None:
+        return first
     if motion is not None:
         return first | fields_of(motion)
     if path is not None:
@@ -121,10 +139,20 @@ def _motion(
     segments: list[dict[str, Any]] = [{"type": "joint", "target": numbers_of(text, "joint")} for text in joint]
     segments += [{"type": "line", "target": target_of(numbers_of(text, "line"), False)} for text in line]
     if not segments:
-        raise InvalidField("segments", "none are given: --joint, --line, --path, or --motion with all of them")
+        raise InvalidField(
+            "segments", "none are given: --joint, --line, --path, --waypoints, or --motion with all of them"
+        )
     if start is None:
         raise InvalidField("start", "where the motion begins: --start, or `start` or `at` in --motion")
     return {**first, "segments": segments}
+
+
+def _spline(configurations: list[Any], start: str | None) -> dict[str, Any]:
+    """Return the fields of a motion through configurations; raises InvalidField if there is nowhere to go."""
+    first, rest = ({}, configurations) if start is not None else ({"start": configurations[0]}, configurations[1:])
+    if not rest:
+        raise InvalidField("waypoints", "a start alone is no motion: give at least one more row")
+    return {**first, "segments": [{"type": "spline", "waypoints": rest}]}
 
 
 def workspace(

@@ -1,18 +1,22 @@
 """Commands about the robots and the scenes of the service."""
 
+from dataclasses import replace as replaced
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from gelenk.cli.completion import robots_beginning_with, scenes_beginning_with
-from gelenk.cli.files.inputs import fields_of, is_file, name_of
+from gelenk.cli.files.inputs import fields_of, is_file, name_of, pairs_of
 from gelenk.cli.files.outputs import AnswerRows
 from gelenk.cli.session import BaseOption, TipOption, session
 from gelenk.errors import InvalidField, UnknownScene
 
 if TYPE_CHECKING:
+    from gelenk.client.client import Client
     from gelenk.contract.robots import RobotInfo
+
+_FORMS = ("urdf", "mjcf", "screws", "csv", "latex", "matlab", "roboticstoolbox")
 
 
 def robots(
@@ -22,23 +26,44 @@ def robots(
         typer.Argument(help="A robot's name or a file: shows its joints.", autocompletion=robots_beginning_with),
     ] = None,
     urdf: Annotated[bool, typer.Option("--urdf", help="Its URDF instead.")] = False,
+    written: Annotated[
+        str | None,
+        typer.Option("--as", help=f"Its description, or a chain of it, in another form: {', '.join(_FORMS)}."),
+    ] = None,
+    base: BaseOption = None,
+    tip: TipOption = None,
 ) -> None:
     """List the robots, or show one."""
     shared = session(context)
-    if urdf and robot is None:
-        raise InvalidField("urdf", "is that of one robot: name it")
+    form = "urdf" if urdf else written
+    if form is not None and robot is None:
+        raise InvalidField("as", "is a form of one robot: name it")
+    if form not in (None, *_FORMS):
+        raise InvalidField("as", f"must be one of {', '.join(_FORMS)}")
     if robot is None:
         with shared.client() as client:
             answer = client.robots()
-        rows = [(one.name, one.source, one.format, one.description) for one in answer.robots]
-        shared.write(answer, AnswerRows(("name", "source", "format", "description"), rows))
+        rows = [
+            (one.name, one.maker or "", one.kind or "", one.source, one.format, one.description)
+            for one in answer.robots
+        ]
+        shared.write(answer, AnswerRows(("name", "maker", "kind", "source", "format", "description"), rows))
         return
     with shared.robot(robot) as (client, name):
-        if urdf:
-            shared.output.put(client.urdf(name).encode())
+        if form is not None:
+            shared.output.put(_in_form(client, name, form, {"base_frame": base, "tip_frame": tip}))
             return
         info = client.robot(name)
     shared.write(info, _joints(info))
+
+
+def _in_form(client: "Client", name: str, form: str, ends: dict[str, str | None]) -> bytes:
+    if form in ("urdf", "mjcf"):
+        text = client.urdf(name) if form == "urdf" else client.mjcf(name)
+        return text.encode()
+    if form == "screws":
+        return client.screws(name, **ends).model_dump_json(indent=2).encode() + b"\n"
+    return client.dh_file(name, format=form, **ends).encode()  # type: ignore[arg-type]
 
 
 def _joints(info: "RobotInfo") -> AnswerRows:
@@ -54,13 +79,16 @@ def _joints(info: "RobotInfo") -> AnswerRows:
 
 def add(
     context: typer.Context,
-    file: Annotated[Path, typer.Argument(help="URDF, xacro, a zip of a URDF and its meshes, or a DH table.")],
+    file: Annotated[
+        Path, typer.Argument(help="URDF, xacro, MJCF, a zip of one of them and its meshes, or a DH table.")
+    ],
     name: Annotated[str | None, typer.Option(help="Name of the robot; the file's name if left out.")] = None,
     description: Annotated[str, typer.Option(help="A line about it.")] = "",
     base: BaseOption = None,
     tip: TipOption = None,
     replace: Annotated[bool, typer.Option("--replace", help="Replace the uploaded robot of that name.")] = False,
-    urdf: Annotated[str | None, typer.Option("--file", help="Which URDF of a zip that holds several.")] = None,
+    wanted: Annotated[str | None, typer.Option("--file", help="Which description of a zip.")] = None,
+    argument: Annotated[list[str] | None, typer.Option(help="Of a xacro: NAME=VALUE.")] = None,
 ) -> None:
     """Add a robot to the service; without --server it is only checked."""
     if not is_file(file):
@@ -71,11 +99,14 @@ def add(
 
     ends = None if base is None or tip is None else ChainEnds(base_frame=base, tip_frame=tip)
     shared, name = session(context), name or name_of(file)
+    shared = replaced(shared, arguments=(*shared.arguments, *(argument or ())))
     about: dict[str, Any] = {"description": description, **({} if ends is None else {"default_chain": ends})}
     with shared.client() as client:
         if file.suffix.lower() == ".zip":
             send = client.replace_archive if replace else client.add_archive
-            info = send(name, file, **about, strict=shared.strict, file=urdf)
+            info = send(
+                name, file, **about, strict=shared.strict, file=wanted, arguments=pairs_of(shared.arguments, "arg")
+            )
         else:
             body = {**about, **shared.describe(file)}
             info = client.replace_robot(name, **body) if replace else client.add_robot(name=name, **body)

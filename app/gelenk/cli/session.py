@@ -9,12 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from gelenk.cli.completion import frames_beginning_with, one_of, robots_beginning_with, scenes_beginning_with
 from gelenk.cli.files.inputs import description_from, packages_of, pairs_of, robot_named
 from gelenk.cli.files.outputs import AnswerRows, Output, picture_kind
+from gelenk.cli.start import raised_interrupts
 from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:
@@ -36,7 +35,7 @@ RobotArgument = Annotated[
     typer.Argument(
         metavar="ROBOT",
         autocompletion=robots_beginning_with,
-        help="A robot's name, or a file: URDF, xacro, a zip of a URDF and its meshes, a DH table as JSON, TOML or CSV.",
+        help="A robot's name, or a file: URDF, xacro, MJCF, a zip of one with meshes, a DH table: JSON, TOML, CSV.",
     ),
 ]
 BaseOption = Annotated[
@@ -109,7 +108,7 @@ def cell_fields(scene: str | None, clearance: float | None) -> dict[str, Any]:
 
 def plot_option(what: str) -> Any:
     """Return an option that names the file for a picture of something."""
-    return typer.Option(help=f"Draw the {what} into this file, SVG or PNG.", callback=_of_known_kind)
+    return typer.Option(help=f"Draw the {what} into this file, SVG, PNG or PDF.", callback=_of_known_kind)
 
 
 def draw(client: "Client", plot: Path | None, path: str, fields: Mapping[str, Any] | None = None) -> None:
@@ -136,7 +135,12 @@ class Session:
     def describe(self) -> Callable[[Path], dict[str, Any]]:
         """Function that returns the robot of a file without meshes as the API takes it, `dh` or `urdf`."""
         arguments, packages = pairs_of(self.arguments, "arg"), packages_of(self.packages)
-        return lambda file: description_from(file, arguments, packages, self.strict)
+        return lambda file: description_from(file, arguments, packages, self.strict, self.note)
+
+    def note(self, sentence: str) -> None:
+        """Tell of an oddity of a file on standard error, unless quiet."""
+        if not self.output.is_quiet:
+            print(f"gelenk: {sentence}", file=sys.stderr)
 
     @contextmanager
     def client(self) -> Iterator["Client"]:
@@ -145,15 +149,15 @@ class Session:
         from gelenk.client import Client  # noqa: PLC0415
 
         with ExitStack() as stack:
-            transport = None
             if not self.server:
                 from gelenk.cli.local import InProcess  # noqa: PLC0415
                 from gelenk.robot.compilation import STORE, when_compiling  # noqa: PLC0415
 
-                if sys.stderr.isatty():
+                if sys.stderr.isatty() and not self.output.is_quiet:
                     text = _COMPILING.format("" if STORE is None else ", once")
                     stack.enter_context(when_compiling(lambda: print(text, file=sys.stderr)))
-                transport = InProcess()
+            stack.enter_context(raised_interrupts())
+            transport = None if self.server else InProcess()
             # In this process there is no name to look up, and no key to send.
             yield stack.enter_context(Client(self.server or "http://127.0.0.1", transport=transport))
 
@@ -161,7 +165,10 @@ class Session:
     def robot(self, argument: str) -> Iterator[tuple["Client", str]]:
         """Open a client, and yield it with the name of the robot at the service."""
         describe = self.describe
-        with self.client() as client, robot_named(client, argument, describe, self.strict) as name:
+        with (
+            self.client() as client,
+            robot_named(client, argument, describe, self.strict, pairs_of(self.arguments, "arg")) as name,
+        ):
             yield client, name
 
     def write(self, answer: "BaseModel", rows: AnswerRows) -> None:
@@ -170,13 +177,17 @@ class Session:
 
     @contextmanager
     def bar(self, what: str, *, is_measured: bool = True) -> Iterator[Callable[[float], None]]:
-        """Show progress from 0 to 1 once the work takes long; not if standard error is no terminal.
+        """Show progress from 0 to 1 once the work takes long; not if quiet, or if standard error is no terminal.
 
         Unless it is measured, the bar shows only that the work is running.
         """
-        if not sys.stderr.isatty():  # whatever a variable such as FORCE_COLOR says of colours
+        if self.output.is_quiet or not sys.stderr.isatty():  # whatever a variable such as FORCE_COLOR says of colours
             yield lambda _: None
             return
+        # Loaded for people who wait at a terminal, and for nobody else.
+        from rich.console import Console  # noqa: PLC0415
+        from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn  # noqa: PLC0415
+
         share = (TextColumn("{task.percentage:>3.0f} %"),) if is_measured else ()
         columns = (TextColumn("{task.description}"), BarColumn(), *share, TimeElapsedColumn())
         shown = Progress(*columns, console=Console(stderr=True), transient=True)
@@ -197,10 +208,16 @@ class Session:
 
     def tell_job(self, info: "JobInfo") -> None:
         """Write a job as an answer."""
-        columns = ("id", "kind", "state", "progress", "created", "finished")
         notes = () if info.error is None else (info.error.detail,)
-        row = (info.id, info.kind, info.state, info.progress, info.created, info.finished)
-        self.write(info, AnswerRows(columns, [row], notes))
+        self.write(info, AnswerRows(JOB_COLUMNS, [job_row(info)], notes))
+
+
+JOB_COLUMNS = ("id", "kind", "state", "progress", "created", "finished")
+
+
+def job_row(info: "JobInfo") -> tuple[Any, ...]:
+    """Return the cells of a job below `JOB_COLUMNS`."""
+    return tuple(getattr(info, column) for column in JOB_COLUMNS)
 
 
 def session(context: typer.Context) -> Session:
@@ -212,7 +229,7 @@ def session(context: typer.Context) -> Session:
 EXAMPLES = {
     "robots": "gelenk robots panda",
     "add": "gelenk add arm.urdf --name my_arm",
-    "fk": "gelenk fk ur5 -q '0 -pi/2 pi/2 0 0 0' --pose rpy",
+    "fk": "gelenk fk ur5 -q '0 -90deg pi/2 0 0 0' --pose rpy",
     "jacobian": "gelenk jacobian planar_2r -q '0.3 0.8'",
     "ik": "gelenk ik ur5 --to '0.4 0.2 0.5 pi 0 0' --all",
     "manipulability": "gelenk manipulability planar_2r -q '0.3 0.8' --plot ellipse.svg",
@@ -227,7 +244,7 @@ EXAMPLES = {
     "dh from-urdf": "gelenk -o table.csv dh from-urdf ur5 --convention modified",
     "dh convert": "gelenk dh convert table.csv --convention modified",
     "dh compare": "gelenk dh compare table.csv ur5",
-    "dh derive": "gelenk dh derive table.csv --latex --plot frames.svg",
+    "dh derive": "gelenk dh derive planar_2r --latex --plot frames.svg",
 }
 """Examples by command. Commands that read files use those that other examples have written."""
 

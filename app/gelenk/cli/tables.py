@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gelenk.cli.completion import CONVENTIONS, one_of
-from gelenk.cli.files.inputs import fields_of, is_file, table_from
+from gelenk.cli.completion import CONVENTIONS, one_of, robots_beginning_with
+from gelenk.cli.files.inputs import TABLE_SUFFIXES, fields_of, is_file, table_from
 from gelenk.cli.files.outputs import AnswerRows, Format, largest
 from gelenk.cli.session import (
     BaseOption,
@@ -21,19 +21,30 @@ from gelenk.cli.session import (
 from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:
+    from gelenk.client import Client
     from gelenk.contract.dh import DhTablePayload
 
-TableArgument = Annotated[Path, typer.Argument(metavar="TABLE", help="DH table as JSON, TOML or CSV.")]
+TableArgument = Annotated[
+    Path,
+    typer.Argument(
+        metavar="TABLE",
+        help="DH table as JSON, TOML or CSV, or the name of a robot: that of its default chain.",
+        autocompletion=robots_beginning_with,
+    ),
+]
 ConventionOption = Annotated[str, typer.Option(help="standard or modified.", autocompletion=one_of(CONVENTIONS))]
 _DIFFERENT = 1
 
-tables = typer.Typer(name="dh", help="Denavit-Hartenberg tables: to and from URDF, compared, derived.")
+dh = typer.Typer(name="dh", help="Denavit-Hartenberg tables: to and from URDF, compared, derived.")
 
 
-def _table(file: Path) -> Any:
-    if not is_file(file):
-        raise InvalidField("table", f"there is no file {str(file)!r} that ends in .json, .toml or .csv")
-    return table_from(file)
+def _table(client: "Client", given: Path) -> Any:
+    """Return the table of a file, or of the robot that is named."""
+    if is_file(given):
+        return table_from(given)
+    if given.exists() or given.suffix.lower() in TABLE_SUFFIXES or given.name != str(given):
+        raise InvalidField("table", f"there is no file {str(given)!r} that ends in .json, .toml or .csv")
+    return client.dh_table(str(given)).dh.model_dump(mode="json", exclude_none=True)
 
 
 def _rows(dh: "DhTablePayload", notes: tuple[str, ...] = ()) -> AnswerRows:
@@ -48,7 +59,7 @@ def _rows(dh: "DhTablePayload", notes: tuple[str, ...] = ()) -> AnswerRows:
     )
 
 
-@tables.command("to-urdf", epilog=example_of("dh to-urdf"))
+@dh.command("to-urdf", epilog=example_of("dh to-urdf"))
 def to_urdf(
     context: typer.Context,
     table: TableArgument,
@@ -57,14 +68,14 @@ def to_urdf(
     """A table as URDF."""
     shared = session(context)
     with shared.client() as client:
-        answer = client.dh_to_urdf(name=name, dh=_table(table))
+        answer = client.dh_to_urdf(name=name, dh=_table(client, table))
     if shared.output.format is Format.JSON:
         shared.write(answer, AnswerRows((), ()))
     else:
         shared.output.put(answer.urdf.encode())
 
 
-@tables.command("from-urdf", epilog=example_of("dh from-urdf"))
+@dh.command("from-urdf", epilog=example_of("dh from-urdf"))
 def from_urdf(
     context: typer.Context,
     robot: RobotArgument,
@@ -86,16 +97,16 @@ def from_urdf(
     )
 
 
-@tables.command("convert", epilog=example_of("dh convert"))
+@dh.command("convert", epilog=example_of("dh convert"))
 def convert(context: typer.Context, table: TableArgument, convention: ConventionOption) -> None:
     """A table in the other convention."""
     shared = session(context)
     with shared.client() as client:
-        answer = client.convert_dh(dh=_table(table), convention=convention)  # type: ignore[arg-type]
+        answer = client.convert_dh(dh=_table(client, table), convention=convention)  # type: ignore[arg-type]
     shared.write(answer, _rows(answer.dh))
 
 
-@tables.command("compare", epilog=example_of("dh compare"))
+@dh.command("compare", epilog=example_of("dh compare"))
 def compare(
     context: typer.Context,
     table: TableArgument,
@@ -107,7 +118,7 @@ def compare(
     """Whether a table describes a chain; exit code 1 if not, with the first difference."""
     shared = session(context)
     with shared.robot(robot) as (client, name):
-        body: dict[str, Any] = {"dh": _table(table), "robot": name, "base_frame": base, "tip_frame": tip}
+        body: dict[str, Any] = {"dh": _table(client, table), "robot": name, "base_frame": base, "tip_frame": tip}
         answer = client.compare_dh(**{**body, **fields_of(fields)})
     rows: list[tuple[str, Any]] = [
         ("equivalent", answer.equivalent),
@@ -120,7 +131,7 @@ def compare(
         raise typer.Exit(_DIFFERENT)
 
 
-@tables.command("derive", epilog=example_of("dh derive"))
+@dh.command("derive", epilog=example_of("dh derive"))
 def derive(
     context: typer.Context,
     table: TableArgument,
@@ -134,7 +145,7 @@ def derive(
     """The worked solution: each A_i and T_0_i, the Jacobian, and where it is singular."""
     shared = session(context)
     with shared.client() as client:
-        dh = _table(table)
+        dh = _table(client, table)
         answer = client.derive_dh(**{"dh": dh, "symbolic": symbolic, **fields_of(fields)})
         draw(client, plot, "v1/dh/picture", {"dh": dh})
     matrices = [*answer.A, *answer.T_0, *([answer.jacobian.matrix] if answer.jacobian else [])]

@@ -17,10 +17,13 @@ from typing import (
     Union,
     get_args,
     get_origin,
+    is_typeddict,
     overload,
 )
 
 from httpx2 import Response
+
+from gelenk.client.refusals import UnknownKeyword
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -108,12 +111,16 @@ class Sent(Generic[P, T]):
 def method_of(name: str, describe: Callable[P, Call[T]], send: Callable[[Call[T]], R]) -> Callable[P, R]:
     """Return a method that passes the described call to `send`; raises TypeError as a function does."""
     signature = inspect.signature(describe)
+    takes_all = any(one.kind == inspect.Parameter.VAR_KEYWORD for one in signature.parameters.values())
     places = [one.name for one in signature.parameters.values() if one.kind != inspect.Parameter.KEYWORD_ONLY]
 
     def method(*args: P.args, **kwargs: P.kwargs) -> R:
         if len(args) > len(places):
             allowed = f"{', '.join(places)} alone by place" if places else "nothing by place"
             raise TypeError(f"{name} takes {allowed}; give all else by name, as in {signature}".partition(" ->")[0])
+        if not takes_all:
+            for unknown in kwargs.keys() - signature.parameters.keys():
+                raise UnknownKeyword(name, unknown, tuple(signature.parameters))
         return send(describe(*args, **kwargs))
 
     functools.update_wrapper(method, describe)
@@ -151,6 +158,8 @@ class _Words(str):
 def _words(annotation: Any) -> _Words:
     """Return a type without the metadata that only pydantic needs."""
     origin, parts = get_origin(annotation), get_args(annotation)
+    if is_typeddict(annotation):
+        return _Words("dict")
     if origin is Annotated:
         return _words(parts[0])
     if origin is Literal:

@@ -2,6 +2,7 @@
 
 import gc
 import inspect
+import math
 from collections.abc import Callable, Mapping
 from io import BytesIO
 from typing import Any, ParamSpec, TypeVar
@@ -36,7 +37,20 @@ def encoded(fields: Mapping[str, Any]) -> bytes:
     which JSON cannot express.
     """
     plain = {name: _finite(name, value) if isinstance(value, np.ndarray) else value for name, value in fields.items()}
-    return orjson.dumps(plain, option=orjson.OPT_SERIALIZE_NUMPY, default=_plain)
+    content = orjson.dumps(plain, option=orjson.OPT_SERIALIZE_NUMPY, default=_plain)
+    if b"null" in content:  # what JSON has for None, and orjson for a number that is not finite
+        for name, value in fields.items():
+            _check_finite(value, name, "")
+    return content
+
+
+def _check_finite(value: Any, field: str, place: str) -> None:
+    """Raise InvalidField if a number in lists and dicts is not finite."""
+    if isinstance(value, float) and not math.isfinite(value):
+        raise InvalidField(field, f"the number{place and f' at {place[1:]}'} is not finite")
+    if isinstance(value, dict | list | tuple):
+        for key, part in value.items() if isinstance(value, dict) else enumerate(value):
+            _check_finite(part, field, f"{place}/{key}")
 
 
 def _finite(field: str, array: Array) -> Array:

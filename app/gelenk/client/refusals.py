@@ -1,7 +1,8 @@
 """Turns a problem from the service back into the core's own exception."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, fields
+from difflib import get_close_matches
 from functools import cache
 from typing import Any
 
@@ -57,6 +58,15 @@ class NotAnswering(KinematicsError):
     url: str
     reason: str
     template = "no answer from {url}: {reason}"
+
+
+class UnknownKeyword(TypeError):
+    """A method of the client has no argument of this name; nothing was sent."""
+
+    def __init__(self, method: str, name: str, known: Sequence[str]) -> None:
+        near = get_close_matches(name, known, n=1)
+        hint = f"did you mean {near[0]!r}?" if near else f"it has {', '.join(known)}"
+        super().__init__(f"{method} has no argument {name!r}: {hint}")
 
 
 def refusal(problem: Mapping[str, Any]) -> Refused:

@@ -15,10 +15,11 @@ from gelenk.contract.collision_pairs import CollisionPairs
 from gelenk.contract.common import Answer, ChainEnds
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer
 from gelenk.contract.exercises import CoursePictures, ExerciseList
-from gelenk.contract.jobs import Finished, JobInfo
+from gelenk.contract.jobs import Finished, JobInfo, JobList
 from gelenk.contract.problem import Health
 from gelenk.contract.robots import RobotInfo, RobotList
 from gelenk.contract.scene import SceneInfo, SceneList, SceneObject
+from gelenk.contract.screws import ScrewsAnswer
 from gelenk.contract.trajectory import JOINT_TRAJECTORY, URSCRIPT, YAML
 from gelenk.language import Language
 
@@ -38,6 +39,13 @@ def robot(robot: str) -> Call[RobotInfo]:
 def urdf(robot: str) -> Call[str]:
     """A robot as URDF."""
     return Call("GET", f"v1/robots/{segment(robot)}/urdf", _text, accept="application/xml")
+
+
+def mjcf(robot: str, meshes: bool = False) -> Call[str]:
+    """A robot as MJCF; with `meshes` it names the mesh files, which `mesh` returns."""
+    return Call(
+        "GET", f"v1/robots/{segment(robot)}/mjcf", _text, query_of({"meshes": meshes}), accept="application/xml"
+    )
 
 
 def collision_bodies(robot: str) -> Call[CollisionBodies]:
@@ -79,6 +87,34 @@ def table(
     return Call("GET", f"v1/robots/{segment(robot)}/dh", reader(FromUrdfAnswer), query)
 
 
+def screws(robot: str, base_frame: str | None = None, tip_frame: str | None = None) -> Call[ScrewsAnswer]:
+    """A chain of a robot as a product of exponentials, angular parts first, with its certificate.
+
+    Args:
+        robot: Name of the robot.
+        base_frame: Base of the chain; the default chain's if left out.
+        tip_frame: Tip of the chain; the default chain's if left out.
+    """
+    query = query_of({"base_frame": base_frame, "tip_frame": tip_frame})
+    return Call("GET", f"v1/robots/{segment(robot)}/screws", reader(ScrewsAnswer), query)
+
+
+def table_file(
+    robot: str,
+    format: Literal["csv", "latex", "matlab", "roboticstoolbox"],  # noqa: A002
+    convention: Literal["standard", "modified"] = "standard",
+    base_frame: str | None = None,
+    tip_frame: str | None = None,
+    snap_tolerance: float | None = None,
+) -> Call[str]:
+    """The Denavit-Hartenberg table of a robot's chain as text for another program; arguments are those of `table`."""
+    query = query_of(
+        {"format": format, "convention": convention, "base_frame": base_frame, "tip_frame": tip_frame}
+        | {"snap_tolerance": snap_tolerance}
+    )
+    return Call("GET", f"v1/robots/{segment(robot)}/dh", _text, query, accept="*/*")
+
+
 def mesh(robot: str, path: str) -> Call[bytes]:
     """A mesh that a robot's URDF names; `meshes` of `robot` lists their paths."""
     return Call("GET", f"v1/robots/{segment(robot)}/meshes/{quote(path)}", _content, accept="*/*")
@@ -91,10 +127,14 @@ def add_archive(
     default_chain: ChainEnds | None = None,
     strict: bool = False,
     file: str | None = None,
+    arguments: Mapping[str, str | float] | None = None,
 ) -> Call[RobotInfo]:
-    """Add a robot with its meshes: a zip of a URDF and the files that it names; `file` is which one of several."""
+    """Add a robot with its meshes: a zip of a URDF or xacro and the files that it names.
+
+    `file` is which description of several, `arguments` are those of a xacro.
+    """
     form = {"name": name, "description": description}
-    return _with_archive("POST", "v1/robots", archive, default_chain, strict, file, form)
+    return _with_archive("POST", "v1/robots", archive, default_chain, strict, _of_file(file, arguments), form)
 
 
 def replace_archive(
@@ -104,10 +144,17 @@ def replace_archive(
     default_chain: ChainEnds | None = None,
     strict: bool = False,
     file: str | None = None,
+    arguments: Mapping[str, str | float] | None = None,
 ) -> Call[RobotInfo]:
-    """Replace an uploaded robot by a zip of a URDF and the files that it names; `file` is which one of several."""
+    """Replace an uploaded robot by a zip, as `add_archive` takes it."""
     form, path = {"description": description}, f"v1/robots/{segment(robot)}"
-    return _with_archive("PUT", path, archive, default_chain, strict, file, form)
+    return _with_archive("PUT", path, archive, default_chain, strict, _of_file(file, arguments), form)
+
+
+def _of_file(file: str | None, arguments: Mapping[str, str | float] | None) -> dict[str, str]:
+    """Return the fields of a form that say which description is meant, and with which arguments."""
+    given = {} if file is None else {"file": file}
+    return given | ({"arguments": encoded(dict(arguments)).decode()} if arguments else {})
 
 
 def _with_archive(
@@ -116,11 +163,11 @@ def _with_archive(
     archive: bytes | str | PathLike[str],
     chain: ChainEnds | None,
     strict: bool,
-    file: str | None,
+    of_file: dict[str, str],
     form: dict[str, str],
 ) -> Call[RobotInfo]:
     ends = {} if chain is None else {"base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
-    form = {**form, **ends, **({"strict": "true"} if strict else {}), **({} if file is None else {"file": file})}
+    form = {**form, **ends, **({"strict": "true"} if strict else {}), **of_file}
     content = archive if isinstance(archive, bytes) else Path(archive).read_bytes()
     return Call(method, path, reader(RobotInfo), form=form, files=[("archive", ("robot.zip", content))])
 
@@ -179,6 +226,12 @@ def remove_scene(scene: str) -> Call[None]:
     return Call("DELETE", f"v1/scenes/{segment(scene)}", lambda _: None, is_repeatable=False)
 
 
+def list_jobs(limit: int = 50, before: int | None = None) -> Call[JobList]:
+    """Jobs that you have submitted, the newest first; `next` of the answer is the `before` of the next older ones."""
+    query = {"limit": limit, **({} if before is None else {"before": before})}
+    return Call("GET", "v1/jobs", reader(JobList), query)
+
+
 def job(job: str) -> Call[JobInfo]:
     """State and progress of a job."""
     return Call("GET", f"v1/jobs/{segment(job)}", reader(JobInfo))
@@ -217,7 +270,7 @@ def picture(
 
 
 def dh_parameters(convention: Literal["standard", "modified"] = "standard", language: Language = "en") -> Call[bytes]:
-    """The DH parameters on the two links of the lecture as SVG; as PNG `picture` returns it."""
+    """The DH parameters on the two links of the lecture as SVG; as PNG or PDF `picture` returns it."""
     query = query_of({"convention": convention, "language": language})
     return Call("GET", "v1/dh/picture", _content, query, accept=_PICTURES["svg"])
 
@@ -228,7 +281,7 @@ def course_pictures(language: Language = "en") -> Call[CoursePictures]:
 
 
 def course_picture(picture: str, language: Language = "en") -> Call[bytes]:
-    """A picture of the course as SVG, by its name in `course_pictures`; as PNG `picture` returns it."""
+    """A picture of the course as SVG, by its name in `course_pictures`; as PNG or PDF `picture` returns it."""
     path, query = f"v1/course/pictures/{segment(picture)}", query_of({"language": language})
     return Call("GET", path, _content, query, accept=_PICTURES["svg"])
 

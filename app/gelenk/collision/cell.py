@@ -8,7 +8,7 @@ import numpy as np
 
 from gelenk.collision.contact.gradient import pair_gradients
 from gelenk.collision.contact.judge import PairContacts, certify_clearances, certify_contacts, certify_gradients
-from gelenk.collision.contact.kernels import first_contacts, nearest_pairs, pair_distances
+from gelenk.collision.contact.kernels import first_contacts, first_free, nearest_pairs, pair_distances
 from gelenk.collision.contact.words import ContactCertificate, GradientCertificate
 from gelenk.collision.contact.world import World
 from gelenk.errors import quoted
@@ -72,6 +72,10 @@ class Cell:
     def touching(self, qs: Array) -> Flags:
         """Return whether any pair is in contact at each configuration; (N, n) → (N,)."""
         return first_contacts(self.world.flat, qs) >= 0
+
+    def first_free(self, qs: Array, order: Indices, firsts: Indices) -> Indices:
+        """Return the row of the first free configuration of each group, else -1, see `kernels.first_free`."""
+        return first_free(self.world.flat, qs, order, firsts)
 
     def nearest(self, qs: Array) -> Nearest:
         """Return the nearest pair at each configuration of shape (N, n)."""

@@ -7,6 +7,6 @@
   `options`: fields that requests share, quantities.
 - `pose`: poses in every notation. `dh`: Denavit-Hartenberg tables.
 - `course_motion`: shared by several calculators of the course.
-- `robots`: robots as listed, described and uploaded, and the `robot.json` of a folder; shapes drawn for links
-  without visuals. `jobs`: long work. `problem`: an error, and the answer for a monitor.
+- `robots`: robots as listed, described and uploaded; shapes drawn for links without visuals. `robot_file`: the
+  `robot.json` of a folder. `jobs`: long work. `problem`: an error, and the answer for a monitor.
 """

@@ -137,7 +137,7 @@ ENDPOINT = Endpoint(
 
     The lecture describes the motor in words; these are the equations behind it.
 
-    As a picture with `Accept: image/svg+xml` or `image/png`.
+    As a picture with `Accept: image/svg+xml`, `image/png` or `application/pdf`.
     """,
     picture="The circuit with the values, and the torque-speed line with the operating point.",
     example={

@@ -10,7 +10,7 @@ from gelenk.contract.common import Answer, Payload, optional
 from gelenk.contract.options import WithSteps
 from gelenk.contract.pose import Pose
 from gelenk.course.steps import Step
-from gelenk.dh.derive.texts import COLUMNS, Column
+from gelenk.dh.tables.columns import COLUMNS, Column
 from gelenk.errors import InvalidField, InvalidPose
 from gelenk.robot.arrays import Array
 from gelenk.robot.description import Mimic
@@ -75,10 +75,11 @@ class DhTablePayload(Payload):
             InvalidDhTable: The table is not a robot.
         """
         joints = tuple(row.row(number) for number, row in enumerate(self.joints, start=1))
-        return DhTable(self.convention, joints, _placed("base", self.base), _placed("tool", self.tool))
+        return DhTable(self.convention, joints, placed("base", self.base), placed("tool", self.tool))
 
 
-def _placed(place: str, pose: Pose | None) -> Array:
+def placed(place: str, pose: Pose | None) -> Array:
+    """Return a pose as (4, 4), the identity for None; raises InvalidPose, which names `place`."""
     if pose is None:
         return np.eye(4)
     try:

@@ -69,8 +69,8 @@ ENDPOINT = Endpoint(
 
     Axes x_i and z_i with their names, the common normals a_i and offsets d_i that are not zero, the twists α_i and the
     angles ϑ_i as arcs, revolute joints as cylinders and prismatic ones as boxes; the table is below. What belongs to
-    an x axis has one colour, what belongs to a z axis another. SVG unless `Accept` says `image/png`, or
-    `application/json` for the frames as numbers.
+    an x axis has one colour, what belongs to a z axis another. SVG unless `Accept` says `image/png`,
+    `application/pdf`, or `application/json` for the frames as numbers.
     """,
     picture="The frames of the table, and the table below.",
     is_picture=True,

@@ -101,7 +101,7 @@ ENDPOINT = Endpoint(
     the shaft does. Required counts are rounded up before bits and lines are, so a line count times the decoding
     may be a little more than the counts required.
 
-    As a picture with `Accept: image/svg+xml` or `image/png`.
+    As a picture with `Accept: image/svg+xml`, `image/png` or `application/pdf`.
     """,
     picture="Channels A, B and Z of an incremental encoder, of its `samples` if given; the disc of an absolute one.",
     example={

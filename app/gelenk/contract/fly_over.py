@@ -130,8 +130,8 @@ ENDPOINT = Endpoint(
     the largest that fits.
 
     With `rest_acceleration` the whole motion: from rest in A, a trapezoid of speed whose middle is the blend, to
-    rest in C. It is refused where the blend and the ramps overlap. As a picture with `Accept: image/svg+xml` or
-    `image/png`.
+    rest in C. It is refused where the blend and the ramps overlap. As a picture with `Accept: image/svg+xml`,
+    `image/png` or `application/pdf`.
     """,
     picture="The corner in its plane, and the distance covered, the speed and the acceleration over time.",
     example={

@@ -11,7 +11,7 @@ from gelenk.contract.common import Answer, ChainOptions, OnTheWire, optional
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import Configuration, Configurations
 from gelenk.contract.options import Directions, WithSteps
-from gelenk.contract.pose import AnswerFormat, Pose, pose_fields
+from gelenk.contract.pose import AnswerFormat, Pose, PoseLike, pose_fields
 from gelenk.contract.scene import InCell
 from gelenk.course.steps import Step
 from gelenk.ik.search.words import (
@@ -38,7 +38,7 @@ MAX_JOB_STEPWISE = 100_000
 """The same limits for a call that a job answers."""
 
 Targets = Annotated[
-    Sequence[Pose] | Array,
+    Sequence[PoseLike] | Array,
     OnTheWire(Annotated[list[Pose], Field(max_length=MAX_TARGETS, fail_fast=True)], pose_fields),
     Field(
         description="Target poses of `tip_frame` in `base_frame`; a `position` alone suffices where `task` has none of "
@@ -278,8 +278,9 @@ ENDPOINT = RobotEndpoint(
 
     With `scene` or `min_clearance` only configurations without contact are solutions: of all branches the nearest
     to the seed, or of a redundant arm the nearest that the first successful round of starts finds, first around the
-    solution in contact, then everywhere, until the budget is used up. The robot must not touch itself either. A seed
-    may be in contact. Joints off the chain, such as those of a gripper, stand where `other_joints` says, or at 0.
+    solution in contact if the seed is near it, then everywhere, until the budget is used up. The robot must not touch
+    itself either. A seed may be in contact. Joints off the chain, such as those of a gripper, stand where
+    `other_joints` says, or at 0.
 
     Closed forms: arms whose last three axes meet in a point, or whose first three do (decoupling: the position of the
     wrist first, then the orientation by the spherical wrist; any three joints besides, turning or sliding); six

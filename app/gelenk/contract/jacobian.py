@@ -8,16 +8,17 @@ from gelenk.contract.common import ChainOptions, optional
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import AboutChain, Configurations, Matrix
 from gelenk.contract.options import BatchRequest, Fraction, RespectLimits, WithSteps, WorkedSolutions
-from gelenk.kinematics.judge.words import JacobianCertificate, Reference
+from gelenk.kinematics.judge.words import JacobianCertificate, Reference, Screws
 
 
 class JacobianOptions(ChainOptions, WithSteps):
     """Reference, representation and derivatives of a Jacobian."""
 
-    reference: Reference = Field(
+    reference: Reference | Screws = Field(
         default="local_world_aligned",
         description="`local_world_aligned`: base axes, at the tip (the course's geometric Jacobian). `local`: tip "
-        "axes, at the tip. `world`: the spatial twist, base axes, at the base origin.",
+        "axes, at the tip. `world`: the spatial twist, base axes, at the base origin. `space_screws` and "
+        "`body_screws`: `world` and `local` with the angular rows first, as for the product of exponentials.",
     )
     representation: Literal["geometric", "zyz", "rpy"] = Field(
         default="geometric",
@@ -50,10 +51,13 @@ class JacobianRequest(BatchRequest, JacobianOptions):
 
 
 class JacobianAnswer(AboutChain):
-    """Jacobians, one entry per configuration; rows linear (x, y, z), then angular; columns as joint_names."""
+    """Jacobians, one entry per configuration; rows linear (x, y, z), then angular; columns as joint_names.
+
+    The rows of `space_screws` and `body_screws` are angular, then linear.
+    """
 
     joint_names: list[str] = Field(description="The chain's joints: the columns.")
-    reference: Reference = Field(description="As requested.")
+    reference: Reference | Screws = Field(description="As requested.")
     representation: Literal["geometric", "zyz", "rpy"] = Field(description="As requested.")
     jacobians: list[Matrix] = Field(description="6 rows, n columns: [m or rad] per [rad or m].")
     ranks: list[int] = Field(description="Singular values that count, see `rank_tolerance`.")

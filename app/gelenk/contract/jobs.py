@@ -49,3 +49,10 @@ class JobInfo(Answer):
         "name by now."
     )
     error: JobError | None = optional("Of a failed job.")
+
+
+class JobList(Answer):
+    """Jobs of a client, the newest first."""
+
+    jobs: list[JobInfo]
+    next: int | None = Field(description="The `before` that continues with the next older jobs; null at the end.")

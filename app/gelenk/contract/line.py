@@ -132,7 +132,7 @@ ENDPOINT = Endpoint(
     With two orientations the answer has both ways of the course: about one axis, R(t) = R_i Rot(r, s θ), and by Euler
     angles ZYZ. Where L = 0, an orientation changes by a polynomial `law` in `duration`.
 
-    As a picture of σ, σ̇ and σ̈ with `Accept: image/svg+xml` or `image/png`.
+    As a picture of σ, σ̇ and σ̈ with `Accept: image/svg+xml`, `image/png` or `application/pdf`.
     """,
     picture="The distance covered, its speed and its acceleration over time, with the limits.",
     example={

@@ -259,12 +259,12 @@ ENDPOINT = RobotEndpoint(
     of two links is l₁ l₂ |sin q₂|. At a singularity a semi-axis of the velocity is 0 and that of the force null:
     it is unbounded.
 
-    `polytopes` replaces the norm by the limits of each joint. With `Accept: image/svg+xml` or `image/png` one
-    configuration is drawn: the arm and the ellipses of translation at its tip, a planar arm in its plane, any
-    other in three projections; of several configurations, the postures along a motion with their velocity ellipses,
-    of an arm in space in one projection. `directions` are arrows there, and `polytopes` outlines, of a translation in
-    a plane alone. Jacobians are recomputed through Pinocchio before anything is sent (a sample of a
-    large batch), and the ellipsoids are put together again and compared with JJᵀ.
+    `polytopes` replaces the norm by the limits of each joint. With `Accept: image/svg+xml`, `image/png` or
+    `application/pdf` one configuration is drawn: the arm and the ellipses of translation at its tip, a planar arm
+    in its plane, any other in three projections; of several configurations, the postures along a motion with their
+    velocity ellipses, of an arm in space in one projection. `directions` are arrows there, and `polytopes`
+    outlines, of a translation in a plane alone. Jacobians are recomputed through Pinocchio before anything is sent
+    (a sample of a large batch), and the ellipsoids are put together again and compared with JJᵀ.
     """,
     options=ManipulabilityOptions,
     npy_answer="Semi-axes of the velocity ellipsoids as one array of shape (N, k): those of the translation, "

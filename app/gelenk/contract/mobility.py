@@ -100,7 +100,7 @@ ENDPOINT = Endpoint(
     the mobility from the constraints that are independent there. Parts that spin between two spherical joints are
     found and subtracted in `mobility_without_idle`.
 
-    As a picture with `Accept: image/svg+xml` or `image/png`.
+    As a picture with `Accept: image/svg+xml`, `image/png` or `application/pdf`.
     """,
     picture="Links and pairs: in their posture if each pair of a planar mechanism has a `point`, else as a graph.",
     robot_field="robot",

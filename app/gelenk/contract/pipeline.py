@@ -108,8 +108,8 @@ ENDPOINT = Endpoint(
     Samples that the arm does not reach, or where it is stretched or folded, are marked; if one is out of reach there is
     no spline, and the answer says where the line leaves the workspace.
 
-    As a picture with `Accept: image/svg+xml` or `image/png`: the arm at the samples with the ellipses of its velocity
-    manipulability, the path of the tip, the joints over time, and the deviation.
+    As a picture with `Accept: image/svg+xml`, `image/png` or `application/pdf`: the arm at the samples with the
+    ellipses of its velocity manipulability, the path of the tip, the joints over time, and the deviation.
     """,
     picture="The arm at its samples with their velocity ellipses, the joints and the deviation over time.",
     example={

@@ -81,7 +81,7 @@ ENDPOINT = Endpoint(
 
     For a `point`: where it lies relative to both, and with which orientations it is reached. The joints turn
     without limits; with limits the boundaries differ, and the workspace of a robot has to be sampled. As a picture
-    with `Accept: image/svg+xml` or `image/png`.
+    with `Accept: image/svg+xml`, `image/png` or `application/pdf`.
     """,
     picture="Both workspaces, and the arm with its tip at `point`.",
     example={"links": [1.0, 0.9, 0.5], "point": [0.3, 0.2]},

@@ -77,7 +77,7 @@ ENDPOINT = Endpoint(
     negative average needs an H-bridge, and `direction` is -1. The ripple V_s D (1 - D) / (L f) leaves out the
     resistance; with R and L the current's extremes are exact, in the steady state, with a constant back-EMF.
 
-    As a picture with `Accept: image/svg+xml` or `image/png`.
+    As a picture with `Accept: image/svg+xml`, `image/png` or `application/pdf`.
     """,
     picture="Three periods of the voltage with its averages, and of the current with its ripple if R and L are given.",
     example={

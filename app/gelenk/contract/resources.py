@@ -9,10 +9,11 @@ from gelenk.contract.dh_from_urdf import FromUrdfAnswer
 from gelenk.contract.endpoint import Resource, Scope
 from gelenk.contract.exercises import CoursePictures, ExerciseGrade, ExerciseList, ExerciseSolution, ExerciseVariant
 from gelenk.contract.ik import InverseAnswer
-from gelenk.contract.jobs import JobInfo
+from gelenk.contract.jobs import JobInfo, JobList
 from gelenk.contract.problem import Health
 from gelenk.contract.robots import EXAMPLE_DH, ArchiveReplacement, NewArchive, RobotInfo, RobotList
 from gelenk.contract.scene import EXAMPLE_SCENE, SceneForm, SceneInfo, SceneList
+from gelenk.contract.screws import ScrewsAnswer
 from gelenk.contract.trajectory_answer import TrajectoryAnswer
 from gelenk.contract.workspace import WorkspaceAnswer
 
@@ -20,6 +21,7 @@ MESH_TYPES = {
     ".stl": "model/stl",
     ".obj": "model/obj",
     ".dae": "model/vnd.collada+xml",
+    ".msh": "model/vnd.mujoco.msh",
     ".mtl": "model/mtl",
     ".png": "image/png",
     ".jpg": "image/jpeg",
@@ -63,7 +65,10 @@ _WORKSPACE_PICTURE = (
 
 _BINARY = {"type": "string", "format": "binary"}
 _ARCHIVE: dict[str, dict[str, Any]] = {
-    "archive": {**_BINARY, "description": "Zip of a URDF, its meshes, and its SRDF if there is one."}
+    "archive": {
+        **_BINARY,
+        "description": "Zip of a URDF, xacro or MJCF, the files it includes, its meshes, and its SRDF if there is one.",
+    }
 }
 _SCENE_FILES: dict[str, dict[str, Any]] = {
     "files": {
@@ -83,6 +88,7 @@ def _file(description: str, *kinds: str) -> dict[int, dict[str, Any]]:
 
 
 _query = partial(Resource, method="GET", scope=Scope.READ)
+_robot_query = partial(_query, tag="Robots", problems=_OF_ROBOT)
 _monitoring = partial(Resource, method="GET", tag="Service", scope=None)
 _about_exercise = partial(Resource, tag="Course", scope=Scope.READ, problems=_EXERCISE)
 
@@ -96,30 +102,27 @@ RESOURCES = (
         summary="All robots",
         description="Lists the catalogue's robots, then the uploaded ones, each part sorted by name.",
     ),
-    _query(
+    _robot_query(
         name="get_robot",
         path="v1/robots/{robot}",
-        tag="Robots",
         answer=RobotInfo,
-        problems=_OF_ROBOT,
         summary="A robot",
         description="Joints, links, frames, chains, licence, and warnings about the description.",
     ),
-    _query(
+    _robot_query(
         name="get_robot_urdf",
         path="v1/robots/{robot}/urdf",
-        tag="Robots",
         responses=_file("The URDF", "application/xml"),
-        problems=_OF_ROBOT,
         summary="A robot's URDF",
-        description="The description as uploaded, or as generated from the DH table.",
+        description="""
+        The description as uploaded; or as generated from the DH table, with a certificate in the header
+        `Gelenk-Certificate`.
+        """,
     ),
-    _query(
+    _robot_query(
         name="get_robot_mesh",
         path="v1/robots/{robot}/meshes/{path:path}",
-        tag="Robots",
         responses=_file("The file", *MESH_TYPES.values(), SMALL_MESH),
-        problems=_OF_ROBOT,
         summary="A mesh file of a robot",
         description="""
         The file exactly as uploaded.
@@ -131,22 +134,18 @@ RESOURCES = (
         A file that is stored compressed is sent compressed to clients whose `Accept-Encoding` names `gzip`.
         """,
     ),
-    _query(
+    _robot_query(
         name="get_collision_bodies",
         path="v1/robots/{robot}/collision-bodies",
-        tag="Robots",
         answer=CollisionBodies,
-        problems=_OF_ROBOT,
         summary="What of a robot can touch anything",
         description="Lists the convex pieces that each link counts as where contacts are computed. The first call on a "
         "robot may take seconds.",
     ),
-    _query(
+    _robot_query(
         name="get_collision_pairs",
         path="v1/robots/{robot}/collision-pairs",
-        tag="Robots",
         answer=CollisionPairs,
-        problems=_OF_ROBOT,
         summary="Which links can touch each other",
         description="""
         Lists the pairs of links that have bodies, whether contacts between them are looked for, and if not, why.
@@ -194,8 +193,10 @@ RESOURCES = (
         files=_ARCHIVE,
         summary="Add a robot",
         description="""
-        Adds a URDF (xacro expanded), a DH table, or, as a form, a zip of one URDF, its meshes, and
-        its SRDF if there is one, whose `disable_collisions` leave out pairs of links.
+        Adds a URDF, xacro or MJCF, a DH table, or, as a form, a zip of one of the first three, its meshes, and
+        its SRDF if there is one, whose `disable_collisions` leave out pairs of links. A xacro is stored as the URDF
+        that it expands to with `arguments`, an MJCF as the URDF of the same links and joints; files that they include
+        come from the zip alone.
 
         The answer is sent once the robot is safely on disk; every worker sees it at once. Adding the same robot under
         the same name again returns 200, a different one 409; a default chain with an unknown frame returns 404.
@@ -293,21 +294,52 @@ RESOURCES = (
         tag="DH tables",
         answer=FromUrdfAnswer,
         problems=_OF_ROBOT,
+        responses=_file("The table", "text/csv", "text/x-tex", "text/x-matlab", "text/x-python"),
         summary="A robot's chain as a table",
-        description="Returns the DH table of the default chain, or of the chain between the named frames, as "
-        "`from-urdf` does.",
+        description="""
+        Returns the DH table of the default chain, or of the chain between the named frames, as `from-urdf` does.
+
+        With `format` it is the text of a file: `csv`, `latex`, a function for MATLAB and Octave that gives the pose, or
+        a `DHRobot` of the Robotics Toolbox for Python. The certificate is in its first lines.
+        """,
+    ),
+    _robot_query(
+        name="get_robot_mjcf",
+        path="v1/robots/{robot}/mjcf",
+        responses=_file("The MJCF", "application/xml"),
+        summary="A robot as MJCF",
+        description="""
+        The whole robot in MuJoCo's format: a body for each link, with its name, joints, masses and shapes. Joints that
+        follow others are equalities.
+
+        Before it is sent, Pinocchio's own reader of MJCF reads it: its poses of all links must be the robot's, and a
+        comment says how far they are off. MuJoCo has no velocity limits and does not read COLLADA: these are left out.
+        """,
+    ),
+    _robot_query(
+        name="get_robot_screws",
+        path="v1/robots/{robot}/screws",
+        answer=ScrewsAnswer,
+        summary="A robot's chain as screws",
+        description="""
+        Returns the product of exponentials of the default chain, or of the chain between the named frames.
+
+        The home pose M, and the screw axes in the base's and in the tip's axes, angular part first as Modern Robotics
+        writes them: transposed, they are its `Slist` and `Blist`. The `jacobian` in their order has the reference
+        `space_screws` or `body_screws`. A robot given as `screws` becomes this again.
+        """,
     ),
     _query(
         name="get_dh_picture",
         path="v1/dh/picture",
         tag="DH tables",
-        responses=_file("The picture", "image/svg+xml", "image/png"),
+        responses=_file("The picture", "image/svg+xml", "image/png", "application/pdf"),
         problems=(422, *_BY_WORKER),
         summary="Picture of the DH parameters",
         description="""
         The two links of the lecture with their frames, and a, α, d and ϑ of each, in either convention.
 
-        SVG unless `Accept` says `image/png`. The same call with POST draws any table.
+        SVG unless `Accept` says `image/png` or `application/pdf`. The same call with POST draws any table.
         """,
     ),
     _query(
@@ -324,11 +356,25 @@ RESOURCES = (
         name="get_picture",
         path="v1/course/pictures/{picture}",
         tag="Course",
-        responses=_file("The picture", "image/svg+xml", "image/png"),
+        responses=_file("The picture", "image/svg+xml", "image/png", "application/pdf"),
         problems=_OF_ROBOT,
         summary="A picture of the course",
         description="Kinematic pairs, the spherical wrist, a triangle, lever arms, a fly-over and more, as SVG, or as "
-        "PNG with `Accept: image/png`. Texts are drawn as paths, in the language asked for.",
+        "PNG or PDF with `Accept: image/png` or `application/pdf`. Texts are drawn in the language asked for.",
+    ),
+    _query(
+        name="list_jobs",
+        path="v1/jobs",
+        tag="Jobs",
+        answer=JobList,
+        problems=(422,),
+        summary="Your jobs",
+        description="""
+        Lists the jobs that you have submitted, the newest first; `next` continues the list.
+
+        Yours are those of your key; where no keys are on, those of your address. Behind a proxy that does not name
+        its clients (`GELENK_TRUSTED_PROXIES`), nobody without a key is shown any.
+        """,
     ),
     _query(
         name="get_job",
@@ -377,6 +423,7 @@ RESOURCES = (
                     "text/csv": _content("For a trajectory what the call itself answers."),
                     "image/svg+xml": _content(_WORKSPACE_PICTURE, format="binary"),
                     "image/png": _content(_WORKSPACE_PICTURE, format="binary"),
+                    "application/pdf": _content(_WORKSPACE_PICTURE, format="binary"),
                 }
             }
         },

@@ -1,13 +1,14 @@
-"""Robots as listed, described and uploaded; and the `robot.json` of a folder."""
+"""Robots as listed, described and uploaded."""
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, Json, model_validator
 
-from gelenk.contract.collision_pairs import PairChoice
 from gelenk.contract.common import Answer, ChainEnds, FrameName, Payload, RobotName, Strict, optional
 from gelenk.contract.dh import DhTablePayload
 from gelenk.contract.pose import Pose
+from gelenk.contract.robot_file import Controller, Text
+from gelenk.contract.screws import ScrewsPayload
 
 
 class BoxShape(Answer):
@@ -33,42 +34,26 @@ class LinkShape(Answer):
     pose: Pose = Field(description="Of the shape's centre in the link.")
 
 
-Text = Annotated[str, Field(max_length=2000)]
+Arguments = Annotated[
+    dict[Annotated[str, Field(max_length=128)], bool | int | float | Annotated[str, Field(max_length=1000)]],
+    Field(max_length=100),
+]
+"""Values of a xacro's arguments, by name."""
 
 
-class PackagedFile(Payload):
-    """A file of an installed package."""
-
-    package: Literal["example-robot-data"]
-    path: str
-
-
-class RobotFile(Payload):
-    """The `robot.json` of a robot's folder, written by the service or by hand."""
-
-    description: Text = ""
-    format: Literal["urdf", "dh"]
-    model: str | PackagedFile = Field(description="The URDF or DH file, in this folder or in a package.")
-    srdf: str | PackagedFile | None = optional("The SRDF, in this folder or in a package.")
-    meshes: str | None = optional("Folder of the mesh files, in this folder.")
-    urdf_folder: str = Field(default="", description="Where the URDF stood among the mesh files.")
-    digest: str | None = optional("SHA-256 of the model and its meshes, of an uploaded robot.")
-    owner: str | None = optional("Which client uploaded it; null where none did.")
-    kept_bytes: int = Field(default=0, description="Of the model and its meshes, of an uploaded robot.")
-    left_out: int = Field(default=0, description="Files of the archive, meshes or pictures, that nothing names.")
-    findings: list[str] = Field(default_factory=list, description="What is wrong with meshes and SRDF of an upload.")
-    default_chain: ChainEnds | None = None
-    chains: dict[str, ChainEnds] = Field(default_factory=dict)
-    collision_pairs: list[PairChoice] = Field(default_factory=list, description="As a person chose them.")
-    licence: str | None = None
-    source: str | None = None
+def as_text(arguments: Arguments | None) -> dict[str, str]:
+    """Return the arguments as xacro takes them: `true` for true, 7 for 7."""
+    given = (arguments or {}).items()
+    return {name: str(value).lower() if isinstance(value, bool) else str(value) for name, value in given}
 
 
 class RobotReplacement(Payload):
-    """A robot as URDF text or as a DH table: exactly one of the two."""
+    """A robot as URDF text, as a DH table or as a product of exponentials: exactly one of them."""
 
-    urdf: str | None = optional("The URDF as text, xacro expanded.")
+    urdf: str | None = optional("A URDF as text; or a xacro or MJCF that includes no file.")
+    arguments: Arguments | None = optional("Values of a xacro's arguments by name, texts or numbers.")
     dh: DhTablePayload | None = optional("The robot as a Denavit-Hartenberg table.")
+    screws: ScrewsPayload | None = optional("The robot as a product of exponentials; it is stored as the URDF of it.")
     description: Text = Field(default="", description="One sentence for human readers.")
     strict: Strict = False
     default_chain: ChainEnds | None = optional(
@@ -77,8 +62,10 @@ class RobotReplacement(Payload):
 
     @model_validator(mode="after")
     def _one_description(self) -> "RobotReplacement":
-        if (self.urdf is None) == (self.dh is None):
-            raise ValueError("give exactly one of `urdf` and `dh`")
+        if sum(given is not None for given in (self.urdf, self.dh, self.screws)) != 1:
+            raise ValueError("give exactly one of `urdf`, `dh` and `screws`")
+        if self.arguments and self.urdf is None:
+            raise ValueError("`arguments` are those of a xacro, which is given as `urdf`")
         return self
 
 
@@ -93,7 +80,8 @@ class ArchiveReplacement(Payload):
 
     description: Text = Field(default="", description="One sentence for human readers.")
     strict: Annotated[Strict, Field(strict=False)] = False
-    file: str | None = optional("Path in the archive of the URDF that is meant; only needed if it holds several.")
+    file: str | None = optional("Path in the archive of the URDF, xacro or MJCF; only needed if several can be meant.")
+    arguments: Json[Arguments] | None = optional("Values of a xacro's arguments: a JSON object of texts and numbers.")
     base_frame: FrameName | None = optional("Base frame of the default chain; requires `tip_frame`.")
     tip_frame: FrameName | None = optional("Tip frame of the default chain; requires `base_frame`.")
 
@@ -121,6 +109,12 @@ class RobotSummary(Answer):
 
     name: str = Field(description="Name by which the robot is requested.")
     description: str = Field(description="One sentence for human readers; may be empty.")
+    maker: str | None = Field(description="Who builds it; null if unknown, as of an upload.")
+    kind: str | None = Field(description="Such as `collaborative arm`; null if unknown, as of an upload.")
+    closed_form: str | None = Field(
+        description="The geometry behind the closed form of the default chain's inverse kinematics; null if there is "
+        "none for the full pose, and of an upload, for which `ik` tells."
+    )
     source: Literal["catalogue", "uploaded"] = Field(
         description="Whether the robot is part of the service's catalogue."
     )
@@ -176,6 +170,11 @@ class MeshInfo(Answer):
 class RobotInfo(RobotSummary):
     """Everything about a robot but its poses."""
 
+    payload: float | None = Field(description="Greatest load as the maker publishes it; null if unknown, [kg].")
+    reach: float | None = Field(
+        description="As the maker publishes it, mostly from the first axis to the wrist's centre; null if unknown, [m]."
+    )
+    controller: Controller | None = Field(description="How the maker's controller sees the robot; null if unknown.")
     chains: dict[str, ChainEnds] = Field(description="Named chains, such as the arms of a two-armed robot.")
     root: str = Field(description="The link without a parent.")
     joints: list[JointInfo]

@@ -84,7 +84,7 @@ ENDPOINT = Endpoint(
     accelerations at both ends, two fictitious knots are put in and their positions found. Not-a-knot through three
     knots is the parabola, through two the straight line.
 
-    As a picture of the profiles with `Accept: image/svg+xml` or `image/png`.
+    As a picture of the profiles with `Accept: image/svg+xml`, `image/png` or `application/pdf`.
     """,
     picture="Position, velocity, acceleration and jerk over time, with the limits.",
     example={

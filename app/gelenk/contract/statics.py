@@ -241,7 +241,7 @@ ENDPOINT = RobotEndpoint(
     ⊕ ker(J) = Rⁿ. Both sums are direct and orthogonal (the notes write +). They mix metres and radians: `task`
     selects rows of one unit.
 
-    With `Accept: image/svg+xml` or `image/png` the lever arms of a force on a planar arm are drawn.
+    With `Accept: image/svg+xml`, `image/png` or `application/pdf` the lever arms of a force on a planar arm are drawn.
     """,
     options=StaticsOptions,
     picture="A planar arm at one configuration, the force at its tip, and its lever arm about each joint.",

@@ -122,7 +122,7 @@ ENDPOINT = Endpoint(
     sets the time; the others are slowed by k = T/T_j, those with end velocities and those in a given `duration` coast
     more slowly.
 
-    As a picture of the profiles with `Accept: image/svg+xml` or `image/png`.
+    As a picture of the profiles with `Accept: image/svg+xml`, `image/png` or `application/pdf`.
     """,
     picture="Position, velocity, acceleration and jerk over time, with the limits.",
     example={

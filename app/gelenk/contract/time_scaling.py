@@ -93,7 +93,7 @@ ENDPOINT = Endpoint(
     through `waypoints` at `times`: as a cubic spline, or with `velocities` (and `accelerations`) as sampled from any
     motion. The answer holds it scaled, from t = 0 on.
 
-    As a picture of the scaled profiles with `Accept: image/svg+xml` or `image/png`.
+    As a picture of the scaled profiles with `Accept: image/svg+xml`, `image/png` or `application/pdf`.
     """,
     picture="Position, velocity, acceleration and jerk over time, with the limits.",
     example={

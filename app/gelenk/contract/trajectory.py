@@ -38,8 +38,8 @@ ENDPOINT = RobotEndpoint(
     against the limits, jumps where pieces meet, and the tip against its path, also between samples; its poses are
     recomputed through Pinocchio. `audit` holds the results.
 
-    With `Accept: text/csv` or `application/x-npy` the samples come as a table, with `image/svg+xml` or `image/png`
-    as profiles of position, velocity, acceleration and jerk.
+    With `Accept: text/csv` or `application/x-npy` the samples come as a table, with `image/svg+xml`, `image/png` or
+    `application/pdf` as profiles of position, velocity, acceleration and jerk.
 
     `format=joint_trajectory` answers with ROS 2's message `trajectory_msgs/msg/JointTrajectory`, as JSON, or as YAML
     with `Accept: application/yaml`; `format=urscript` with a program for an arm of Universal Robots. Neither was run

@@ -1,7 +1,7 @@
 """Trajectories: the request."""
 
 from collections.abc import Sequence
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, cast
 
 from pydantic import Discriminator, Field, Tag
 
@@ -9,8 +9,9 @@ from gelenk.contract.common import ChainOptions, OnTheWire, Payload, optional
 from gelenk.contract.course_motion import Duration
 from gelenk.contract.kinematics import ByName, ByOrder, Configuration
 from gelenk.contract.options import Directions, WithSteps
-from gelenk.contract.pose import ORIENTATIONS, AnswerFormat, Pose, pose_fields
+from gelenk.contract.pose import ORIENTATIONS, WHOLE, AnswerFormat, Pose, PoseLike, pose_fields
 from gelenk.contract.scene import InCell
+from gelenk.contract.segment_dicts import LimitsDict, OptionsDict, SegmentDict
 from gelenk.contract.statics import CarriedLoad, Gravity
 from gelenk.robot.arrays import Array, Configuration as GivenConfiguration
 from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw
@@ -26,7 +27,7 @@ MAX_WAYPOINTS = 1000
 MAX_TURNS = 72
 """Maximum number of turns of the tool that are tried at each pose."""
 
-_POSE_FIELDS = frozenset({"position", "matrix", *ORIENTATIONS})
+_POSE_FIELDS = WHOLE | {"position", *ORIENTATIONS}
 
 
 def _target_kind(value: Any) -> str:
@@ -55,8 +56,10 @@ _Target = Annotated[
     Annotated[ByOrder, Tag("<list>")] | Annotated[ByName, Tag("<object>")] | Annotated[Pose, Tag("<pose>")],
     Discriminator(_target_kind),
 ]
-Target = Annotated[GivenConfiguration | Pose, OnTheWire(_Target)]
+Target = Annotated[GivenConfiguration | PoseLike, OnTheWire(_Target)]
 """A configuration, or a pose of the tip."""
+Place = Annotated[PoseLike, OnTheWire(Pose)]
+"""A pose of the tip; a dict from Python code becomes a model."""
 
 _ORIENTATION_THROUGH = (
     "How the orientation changes: `axis_angle`, a rotation spline of continuous angular acceleration; `zyz`, a natural "
@@ -119,7 +122,7 @@ class TrajectoryLimits(Payload):
 class MotionOptions(Payload):
     """Limits and scales of a motion; a segment takes those that it leaves out from the trajectory."""
 
-    limits: TrajectoryLimits | None = optional(
+    limits: Annotated[TrajectoryLimits | LimitsDict, OnTheWire(TrajectoryLimits)] | None = optional(
         "Limits of the joints and the tip; in a segment, each field left out is taken from the trajectory."
     )
     velocity_scale: _Scale | None = optional(
@@ -128,6 +131,10 @@ class MotionOptions(Payload):
     acceleration_scale: _Scale | None = optional(
         "Factor of all acceleration limits, the tip's too, and of the jerks; likewise."
     )
+
+    def own_limits(self) -> TrajectoryLimits | None:
+        """Return the limits; a dict from Python code has become a model."""
+        return cast(TrajectoryLimits | None, self.limits)
 
 
 class SegmentOptions(MotionOptions):
@@ -152,7 +159,7 @@ class LineSegment(SegmentOptions):
     """Moves the tip straight to a pose, from rest to rest unless it is blended."""
 
     type: Literal["line"] = Field(description="Straight on.")
-    target: Pose = Field(description="Pose of `tip_frame` in `base_frame` at its end.")
+    target: Place = Field(description="Pose of `tip_frame` in `base_frame` at its end.")
     blend_radius: float | None = optional(
         "Distance from the target at which the motion leaves this line for the next line or circle, without a stop, "
         "[m]: along a parabola, or at a circle and with `quintic`, `septic` and `jerk_limited` a curve of continuous "
@@ -183,10 +190,10 @@ class CircleSegment(SegmentOptions):
     """Moves the tip along the arc through one pose to another, less than a full circle."""
 
     type: Literal["circle"] = Field(description="Along a circle.")
-    via: Pose = Field(
+    via: Place = Field(
         description="Pose of `tip_frame` in `base_frame` that the arc passes through, orientation included."
     )
-    target: Pose = Field(description="Pose at its end.")
+    target: Place = Field(description="Pose at its end.")
     blend_radius: float | None = optional(
         "Distance from the target, along the arc, at which the motion leaves it for the next line or circle, without a "
         "stop, [m]: at most a quarter of the circle, and on a curve of continuous curvature.",
@@ -201,7 +208,7 @@ class SplineSegment(SegmentOptions):
 
     type: Literal["spline"] = Field(description="Through points, along a spline.")
     waypoints: Annotated[
-        Sequence[GivenConfiguration | Pose] | Array,
+        Sequence[GivenConfiguration | PoseLike] | Array,
         OnTheWire(Annotated[list[_Target], Field(min_length=1, max_length=MAX_WAYPOINTS)]),
     ] = Field(
         description="Waypoints after the start, the last one the end: all of them configurations, one number per joint "
@@ -211,10 +218,15 @@ class SplineSegment(SegmentOptions):
         "Time of each, after the segment's start, increasing, [s]; if left out, found from the limits.",
         max_length=MAX_WAYPOINTS,
     )
-    waypoint_options: list[MotionOptions | None] | None = optional(
+    waypoint_options: (
+        Annotated[
+            Sequence[MotionOptions | OptionsDict | None],
+            OnTheWire(Annotated[list[MotionOptions | None], Field(max_length=MAX_WAYPOINTS)]),
+        ]
+        | None
+    ) = optional(
         "Of poses, limits and scales on the way to each waypoint, one entry for each; what is left out, or all of it "
-        "with null, is taken from the segment. Limits of torque hold along the whole segment.",
-        max_length=MAX_WAYPOINTS,
+        "with null, is taken from the segment. Limits of torque hold along the whole segment."
     )
     boundary: Boundary = Field(
         default="clamped",
@@ -252,7 +264,7 @@ class ToolPath(Payload):
     """
 
     poses: Annotated[
-        Sequence[Pose] | Array,
+        Sequence[PoseLike] | Array,
         OnTheWire(
             Annotated[list[Pose], Field(min_length=2, max_length=MAX_WAYPOINTS, fail_fast=True)],
             lambda given: pose_fields(given, "path.poses"),
@@ -296,7 +308,10 @@ class Motion(ChainOptions, MotionOptions, WithSteps):
     end_velocities: Configuration | None = optional("At the end of the last segment, [rad/s or m/s], likewise.")
     end_accelerations: Configuration | None = optional("At the end of the last segment, [rad/s² or m/s²], likewise.")
     segments: (
-        Annotated[Sequence[Segment], OnTheWire(Annotated[list[Segment], Field(min_length=1, max_length=MAX_SEGMENTS)])]
+        Annotated[
+            Sequence[Segment | SegmentDict],
+            OnTheWire(Annotated[list[Segment], Field(min_length=1, max_length=MAX_SEGMENTS)]),
+        ]
         | None
     ) = optional(
         f"One after the other, with a stop between two that are not blended; 1 to {MAX_SEGMENTS}, with at most "
@@ -368,6 +383,10 @@ class Motion(ChainOptions, MotionOptions, WithSteps):
     tip_poses: bool = Field(default=True, description="Whether to include the tip's poses at the samples.")
     torques: bool = Field(default=False, description="Whether to include the motors' torques at the samples.")
     pose_format: AnswerFormat = "quaternion_xyzw"
+
+    def moves(self) -> Sequence[Segment]:
+        """Return the segments, none along a `path`; dicts from Python code have become models."""
+        return cast(Sequence[Segment], self.segments or ())
 
 
 class RunningMotion(Payload):

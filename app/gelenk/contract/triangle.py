@@ -63,7 +63,7 @@ ENDPOINT = Endpoint(
     (SAS), or a side and two angles (ASA, AAS) fix one triangle. Two sides and an angle that is not between them (SSA)
     leave two, one or none, like the elbow of a robot arm. Parts that no triangle has are refused, with the inequality
     that they violate. The corners' coordinates are measured again as a check. As a picture with
-    `Accept: image/svg+xml` or `image/png`.
+    `Accept: image/svg+xml`, `image/png` or `application/pdf`.
     """,
     picture="Each triangle with its sides and angles.",
     example={"a": 3.0, "b": 4.0, "gamma": 1.0471975511965976},

@@ -238,7 +238,7 @@ ENDPOINT = RobotEndpoint(
 
     The reply is immediate, with the job's address in `Location`; `GET` that, or its `/events`, until `state` is
     `succeeded`, then get `/result`: as JSON a summary (extent, reach, volume, the largest manipulability, how well
-    a sample of it agrees with Pinocchio), as npy the positions or voxels, as SVG or PNG a picture.
+    a sample of it agrees with Pinocchio), as npy the positions or voxels, as SVG, PNG or PDF a picture.
 
     With `scene` or `min_clearance` only configurations count at which the robot touches neither itself nor what is
     around it; joints off the chain stand where `other_joints` says, or at 0.

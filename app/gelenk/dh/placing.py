@@ -15,8 +15,8 @@ import numpy as np
 
 from gelenk.course.steps import Step, step
 from gelenk.course.writing import decimal, rounded, vector
-from gelenk.dh.derive.texts import COLUMNS, Column
 from gelenk.dh.table_steps import angle_text, table_array, with_variable
+from gelenk.dh.tables.columns import COLUMNS, Column
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain

@@ -11,8 +11,9 @@ from gelenk.course.steps import Step, step, tex
 from gelenk.course.velocity.geometry import joint_motion
 from gelenk.course.writing import decimal, matrix, number, rounded, vector
 from gelenk.dh.derive.steps import transform_rule
-from gelenk.dh.derive.texts import COLUMNS, Column, array_of
+from gelenk.dh.derive.texts import array_of
 from gelenk.dh.derive.typeset import multiple_of_pi
+from gelenk.dh.tables.columns import COLUMNS, Column
 from gelenk.language import translated as _
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import FlatChain

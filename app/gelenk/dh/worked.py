@@ -20,21 +20,14 @@ from gelenk.dh.derive.numeric import NumericSolution, numeric_solution
 from gelenk.dh.derive.steps import Layout, numbers_step, steps
 from gelenk.dh.derive.symbolic import formulas, singularities
 from gelenk.dh.derive.table import Numbers4, RowNumbers, TableNumbers
-from gelenk.dh.derive.texts import (
-    COLUMNS,
-    Column,
-    FormulaCertificate,
-    Formulas,
-    NumericCertificate,
-    Singularities,
-    SymbolicRequest,
-)
+from gelenk.dh.derive.texts import FormulaCertificate, Formulas, NumericCertificate, Singularities, SymbolicRequest
 from gelenk.dh.derive.transforms import MAX_ENTRY_TERMS
 from gelenk.dh.derive.typeset import Style
 from gelenk.dh.lagrangian.bodies import MassProperties
 from gelenk.dh.lagrangian.solution import MotionSolution, checked_dynamics, motion_question, motion_solution
 from gelenk.dh.lagrangian.symbolic import motion
 from gelenk.dh.lagrangian.texts import MotionTexts, NoMotion
+from gelenk.dh.tables.columns import COLUMNS, Column
 from gelenk.dh.tables.convert import BASE_FRAME, TOOL_FRAME, describe_dh
 from gelenk.errors import InvalidDhTable
 from gelenk.kinematics.judge.judge import certify_jacobians, certify_poses

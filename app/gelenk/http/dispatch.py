@@ -7,7 +7,8 @@ name and the request as it arrived.
 import asyncio
 import pickle
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import lru_cache
 from inspect import Parameter, Signature
 from typing import Annotated, Any, Literal, cast
 
@@ -28,9 +29,8 @@ from gelenk.http.messages.payloads import (
     JSON,
     NO_ARRAY,
     NPY,
-    PNG,
+    PICTURES,
     PREFERENCE_APPLIED,
-    SVG,
     BoundedRequest,
     JsonResponse,
     csv_response,
@@ -44,10 +44,9 @@ from gelenk.http.workers.pool_client import INLINE_BYTES, PoolClient
 from gelenk.http.workers.task import Context, TaskRequest, buffers
 from gelenk.jobs.runner import Runner
 from gelenk.operations.operation import Operation, operation
-from gelenk.operations.outcome import REQUEST_COUNTS, Limits, Outcome, PictureFormat, RequestCounts
+from gelenk.operations.outcome import REQUEST_COUNTS, Limits, Outcome, RequestCounts
 from gelenk.store.records import LoadedRobot
 
-_PICTURES: dict[str, PictureFormat] = {SVG: "svg", PNG: "png"}
 _FORMATS = {"json": JSON, "csv": CSV, "npy": NPY, "joint_trajectory": JOINT_TRAJECTORY, "urscript": URSCRIPT}
 """Media types by their names in a query, which goes before `Accept`."""
 _OPTIONAL = {"prefer", "format"}
@@ -79,10 +78,10 @@ def find(context: Context, task_request: TaskRequest) -> Response:
 
 def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runner, limits: Limits) -> Handler:
     """Return the handler of an endpoint's requests."""
-    further = {NPY: endpoint.npy_answer, CSV: endpoint.table, SVG: endpoint.picture, PNG: endpoint.picture}
+    further = {NPY: endpoint.npy_answer, CSV: endpoint.table, **dict.fromkeys(PICTURES, endpoint.picture)}
     offered = (JSON, *(media_type for media_type, content in further.items() if content), *endpoint.programs)
     if endpoint.is_picture:
-        offered = (SVG, PNG, JSON)
+        offered = (*PICTURES, JSON)
     accepted = (JSON,) if endpoint.options is None else (JSON, NPY)
     is_job = endpoint.is_job
 
@@ -106,9 +105,11 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
             applied = {} if is_job else PREFERENCE_APPLIED
             return await submitted(runner, endpoint.name, request, planned, pieces, applied)
         if request.length <= INLINE_BYTES and pool_client.may_compute_here:
-            call, found = _parsed(endpoint, query, b"".join(pieces), is_npy), operation(endpoint.name)
-            if not (wanted in _PICTURES or _names_scene(call) or found.is_heavy(call)):
-                robot = await _prepared(found, pool_client, request, call, task_request)
+            call, found = _parsed(endpoint, query, pieces, is_npy), operation(endpoint.name)
+            if not (wanted in PICTURES or _names_scene(call) or found.is_heavy(call)):
+                robot = _at_hand(found, pool_client, request, call)
+                if robot is None and found.needs_robot:
+                    robot = await _prepared(found, pool_client, request, call, task_request)
                 began = time.thread_time()
                 outcome = found.run(None, call, limits) if robot is None else found.attempt(robot, call, limits)
                 took_long = pool_client.note_computation(began)
@@ -131,16 +132,20 @@ def _format(query: str, wanted: str) -> str:
     return YAML if name == "joint_trajectory" and wanted == YAML else _FORMATS[name]
 
 
+def _at_hand(found: Operation, pool_client: PoolClient, request: BoundedRequest, call: Any) -> LoadedRobot | None:
+    """Return the robot of a request, if it is in memory with all that a quick answer needs of it."""
+    robot = pool_client.loaded(request.scope["path_params"]["robot"]) if found.needs_robot else None
+    return robot if robot and (found.warm_up is None or found.warm_up.is_known(robot, call)) else None
+
+
 async def _prepared(
     found: Operation,
     pool_client: PoolClient,
     request: BoundedRequest,
     call: Any,
     task_request: Callable[[], TaskRequest],
-) -> LoadedRobot | None:
-    """Load the robot of a request, if it has one; a worker first finds what a quick answer needs of it."""
-    if not isinstance(found.endpoint, RobotEndpoint):
-        return None
+) -> LoadedRobot:
+    """Load the robot of a request; a worker first finds what a quick answer needs of it."""
     robot = await pool_client.resident(request, request.path_params["robot"])
     if found.warm_up is not None and not found.warm_up.is_known(robot, call):
         content = await pool_client.content(request, find, task_request())
@@ -174,7 +179,7 @@ def _robot_and_call(
 ) -> tuple[LoadedRobot | None, Any]:
     """Return the robot of a request and its call, which has the scene itself where it named a stored one."""
     robot = context.library.get(task_request.robot) if task_request.robot else None
-    call = _parsed(endpoint, task_request.query, task_request.body, task_request.npy)
+    call = _parsed(endpoint, task_request.query, task_request.pieces, task_request.npy)
     if endpoint.robot_field and (name := getattr(call, endpoint.robot_field)) is not None:
         robot = context.library.get(name)
     if _names_scene(call):
@@ -186,34 +191,41 @@ def _robot_and_call(
 
 
 def _names_scene(call: Any) -> bool:
-    """Check whether a call names a stored scene; a worker answers it, because scenes are read from disk."""
-    return isinstance(getattr(call, "scene", None), str)
+    """Check whether a call names a stored scene; a worker answers it, because scenes are read from disk.
+
+    Asking a call for a field that it does not have takes as long as its kernel.
+    """
+    return "scene" in type(call).__pydantic_fields__ and isinstance(call.scene, str)
 
 
-def _parsed(endpoint: Endpoint[Any, Any], query: str, body: bytes, npy: bool) -> Any:
-    model = cast(Any, endpoint.request)
+def _parsed(endpoint: Endpoint[Any, Any], query: str, pieces: Iterable[bytes | pickle.PickleBuffer], npy: bool) -> Any:
+    model: Any = endpoint.request
     if endpoint.options is not None and npy:
         options = read_query(cast(Any, endpoint.options), QueryParams(query))
         given = options.model_fields_set | {endpoint.batch}
-        return model.model_construct(given, **{**dict(options), endpoint.batch: read_npy(body)})
+        return model.model_construct(given, **{**dict(options), endpoint.batch: read_npy(bytearray().join(pieces))})
     if query:
         why = "they are for an npy body; a JSON call has them as fields"
         raise InvalidField(
             "query", "this call has its parameters as fields of the body" if endpoint.options is None else why
         )
-    return read_json(model, body)
+    return read_json(model, b"".join(pieces))
+
+
+_counts = lru_cache(RequestCounts)
+"""Most batches have one of a few sizes."""
 
 
 def _answered(endpoint: Endpoint[Any, Any], call: Any, outcome: Outcome, wanted: str) -> Response:
     """Build the response, and set what the metrics count of it."""
     batch = len(getattr(call, endpoint.batch)) if endpoint.batch else 0
-    REQUEST_COUNTS.set(RequestCounts(batch) if outcome.solved is None else outcome.solved(batch))
+    REQUEST_COUNTS.set(_counts(batch) if outcome.solved is None else outcome.solved(batch))
     if wanted == JSON:
         return JsonResponse(outcome.content())
-    if wanted in _PICTURES:
+    if wanted in PICTURES:
         if outcome.picture is None:
             raise InvalidField("Accept", "this answer cannot be drawn: leave the header out for JSON")
-        return Response(outcome.picture(_PICTURES[wanted]), media_type=wanted)
+        return Response(outcome.picture(PICTURES[wanted]), media_type=wanted)
     if wanted in outcome.programs:
         return Response(outcome.programs[wanted](), media_type=wanted)
     if outcome.array is None:

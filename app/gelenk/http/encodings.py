@@ -3,9 +3,10 @@
 import re
 
 
-def accepts_gzip(accepted: str) -> bool:
-    """Whether an `Accept-Encoding` names gzip, with a weight above zero (RFC 9110)."""
-    return re.search(r"(^|,)gzip(;q=(?!0(\.0*)?(,|$))|,|$)", re.sub(r"\s", "", accepted.lower())) is not None
+def accepts(accepted: str, coding: str) -> bool:
+    """Whether an `Accept-Encoding` names a coding such as gzip, with a weight above zero (RFC 9110)."""
+    named = rf"(^|,){coding}(;q=(?!0(\.0*)?(,|$))|,|$)"
+    return re.search(named, re.sub(r"\s", "", accepted.lower())) is not None
 
 
 def is_known(etag: str, if_none_match: str) -> bool:

@@ -21,7 +21,7 @@ from starlette.responses import FileResponse, HTMLResponse, RedirectResponse, Re
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
-from gelenk.http.encodings import accepts_gzip
+from gelenk.http.encodings import accepts
 from gelenk.package_data import handbook, studio
 
 STUDIO = studio()
@@ -48,7 +48,7 @@ _KEPT = {
     "X-Content-Type-Options": "nosniff",
 }
 _FOREVER = "public, max-age=31536000, immutable"
-_NAMED_BY_CONTENT = re.compile(r"(?:chunks|fonts)/.+-[A-Z0-9]{8}\.[a-z0-9]+")
+_NAMED_BY_CONTENT = re.compile(r"(?:chunks|fonts|thumbnails)/.+-[A-Z0-9]{8}\.[a-z0-9]+")
 _OF_WHOLE_FILES = frozenset({"accept-ranges", "content-length", "etag"})
 _COMPRESSED = frozenset({".css", ".html", ".js", ".json", ".svg", ".txt", ".xml"})
 _BUNDLES = Path(fastapi_offline.__file__).parent / "static"
@@ -109,21 +109,30 @@ class _PageFiles(StaticFiles):
         response.headers["Vary"] = "Accept-Encoding"
         asked = Headers(scope=scope)
         is_whole = isinstance(response, FileResponse) and response.status_code == 200 and "range" not in asked
-        if is_whole and accepts_gzip(",".join(asked.getlist("accept-encoding"))):
-            return await asyncio.to_thread(_compressed, cast(FileResponse, response))
+        if is_whole:
+            accepted = ",".join(asked.getlist("accept-encoding"))
+            return await asyncio.to_thread(_compressed, cast(FileResponse, response), accepted)
         return response
 
 
-def _compressed(response: FileResponse) -> Response:
-    """Return the same file compressed; the tag becomes a weak one, which names both forms."""
+def _compressed(response: FileResponse, accepted: str) -> Response:
+    """Return the same file compressed as the client takes it; the tag becomes a weak one, which names all forms."""
     tag = response.headers["etag"]
-    kept = {name: value for name, value in response.headers.items() if name not in _OF_WHOLE_FILES}
-    return Response(_packed(str(response.path), tag), headers={**kept, "content-encoding": "gzip", "etag": f"W/{tag}"})
+    for coding in ("br", "gzip"):
+        packed = _packed(str(response.path), coding, tag) if accepts(accepted, coding) else None
+        if packed is not None:
+            kept = {name: value for name, value in response.headers.items() if name not in _OF_WHOLE_FILES}
+            return Response(packed, headers={**kept, "content-encoding": coding, "etag": f"W/{tag}"})
+    return response
 
 
-@lru_cache(maxsize=128)
-def _packed(path: str, tag: str) -> bytes:  # noqa: ARG001 - a file that has changed has another one
-    return gzip.compress(Path(path).read_bytes(), mtime=0)
+@lru_cache(maxsize=256)
+def _packed(path: str, coding: str, tag: str) -> bytes | None:  # noqa: ARG001 - a file that has changed has another one
+    """Return a file by gzip, or as the studio's build left it beside the file by Brotli; None where there is none."""
+    if coding == "gzip":
+        return gzip.compress(Path(path).read_bytes(), mtime=0)
+    built = Path(f"{path}.br")
+    return built.read_bytes() if built.is_file() else None
 
 
 def install(app: FastAPI, frame_ancestors: Sequence[str] = ()) -> None:

@@ -1,4 +1,4 @@
-"""Endpoints of the course's pictures: their list, and each as SVG or PNG; and the DH parameters on two links."""
+"""Endpoints of the course's pictures: their list, and each as SVG, PNG or PDF; and the DH parameters on two links."""
 
 from typing import Annotated, Any
 
@@ -14,7 +14,7 @@ from gelenk.contract.endpoints import BY_NAME
 from gelenk.errors import UnknownPicture
 from gelenk.http.dispatch import answer
 from gelenk.http.messages.openapi import PLANAR_2R, documentation
-from gelenk.http.messages.payloads import PNG, SVG, BoundedRequest, JsonResponse, preferred_type, read_query
+from gelenk.http.messages.payloads import PICTURES, BoundedRequest, JsonResponse, preferred_type, read_query
 from gelenk.http.messages.routes import DocumentedRoute
 from gelenk.http.workers.pool_client import PoolClient
 from gelenk.http.workers.task import Context, TaskRequest, buffers
@@ -39,7 +39,7 @@ def pictures_router(pool_client: PoolClient) -> APIRouter:
 
     @router.api_route(**documentation("get_picture"))
     async def get_picture(request: Request, picture: PicturePath, language: LanguageQuery = "en") -> Response:
-        wanted = preferred_type(",".join(request.headers.getlist("Accept")), (SVG, PNG))
+        wanted = preferred_type(",".join(request.headers.getlist("Accept")), (*PICTURES,))
         if picture in CALCULATED:
             return await pool_client.answer(request, answer, _example(CALCULATED[picture][0], language, wanted))
         if picture not in TITLES:
@@ -74,7 +74,7 @@ def _drawn(_: Context, task_request: TaskRequest) -> Response:
     query, wanted = QueryParams(task_request.query), task_request.wanted
     with language("de" if query["language"] == "de" else "en"):
         figure = gallery_figure(query["picture"])
-    return Response(as_bytes(figure, "png" if wanted == PNG else "svg"), media_type=wanted)
+    return Response(as_bytes(figure, PICTURES[wanted]), media_type=wanted)
 
 
 def picture_route(pool_client: PoolClient, max_body_bytes: int) -> DocumentedRoute:
@@ -90,7 +90,7 @@ def picture_route(pool_client: PoolClient, max_body_bytes: int) -> DocumentedRou
     async def draw(request: BoundedRequest) -> Response:
         chosen = read_query(ClassicPicture, QueryParams(request.scope["query_string"].decode("latin-1")))
         body = orjson.dumps({**two_links(chosen.convention), "language": chosen.language})
-        wanted = request.preferred((SVG, PNG))
+        wanted = request.preferred((*PICTURES,))
         task_request = TaskRequest(buffers([body]), wanted=wanted, endpoint="dh_picture")
         return await pool_client.answer(request, answer, task_request)
 

@@ -10,9 +10,10 @@ import orjson
 from fastapi import APIRouter, Path, Response
 from starlette.datastructures import UploadFile
 
+from gelenk.collision.shapes.meshes import read_triangles
 from gelenk.contract.pose import MAX_MAGNITUDE
 from gelenk.contract.resources import SCENE_TYPES
-from gelenk.contract.scene import MAX_FILES, MAX_POINTS, NamedScene, Scene, SceneForm, SceneList, ScenePoints
+from gelenk.contract.scene import MAX_FILES, MAX_POINTS, NamedScene, Scene, SceneForm, SceneList, SceneMesh, ScenePoints
 from gelenk.errors import InvalidArray, InvalidField, TooLarge, UnknownMesh, quoted
 from gelenk.http.messages.npy import read_npy
 from gelenk.http.messages.openapi import documentation
@@ -129,6 +130,7 @@ class KeepScene:
         scene = read_json(NamedScene if self.name is None else Scene, text)
         scene.transforms()
         _check_points(scene, files)
+        _check_meshes(scene, files)
         if self.name is None:
             name = scene.name if isinstance(scene, NamedScene) else ""
             status = 201 if context.scenes.add(SceneUpload(name, scene, files, self.owner)) else 200
@@ -159,6 +161,12 @@ def _check_points(scene: Scene, files: dict[str, bytes]) -> None:
             raise InvalidField("files", f"{quoted(file)}: {shape}")
         if len(points) > MAX_POINTS:
             raise TooLarge(f"points in {quoted(file)}", len(points), MAX_POINTS)
+
+
+def _check_meshes(scene: Scene, files: dict[str, bytes]) -> None:
+    """Check that each mesh can be read, so that no later call stumbles over it; raises InvalidMesh."""
+    for file in {one.shape.file for one in scene.objects if isinstance(one.shape, SceneMesh)} & set(files):
+        read_triangles(file, files[file])
 
 
 def _scene_response(scenes: Scenes, name: str, status: int = 200, headers: dict[str, str] | None = None) -> Response:

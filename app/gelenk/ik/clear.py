@@ -1,6 +1,6 @@
 """Solutions that touch nothing: of an arm's branches the nearest to the seed, of a self-motion the nearest found."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -12,14 +12,18 @@ from gelenk.ik.analytic import joined
 from gelenk.ik.search.bounds import target_rows
 from gelenk.ik.search.null_space import settled
 from gelenk.ik.search.problem import TargetProblem
-from gelenk.ik.search.restarts import NEAR, solutions_around
+from gelenk.ik.search.restarts import solutions_by_distance
 from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS, chunk_of, in_pieces
 from gelenk.ik.verdict.fixed import narrowed, widened
-from gelenk.ik.verdict.judge import assembled, judged
-from gelenk.ik.verdict.result import InverseKinematics, UnsolvedTarget, firsts_of
+from gelenk.ik.verdict.judge import assembled, certify, judged
+from gelenk.ik.verdict.result import COLUMNS, InverseKinematics, UnsolvedTarget, firsts_of
 from gelenk.robot.arrays import Array, Flags, Indices
 
-_GROWTH = 3
+NEAR = 8
+"""Starts around a solution in contact; the others are all over the ranges of the joints."""
+_NEAR_SEED = 1.0
+"""Distance of a solution from its seed in each joint up to which others around it come first, [rad or m]."""
+_GROWTH = 2
 """Each round of starts ends at so many times the number at which the last did."""
 _PIECE = 1024
 """Configurations that one thread judges at a time, in some milliseconds."""
@@ -35,18 +39,22 @@ Answered: TypeAlias = Callable[[TargetProblem], InverseKinematics]
 
 def clear_answer(problem: TargetProblem, cell: Cell, answered: Answered) -> InverseKinematics:
     """Solve a problem by solutions that touch nothing; where all are requested, tell those in contact apart instead."""
-    options = problem.options
-    found = answered(replace(problem, options=replace(options, objective=None)))
+    problem = replace(problem, is_draft=True)
+    objective = problem.options.objective
+    plain = problem if objective is None else replace(problem, options=replace(problem.options, objective=None))
+    found = answered(plain)
     touching = _touching(problem, cell, found.qs)
-    if options.every:
-        return _told_apart(problem, cell, found, touching)
-    left = found.owners[touching]
-    if len(left):
-        rest = _others(problem.taken(left), cell, found.qs[touching], answered)
-        found = _merged(_with_rows(found, ~touching), left, rest)
-    if options.objective is not None:
-        found = _settled(problem, cell, found)
-    return replace(found, touching=np.zeros(len(found.qs), dtype=bool))
+    if problem.options.every:
+        found = _told_apart(problem, cell, found, touching)
+    else:
+        if (rows := np.flatnonzero(touching)).size:
+            rest = _others(problem.taken(found.owners[rows]), cell, found.qs[rows], answered)
+            found = _put(found, rows, rest)
+        if objective is not None:
+            found = _settled(problem, cell, found)
+        found.touching = np.zeros(len(found.qs), dtype=bool)
+    certify(problem, found)
+    return found
 
 
 def _touching(problem: TargetProblem, cell: Cell, qs: Array) -> Flags:
@@ -57,6 +65,22 @@ def _touching(problem: TargetProblem, cell: Cell, qs: Array) -> Flags:
 
     in_pieces(judge, len(qs), _PIECE, small=False)
     return touching
+
+
+def _put(found: InverseKinematics, rows: Indices, rest: InverseKinematics) -> InverseKinematics:
+    """Put other solutions into some rows of an answer with one for each target, without the rows of those unsolved."""
+    is_solved = np.diff(rest.firsts) > 0
+    for name in COLUMNS:
+        column = getattr(found, name).copy()
+        column[rows[is_solved]] = getattr(rest, name)
+        setattr(found, name, column)
+    found.form, found.is_counted = found.form or rest.form, found.is_counted or rest.is_counted
+    if is_solved.all():
+        return found
+    left, keep = found.owners[rows], np.ones(len(found.qs), dtype=bool)
+    keep[rows[~is_solved]] = False
+    failures = {int(left[k]): failure for k, failure in rest.failures.items()}
+    return replace(_with_rows(found, keep), failures=dict(sorted({**found.failures, **failures}.items())))
 
 
 def _with_rows(found: InverseKinematics, rows: Flags) -> InverseKinematics:
@@ -83,49 +107,54 @@ def _nothing(problem: TargetProblem, qs: Array) -> InverseKinematics:
 def _of_branches(problem: TargetProblem, cell: Cell, qs: Array, answered: Answered) -> InverseKinematics:
     """Return the nearest free one to the seed of all branches of each target; see `_others`."""
     every = answered(replace(problem, options=replace(problem.options, every=True)))
-    free = np.flatnonzero(~_touching(problem, cell, every.qs))
+    free = cell.first_free(widened(problem.chain, every.qs)[1], np.arange(len(every.qs)), every.firsts)
     picked = np.zeros(len(every.qs), dtype=bool)
-    picked[free[np.unique(every.owners[free], return_index=True)[1]]] = True
+    picked[free[free >= 0]] = True
     tried = [some if len(some) else q[None] for some, q in zip(np.split(every.qs, every.firsts[1:-1]), qs, strict=True)]
     one = replace(_with_rows(every, picked), failures={}, every=False, doubts={})
-    return _explained(problem, cell, one, tried, every.complete)
+    return _explained(problem, cell, one, tried, proofs=every.complete)
 
 
 def _of_self_motion(problem: TargetProblem, cell: Cell, qs: Array) -> InverseKinematics:
     """Return the nearest free solution to the seed that the first successful round of starts leads to; see `_others`.
 
-    The first round starts around `qs`, each other one all over the ranges of the joints.
+    The first round starts around those of `qs` that are near their seed, each other one all over the joints' ranges.
     """
+    chain, targets, seeds = problem.chain, target_rows(problem.targets), problem.seeds
     best, found, starts = qs.copy(), np.zeros(len(qs), dtype=bool), np.zeros(len(qs), dtype=np.int64)
-    tried = [[q[None]] for q in qs]
-    most = (problem.options.max_iterations or MAX_ITERATIONS) // ITERATIONS_PER_START
+    tried, counts = dict[int, list[Array]](), np.ones(len(qs), dtype=np.int64)
+    is_near = np.abs(qs - seeds).max(axis=1) <= _NEAR_SEED
+    most = NEAR + (problem.options.max_iterations or MAX_ITERATIONS) // ITERATIONS_PER_START
+
+    def look(left: Indices, first: int, last: int) -> None:
+        starting = targets[left], qs[left], seeds[left] if len(seeds) > 1 else seeds, first, NEAR
+        ends, order, firsts = solutions_by_distance(chain.flat, problem.goal(last), *starting)
+        rows = cell.first_free(widened(chain, ends)[1], order, firsts)
+        is_free = rows >= 0
+        solved = left[is_free]
+        best[solved], found[solved], starts[solved] = ends[rows[is_free]], True, first
+        for k in np.flatnonzero(~is_free).tolist():
+            i, own = int(left[k]), order[firsts[k] : firsts[k + 1]]
+            if counts[i] < _LOOKED_AT:
+                tried.setdefault(i, [qs[i : i + 1]]).append(ends[own[:_LOOKED_AT]])
+            counts[i] += len(own)
 
     def solve(part: slice) -> None:
-        left, first = np.arange(part.start, part.stop), 1
-        while len(left) and first < most and not problem.is_over:
-            own, last = problem.taken(left), min(max(NEAR + 1, _GROWTH * first), most)
-            starting = target_rows(own.targets), qs[left], own.seeds, first
-            some, counts = solutions_around(own.chain.flat, own.goal(last), *starting)
-            owners = np.repeat(np.arange(len(left)), counts)
-            solved, rows = _nearest_free(own, owners, some, _touching(own, cell, some))
-            best[left[solved]], found[left[solved]], starts[left[solved]] = some[rows], True, first
-            each = np.split(some, np.cumsum(counts)[:-1])
-            for k in set(range(len(left))).difference(solved.tolist()):
-                tried[left[k]].append(each[k])
-            left, first = np.delete(left, solved), last
+        targets = np.arange(part.start, part.stop)
+        left, first, last = targets[is_near[part]], 1, NEAR + 1
+        while first < most and not problem.is_over and not found[part].all():
+            if len(left):
+                look(left, first, last)
+            left, first, last = targets[~found[part]], last, min(_GROWTH * last, most)
 
-    in_pieces(solve, len(qs), chunk_of(problem.chain), problem.deadline is not None)
+    in_pieces(solve, len(qs), chunk_of(chain), problem.deadline is not None)
     one = assembled(len(qs), np.arange(len(qs)), best, judged(problem, best, found), {"restarts": starts})
-    return _explained(problem, cell, one, [np.concatenate(some) for some in tried])
+    some = {i: np.concatenate(tried.get(i, [qs[i : i + 1]])) for i in _unsolved(one)}
+    return _explained(problem, cell, one, some, counts) if some else one
 
 
-def _nearest_free(problem: TargetProblem, owners: Indices, qs: Array, touching: Flags) -> tuple[Indices, Indices]:
-    """Return the targets with a free one among their solutions, and the row of that nearest to the seed."""
-    seeds = problem.seeds[owners] if len(problem.seeds) > 1 else problem.seeds
-    distances, free = np.square(qs - seeds).sum(axis=1), np.flatnonzero(~touching)
-    free = free[np.lexsort((distances[free], owners[free]))]
-    targets, rows = np.unique(owners[free], return_index=True)
-    return targets, free[rows]
+def _unsolved(answer: InverseKinematics) -> list[int]:
+    return np.flatnonzero(answer.firsts[1:] == answer.firsts[:-1]).tolist()
 
 
 def _told_apart(problem: TargetProblem, cell: Cell, found: InverseKinematics, touching: Flags) -> InverseKinematics:
@@ -139,7 +168,7 @@ def _told_apart(problem: TargetProblem, cell: Cell, found: InverseKinematics, to
         else:
             tried = [found.qs[found.firsts[i] : found.firsts[i + 1]] for i in left.tolist()]
             proofs = found.complete and [found.complete[i] for i in left.tolist()]
-            rest = _explained(own, cell, _nothing(own, qs), tried, proofs)
+            rest = _explained(own, cell, _nothing(own, qs), tried, proofs=proofs)
         found = _merged(found, left, rest)
         touching = _touching(problem, cell, found.qs)
     order = np.lexsort((touching, found.owners))
@@ -190,28 +219,31 @@ def _explained(
     problem: TargetProblem,
     cell: Cell,
     answer: InverseKinematics,
-    tried: list[Array],
+    tried: Sequence[Array] | Mapping[int, Array],
+    counts: Indices | None = None,
     proofs: list[bool] | None = None,
 ) -> InverseKinematics:
     """Add the verdict on targets without a free solution.
 
     Args:
-        tried: Solutions in contact of each target, at least one; shape (k, n) each.
+        tried: Solutions in contact of each such target, at least one; shape (k, n) each.
+        counts: How many there are, if `tried` has only some of them; shape (N,).
         proofs: Whether these are proved to be all there are.
     """
-    left = np.flatnonzero(np.diff(answer.firsts) == 0)
-    if not len(left):
+    left = _unsolved(answer)
+    if not left:
         return answer
     qs = np.concatenate([tried[i][:_LOOKED_AT] for i in left])
     owners = np.repeat(np.arange(len(left)), [len(tried[i][:_LOOKED_AT]) for i in left])
     nearest = cell.nearest(widened(problem.chain, qs)[1])
     order = np.lexsort((-nearest.clearances, owners))
     rows = order[np.unique(owners[order], return_index=True)[1]]
-    _, *errors = judged(problem.taken(left), qs[rows])
+    _, *errors = judged(problem.taken(np.array(left)), qs[rows])
     failures = {}
-    for k, i in enumerate(left.tolist()):
+    for k, i in enumerate(left):
         row, is_all = int(rows[k]), proofs is not None and proofs[i]
-        reason = f"{_count(len(tried[i]), is_all)}: {cell.contact(int(nearest.pairs[row]), nearest.distances[row])}"
+        number = len(tried[i]) if counts is None else int(counts[i])
+        reason = f"{_count(number, is_all)}: {cell.contact(int(nearest.pairs[row]), nearest.distances[row])}"
         late = problem.is_over and not is_all
         failures[i] = UnsolvedTarget(
             "in_collision", reason, qs[row], float(errors[0][k]), float(errors[1][k]), is_late=late

@@ -14,8 +14,7 @@ from gelenk.ik.clear import clear_answer
 from gelenk.ik.closed.closed_form import ClosedForm, closed_form, elimination, is_looked_at
 from gelenk.ik.count.continuation import Continuation, counted, system_of
 from gelenk.ik.count.families import families_of
-from gelenk.ik.search import kernels
-from gelenk.ik.search.bounds import target_rows
+from gelenk.ik.quick import quick_search
 from gelenk.ik.search.descent import descend
 from gelenk.ik.search.null_space import settled
 from gelenk.ik.search.problem import DescentRule, Options, TargetProblem
@@ -155,25 +154,18 @@ def solve_quickly(problem: TargetProblem, starts: int, *, by_form: bool = False)
 
     With `by_form`, only solutions of a closed form count.
     """
-    chain, count = problem.chain, len(problem)
-    if not is_looked_at(chain, problem.task):
+    chain, options = problem.chain, problem.options
+    if not is_looked_at(chain, options.task):
         return None
-    form = closed_form(chain, problem.task)
+    form = closed_form(chain, options.task)
     if form is not None:
         found = analytic.nearest(problem, form)
-        return found if len(found.qs) == count else None
+        return found if len(found.qs) == len(problem) else None
     if by_form:
         return None
-    rows = target_rows(problem.targets)
-    qs, winners, iterations, _ = kernels.search(chain.flat, problem.goal(starts), rows, problem.seeds, all_or_none=True)
-    # For a few numbers, lists are faster than arrays.
-    if -1 in winners.tolist():
-        return None
-    judgement = judged(problem, qs)
-    if False in judgement[0].tolist():
-        return None
-    none = np.zeros(count, dtype=np.int64)
-    return InverseKinematics(qs, *judgement[1:], iterations, winners, none - 1, none, np.arange(count + 1))
+    respect_limits, random_seed = options.respect_limits, options.random_seed
+    quick = quick_search(problem.robot, chain, options.task, problem.tolerances, respect_limits, starts, random_seed)
+    return quick(problem.targets, problem.seeds)
 
 
 def _one(problem: TargetProblem) -> InverseKinematics:

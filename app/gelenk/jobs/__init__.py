@@ -5,8 +5,8 @@ combines their results. A part depends on its argument alone, so parts may run a
 Finished parts are stored on disk, and a job that resumes after a restart does not compute them again.
 
 - `job`: the record of a job; which processes of the service are alive.
-- `store`: the jobs of all processes of the service, in a `database` and a folder for each job; `parts`: the finished
-  parts of a job.
+- `store`: the jobs of all processes of the service, in a `database` and a folder for each job, within `limits`;
+  `parts`: the finished parts of a job.
 - `workers`: computes parts in the worker pool.
 - `cluster`: computes parts on a Ray cluster; `driver`: the only process that talks to Ray.
 - `run`: a job while it runs; `runner`: accepts, runs, resumes and cancels jobs.

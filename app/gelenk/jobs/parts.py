@@ -115,14 +115,15 @@ def packed(**arrays: Any) -> bytes:
     return b"".join(pieces)
 
 
-def unpacked(content: bytes) -> dict[str, NDArray[Any]]:
-    """Return the arrays packed by `packed`, bit for bit; a number becomes an array of shape ()."""
+def unpacked(content: bytes, *wanted: str) -> dict[str, NDArray[Any]]:
+    """Return the arrays packed by `packed`, or those of these names, bit for bit; a number has the shape ()."""
     start = _ALIGNED + int.from_bytes(content[:_ALIGNED], "little")
     arrays = {}
-    # A copy, because arrays over bytes are read-only: kernels would be compiled for that type as well.
-    memory = bytearray(content)
-    for name, kind, shape in orjson.loads(memory[_ALIGNED:start]):
+    for name, kind, shape in orjson.loads(content[_ALIGNED:start]):
         start += -start % _ALIGNED
-        array = np.frombuffer(memory, kind, math.prod(shape), start).reshape(shape)
-        arrays[name], start = array, start + array.nbytes
+        array = np.frombuffer(content, kind, math.prod(shape), start).reshape(shape)
+        start += array.nbytes
+        if not wanted or name in wanted:
+            # A copy, because arrays over bytes are read-only: kernels would be compiled for that type as well.
+            arrays[name] = array.copy()
     return arrays

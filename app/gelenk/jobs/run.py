@@ -111,9 +111,14 @@ class Run:
 
     def _submit(self, function: Callable[[_Argument], bytes], argument: _Argument, name: str) -> "Future[bytes | int]":
         """Submit a part; processes of this machine write its result to disk and return only the size."""
-        if self.executor is self.workers:
+        if self.is_here:
             return self.workers.submit(computed, (function, argument, self.parts, name), self.until)
         return self.executor.submit(function, argument, self.until)
+
+    @property
+    def is_here(self) -> bool:
+        """Whether processes of this machine compute the parts, which can read the job's files."""
+        return self.executor is self.workers
 
     def apart(self, function: Callable[[_Argument], _Result], argument: _Argument) -> _Result:
         """Run a module-level function in a process of this machine, and return its result.

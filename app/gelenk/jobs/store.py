@@ -14,13 +14,14 @@ import uuid
 from collections import Counter
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import IO, Any
 
 from gelenk.errors import JobExists, JobInterrupted, StorageFailed, TooManyJobs, UnknownJob
 from gelenk.jobs.database import NAMED, Database, import_earlier
 from gelenk.jobs.job import JobRecord, Owners
+from gelenk.jobs.limits import JobLimits
 from gelenk.jobs.parts import Parts
 from gelenk.jobs.robot_files import robot_digest
 from gelenk.store import folders
@@ -30,6 +31,7 @@ _OWNERS, _DATABASE = ".owners", ".database"
 _ALL = "SELECT * FROM jobs ORDER BY number"
 _FINISHED = "SELECT * FROM jobs WHERE finished IS NOT NULL ORDER BY number"
 _UNFINISHED = "SELECT * FROM jobs WHERE finished IS NULL ORDER BY number"
+_OWN = "SELECT * FROM jobs WHERE client = ? AND number < ? ORDER BY number DESC"
 _REQUEST = "request"
 _SURE_SECONDS = 24 * 3600.0
 """How long a job must have been too old, by the monotonic clock, before it is removed for its age, [s]."""
@@ -39,24 +41,6 @@ _PAUSE = 5
 """Delay after which a client should retry if too many jobs are unfinished, [s]."""
 
 logger = logging.getLogger("gelenk")
-
-
-@dataclass(frozen=True, slots=True)
-class JobLimits:
-    """Limits on the jobs of a store.
-
-    Attributes:
-        kept: Number of jobs, including finished ones; the oldest finished ones are removed first.
-        kept_bytes, job_bytes: Sizes of the folders of all jobs, and of the finished parts of one job, [bytes].
-        unfinished: Number of unfinished jobs of one client; see `JobStore.check_room` for several clients.
-        kept_seconds: How long a finished job is kept, [s].
-    """
-
-    kept: int = 100
-    kept_bytes: int = 2 * 1024**3
-    unfinished: int = 16
-    job_bytes: int = 1024**3
-    kept_seconds: float = 30 * 24 * 3600.0
 
 
 class JobStore:
@@ -151,6 +135,10 @@ class JobStore:
     def get(self, job_id: str) -> JobRecord:
         """Return the current record of a job; raises UnknownJob if no job has this id."""
         return self._as_seen(self._same(job_id))
+
+    def newest(self, client: str, limit: int, before: int) -> list[JobRecord]:
+        """Return the latest jobs of a client whose `number` is below a number, the newest first."""
+        return [self._as_seen(job) for job in self._jobs(_OWN, client, str(before))[:limit]]
 
     def start(self, job: JobRecord) -> JobRecord:
         """Record the start of a job; see `change`."""

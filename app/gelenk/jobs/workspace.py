@@ -88,7 +88,7 @@ def _dexterity(run: Run, request: WorkspaceWork, found: Workspace) -> Array:
 
     count = -(-len(centres) // size)
     run.map(_VOXELS, _shares, part, count, (_SAMPLING_SHARE, _DONE), size)
-    return np.concatenate([np.empty(0), *(unpacked(part)["shares"] for part in run.parts.of(_VOXELS, count))])
+    return np.concatenate([np.empty(0), *(unpacked(part, "shares")["shares"] for part in run.parts.of(_VOXELS, count))])
 
 
 def _sampled(job: tuple[SamplingPlan, int]) -> bytes:

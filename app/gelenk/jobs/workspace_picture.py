@@ -8,7 +8,7 @@ import numpy as np
 import orjson
 
 
-def picture(job: tuple[Path, Path, Literal["svg", "png"]]) -> bytes:
+def picture(job: tuple[Path, Path, Literal["svg", "png", "pdf"]]) -> bytes:
     """Draw the result of a job, given as paths of array and summary and a format; for a process of its own."""
     from gelenk.plots.workspace import Picture, picture_bytes  # noqa: PLC0415 - takes a third of a second, and seldom needed
 

@@ -15,7 +15,7 @@ from gelenk.collision.contact.kernels import (
     all_contacts,
     always_in_contact,
     first_contacts,
-    first_spheres,
+    first_free,
     nearest_pairs,
     pair_distances,
 )
@@ -29,16 +29,18 @@ from gelenk.dh.tables.convert import describe_dh
 from gelenk.ik.closed.closed_form import closed_form
 from gelenk.ik.closed.nearest_branch import nearest_branch
 from gelenk.ik.count.continuation import continuation
+from gelenk.ik.quick import quick_search
 from gelenk.ik.search.bounds import mid_range, target_rows
 from gelenk.ik.search.problem import TargetProblem
-from gelenk.ik.search.restarts import solutions_around
+from gelenk.ik.search.restarts import solutions_by_distance
 from gelenk.ik.search.search import search, start_of
 from gelenk.ik.solve import Options, inverse_kinematics
 from gelenk.ik.verdict.branches import all_branches
 from gelenk.kinematics.dynamics.mechanism import mechanism
 from gelenk.kinematics.dynamics.torques import torque_limits
-from gelenk.kinematics.judge.placements import relative_poses, walk_to
+from gelenk.kinematics.judge.judge import recomputed_poses
 from gelenk.kinematics.poses.forward import forward_kinematics
+from gelenk.kinematics.poses.quick import quick_pose
 from gelenk.kinematics.simd.kernels import chain_measures
 from gelenk.kinematics.velocity.jacobian import jacobians
 from gelenk.robot.arrays import Array
@@ -51,6 +53,7 @@ from gelenk.robot.notations import (
     rotations_from_quaternions_xyzw,
     rotations_from_vectors,
     rotations_from_zyz,
+    turn_by_quaternions_xyzw,
     vectors_from_rotations,
 )
 from gelenk.robot.poses import Poses
@@ -91,14 +94,16 @@ def basics() -> None:
     """Run the kernels that most requests and all `PARTS` need: poses, Jacobians, notations, iterative methods."""
     robot, chain, qs = _small_arm()
     poses = forward_kinematics(robot, chain, qs).poses
+    quick_pose(robot, chain)(qs[0].tolist())
     jacobians(robot, chain, qs)
     inverse_kinematics(robot, chain, poses, qs, Options(method="damped_least_squares"))
     Rs = poses.rotations
-    rotations_from_quaternions_xyzw(quaternions_xyzw_from_rotations(Rs))
+    quaternions = quaternions_xyzw_from_rotations(Rs)
+    turn_by_quaternions_xyzw(quaternions, rotations_from_quaternions_xyzw(quaternions))
     rotations_from_vectors(vectors_from_rotations(Rs))
     rotations_from_zyz(np.zeros((1, 3)))
     chain_measures(chain.flat, qs, np.arange(3))
-    relative_poses(walk_to(robot, chain.base_frame), walk_to(robot, chain.tip_frame), qs)
+    recomputed_poses(robot, chain, qs)
 
 
 def _arm(rows: Sequence[tuple[float, float, float, float]]) -> tuple[RobotModel, Chain]:
@@ -108,6 +113,7 @@ def _arm(rows: Sequence[tuple[float, float, float, float]]) -> tuple[RobotModel,
     return robot, robot.chain(None, None)
 
 
+@cache
 def _small_arm() -> tuple[RobotModel, Chain, Array]:
     """Example robot with three joints, its chain, and a configuration; shape (1, 3), [rad]."""
     robot, chain = _arm([(0.3, 1.0, 0.1, 0.5)] * 3)
@@ -121,14 +127,16 @@ def _searches() -> None:
         poses = jacobians(robot, chain, qs, representation=representation, derivatives=True).poses
     problem = TargetProblem(robot, chain, poses, qs, Options(most=1))
     search(problem, max_iterations=100)
-    solutions_around(chain.flat, problem.goal(2), target_rows(poses), qs, qs, 1)
+    quick_search(robot, chain, problem.task, problem.tolerances, True, 1, 0)(poses, qs)
+    solutions_by_distance(chain.flat, problem.goal(2), target_rows(poses), qs, qs, 0, 1)
     all_branches(problem, 0)
     start_of(problem, 0, 1)
     continuation(_six_joints()[1])
 
 
+@cache
 def _six_joints() -> tuple[RobotModel, Chain]:
-    """Example arm that needs continuation: three parallel axes, the others skew."""
+    """Example arm that needs continuation: three parallel axes, the others skew; once, as recognising it takes time."""
     return _arm([(0.3, 1.0 if i > 2 else 0.0, 0.1, 0.5) for i in range(1, 7)])
 
 
@@ -183,7 +191,7 @@ def _contacts() -> None:
     scene = Obstacle("held", held, chain.tip_frame), Obstacle("near", near)
     world = build_world(robot, chain, RobotBodies((), (), ()), scene).flat
     first_contacts(world, qs)
-    first_spheres(world, qs)
+    first_free(world, qs, *np.arange(2)[:, None])
     nearest_pairs(world, qs)
     pair_distances(world, qs, np.zeros(1, dtype=np.int64))
     all_contacts(world, qs[0])

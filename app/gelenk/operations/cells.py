@@ -15,7 +15,7 @@ from gelenk.collision.scene import Obstacle
 from gelenk.contract.collisions import CollisionRequest
 from gelenk.contract.scene import InCell
 from gelenk.errors import InvalidField, listed, quoted
-from gelenk.operations.robot_bodies import bodies_of, read_bodies, read_body
+from gelenk.operations.robot_bodies import array_text, bodies_of, read_bodies, read_body
 from gelenk.operations.scene_objects import obstacles_of
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
@@ -60,7 +60,7 @@ class CellBodies:
 
     def to_bytes(self) -> bytes:
         """Return what `read_cell_bodies` reads."""
-        return orjson.dumps(self, default=lambda one: one.tolist() if isinstance(one, np.ndarray) else sorted(one))
+        return orjson.dumps(self, default=lambda one: array_text(one) if isinstance(one, np.ndarray) else sorted(one))
 
 
 def cell_of(loaded: LoadedRobot, chain: Chain, call: InCell) -> tuple[Cell, list[str]] | None:

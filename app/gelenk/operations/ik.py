@@ -1,7 +1,8 @@
 """Inverse kinematics of a robot."""
 
-from collections import Counter
 from typing import Any
+
+import numpy as np
 
 from gelenk.collision.cell import Cell
 from gelenk.contract.ik import MAX_STEPWISE, MAX_TARGETS, InverseRequest
@@ -102,6 +103,6 @@ def _outcome(
         content,
         array if has_table(call) else None,
         solved=lambda targets: RequestCounts(
-            targets, Counter(result.statuses), len(result.qs), int(result.iterations.sum())
+            targets, result.verdicts, len(result.qs), int(np.add.reduce(result.iterations))
         ),
     )

@@ -62,13 +62,13 @@ def to_json(
 
     Of a cell `about` has the warnings, and the certificate.
     """
-    return {
-        **head(chain),
-        "task": task_of(call).directions,
-        "closed_form": closed_form,
-        **({} if about is None else dict(zip(("warnings", "certificate"), about, strict=True))),
-        "results": results,
-    }
+    answer = head(chain)
+    answer["task"] = task_of(call).directions
+    answer["closed_form"] = closed_form
+    if about is not None:
+        answer["warnings"], answer["certificate"] = about
+    answer["results"] = results
+    return answer
 
 
 def results_to_json(

@@ -1,8 +1,8 @@
 """Converts an inverse kinematics request for the core; checks its fields against each other and the chain."""
 
-from dataclasses import dataclass
 from functools import lru_cache
-from typing import cast
+from operator import attrgetter
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -19,14 +19,17 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import MAX_MAGNITUDE, configurations, one_configuration
 from gelenk.robot.robot import RobotModel
 
+_TOLERANCES = {"position_tolerance", "orientation_tolerance"}
+_PLAIN = {"targets", "seeds", "base_frame", "tip_frame", "respect_limits", "random_seed", "pose_format"} | _TOLERANCES
+"""Fields that go with any others: a call that sets no more, as most do, is not searched for what does not."""
+_VARIED = attrgetter("position_tolerance", "orientation_tolerance", "respect_limits", "random_seed")
 NUMBERS_OF_CONTACT = 9
 """Numbers about the contacts of a solution."""
 NUMBERS_OF_STEPS = 1000
 """What the worked solution of a target counts for in the size of an answer."""
 
 
-@dataclass(frozen=True, slots=True)
-class TargetLimits:
+class TargetLimits(NamedTuple):
     """Limits of one call; `stepwise` holds for targets that are followed or worked out step by step, in Python."""
 
     targets: int
@@ -38,12 +41,16 @@ def parse(
     robot: RobotModel, call: InverseRequest, bounds: TargetLimits, time_limit: float | None = None
 ) -> TargetProblem:
     """Return the problem to solve, within a time limit, [s], if given; raises InvalidInput or TooLarge."""
-    _check_options(call)
+    is_plain = call.model_fields_set <= _PLAIN
+    if not is_plain:
+        _check_options(call)
     chain = robot.chain(call.base_frame, call.tip_frame)
-    _check_fixed_joints(chain, call)
+    if not is_plain:
+        _check_fixed_joints(chain, call)
     targets = poses_from(call.targets, "targets", None if task_of(call).has_rotations else np.eye(3))
     _check_size(call, len(targets), len(chain), bounds)
-    return TargetProblem(robot, chain, targets, _seeds(chain, call, len(targets)), options_of(chain, call, time_limit))
+    options = _plain_options(*_VARIED(call)) if is_plain else options_of(chain, call, time_limit)
+    return TargetProblem(robot, chain, targets, _seeds(chain, call, len(targets)), options)
 
 
 def _seeds(chain: Chain, call: InverseRequest, count: int) -> Array:
@@ -58,6 +65,19 @@ def _seeds(chain: Chain, call: InverseRequest, count: int) -> Array:
             "seeds", f"{counted(len(seeds), 'entry')} for {counted(count, 'target')}: one for all of them or one each"
         )
     return seeds
+
+
+@lru_cache(maxsize=64)
+def _plain_options(
+    position_tolerance: float, orientation_tolerance: float, respect_limits: bool, random_seed: int
+) -> Options:
+    """Return the options of a plain call, which differ in nothing else: to build them takes longer than to look."""
+    return Options(
+        position_tolerance=position_tolerance,
+        orientation_tolerance=orientation_tolerance,
+        respect_limits=respect_limits,
+        random_seed=random_seed,
+    )
 
 
 def options_of(chain: Chain, call: InverseRequest, time_limit: float | None) -> Options:

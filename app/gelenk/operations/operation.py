@@ -14,7 +14,7 @@ from gelenk.store.records import LoadedRobot
 
 @dataclass(frozen=True, slots=True)
 class Operation:
-    """An endpoint with the functions of its module; see `gelenk.operations`."""
+    """An endpoint with the functions of its module; see `gelenk.operations`. `needs_robot`: its path names one."""
 
     endpoint: Endpoint[Any, Any]
     _run: Callable[..., Outcome]
@@ -22,6 +22,7 @@ class Operation:
     _attempt: Callable[[LoadedRobot, Any, Limits], Outcome | None] | None
     warm_up: WarmUp[Any] | None
     _takes_robot: bool
+    needs_robot: bool
 
     def run(self, robot: LoadedRobot | None, request: Any, limits: Limits) -> Outcome:
         """Compute the outcome; the robot is the one that path or request name. Raises what the operation raises."""
@@ -42,6 +43,7 @@ def operation(name: str) -> Operation:
     endpoint = BY_NAME[name]
     module = import_module(f"gelenk.operations.{name}")
     is_heavy = getattr(module, "is_heavy", lambda _: False)
-    takes_robot = isinstance(endpoint, RobotEndpoint) or bool(endpoint.robot_field)
+    needs_robot = isinstance(endpoint, RobotEndpoint)
+    takes_robot = needs_robot or bool(endpoint.robot_field)
     attempt, warm_up = getattr(module, "attempt", None), getattr(module, "WARM_UP", None)
-    return Operation(endpoint, module.run, is_heavy, attempt, warm_up, takes_robot)
+    return Operation(endpoint, module.run, is_heavy, attempt, warm_up, takes_robot, needs_robot)

@@ -7,7 +7,7 @@ from functools import partial, wraps
 from typing import Any, Generic, Literal, NamedTuple, TypeAlias, TypeVar
 
 from gelenk.contract.common import Payload
-from gelenk.jobs.store import JobLimits
+from gelenk.jobs.limits import JobLimits
 from gelenk.language import Language, language
 from gelenk.robot.arrays import Array
 from gelenk.store.records import LoadedRobot
@@ -26,7 +26,7 @@ REQUEST_COUNTS: ContextVar[RequestCounts | None] = ContextVar("request_counts", 
 """Counts of the current request; None if there is nothing to count."""
 
 
-PictureFormat: TypeAlias = Literal["svg", "png"]
+PictureFormat: TypeAlias = Literal["svg", "png", "pdf"]
 R = TypeVar("R")
 
 
@@ -53,7 +53,7 @@ class Outcome(NamedTuple):
     Attributes:
         content: Returns the content for JSON.
         array: Returns the array for npy, and headers for what it cannot say; None if one array cannot hold the answer.
-        picture: Draws the image, as `svg` or `png`.
+        picture: Draws the image, as `svg`, `png` or `pdf`.
         columns: Names of the array's columns, for CSV.
         programs: What makes the bytes of each further form, by media type.
         solved: Returns what the metrics count of inverse kinematics, by the number of targets.

@@ -4,20 +4,21 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from gelenk.contract.pose import MAX_MAGNITUDE, Pose, PoseFormat, check_pose_shape
+from gelenk.contract.pose import MAX_MAGNITUDE, WHOLE, PoseFormat, PoseLike, check_pose_shape, pose_of
 from gelenk.errors import InvalidField, InvalidPose
 from gelenk.robot.arrays import Array
 from gelenk.robot.notations import (
     quaternions_xyzw_from_rotations,
     rotations_from_quaternions_xyzw,
     rpy_from_rotations,
+    turn_by_quaternions_xyzw,
     vectors_from_rotations,
     zyz_from_rotations,
 )
-from gelenk.robot.poses import ROTATION_TOLERANCE, Poses
+from gelenk.robot.poses import ROTATION_TOLERANCE, Poses, unit_quaternion
 
 
-def poses_from(given: Sequence[Pose] | Array, field: str, unless_given: Array | None = None) -> Poses:
+def poses_from(given: Sequence[PoseLike] | Array, field: str, unless_given: Array | None = None) -> Poses:
     """Return a batch of poses from payloads, or an array (N, 7), position and quaternion x y z w, or (N, 4, 4).
 
     `unless_given` is the orientation of a position alone; if it is None, there must be one.
@@ -27,12 +28,20 @@ def poses_from(given: Sequence[Pose] | Array, field: str, unless_given: Array | 
     """
     if isinstance(given, np.ndarray):
         return _poses_from_array(given, field)
-    positions, rotations = np.empty((len(given), 3)), np.empty((len(given), 3, 3))
-    for i, pose in enumerate(given):
-        try:
-            positions[i], rotations[i] = pose.origin(), pose.orientation(unless_given)
-        except InvalidPose as error:
-            raise InvalidPose(error.reason, error.distance, field, i) from None
+    poses, i = [pose_of(pose) for pose in given], 0
+    positions = np.array([pose.position for pose in poses], dtype=float).reshape(-1, 3)
+    rotations, quaternions = np.empty((len(poses), 3, 3)), [pose.quaternion_xyzw for pose in poses]
+    try:
+        if quaternions and None not in quaternions:
+            # All together they take half as long.
+            for i, quaternion in enumerate(quaternions):
+                quaternions[i] = unit_quaternion(quaternion or ())
+            turn_by_quaternions_xyzw(np.array(quaternions), rotations)
+        else:
+            for i, pose in enumerate(poses):
+                rotations[i] = pose.orientation(unless_given)
+    except InvalidPose as error:
+        raise InvalidPose(error.reason, error.distance, field, i) from None
     return Poses(positions, rotations)
 
 
@@ -70,7 +79,10 @@ def _refuse(deviations: Array, what: str, field: str) -> None:
 
 
 def orientations(poses: Poses, pose_format: PoseFormat) -> Array:
-    """Return orientations in a notation; shape (N, 3), (N, 4), (N, 3, 3), or (N, 4, 4) with the positions."""
+    """Return orientations in a notation; shape (N, 3), (N, 4), (N, 3, 3), or (N, 4, 4) with the positions.
+
+    Those of a pendant, (N, 6) or (N, 7), have the positions too.
+    """
     Rs = poses.rotations
     match pose_format:
         case "quaternion_xyzw":
@@ -87,23 +99,33 @@ def orientations(poses: Poses, pose_format: PoseFormat) -> Array:
             return Rs
         case "matrix":
             return poses.matrices()
+        case "ur":
+            return np.hstack((poses.positions, vectors_from_rotations(Rs)))
+        case "abb":
+            return np.hstack((1000.0 * poses.positions, orientations(poses, "quaternion_wxyz")))
+        case "kuka_abc":
+            return np.hstack((1000.0 * poses.positions, np.degrees(rpy_from_rotations(Rs))[:, ::-1]))
+        case "fanuc_wpr":
+            return np.hstack((1000.0 * poses.positions, np.degrees(rpy_from_rotations(Rs))))
 
 
 def pose_list(poses: Poses, pose_format: PoseFormat) -> list[dict[str, object]]:
     """Return poses as JSON content; each is a valid `Pose`."""
     columns = pose_columns(poses, pose_format)
-    rows = zip(*(values.tolist() for values in columns.values()), strict=True)
+    rows = zip(*[values.tolist() for values in columns.values()], strict=True)
     return [dict(zip(columns, row, strict=True)) for row in rows]
 
 
 def pose_columns(poses: Poses, pose_format: PoseFormat) -> dict[str, Array]:
     """Return the fields of poses as arrays; shape (N, …) each."""
     values: dict[str, Array] = {pose_format: orientations(poses, pose_format)}
-    return values if pose_format == "matrix" else {"position": poses.positions, **values}
+    return values if pose_format in WHOLE else {"position": poses.positions, **values}
 
 
 def pose_array(poses: Poses, pose_format: PoseFormat) -> Array:
     """Return poses as one array: (N, 4, 4) for `rotation` and `matrix`, else position and orientation side by side."""
-    if pose_format in {"rotation", "matrix"}:
+    if pose_format == "rotation":
         return poses.matrices()
+    if pose_format in WHOLE:
+        return orientations(poses, pose_format)
     return np.hstack((poses.positions, orientations(poses, pose_format)))

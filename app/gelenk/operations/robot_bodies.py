@@ -1,5 +1,6 @@
 """The bodies of a stored robot: found once, in a process that can be killed, and then read from disk."""
 
+import base64
 import gzip
 import hashlib
 import math
@@ -22,6 +23,7 @@ from gelenk.collision.pairs import LinkPair, edited
 from gelenk.collision.robot_bodies import RobotBodies, find_bodies
 from gelenk.collision.shapes.meshes import MAX_BYTES
 from gelenk.errors import InvalidUrdf
+from gelenk.robot.arrays import Array
 from gelenk.robot.robot import RobotModel
 from gelenk.store import derived, folders
 from gelenk.store.records import LoadedRobot, mesh_file, stamp_of
@@ -52,7 +54,7 @@ def stored_or_found(loaded: LoadedRobot) -> RobotBodies:
             return read_bodies(orjson.loads(folders.read_plain(file)))
     found = _found(loaded)
     if file is not None:
-        derived.keep(file, orjson.dumps(found, default=np.ndarray.tolist), "*.json", _KEPT)
+        derived.keep(file, orjson.dumps(found, default=array_text), "*.json", _KEPT)
     return found
 
 
@@ -91,6 +93,15 @@ def _code() -> str:
     return derived.code_digest(Path(next(iter(collision.__path__))).rglob("*.py"))
 
 
+def array_text(array: Array) -> str:
+    """Return the bytes of an array's doubles as text, which is read at once; numbers would be parsed one by one."""
+    return base64.b64encode(array.astype("<f8").tobytes()).decode()
+
+
+def _array(text: str) -> Array:
+    return np.frombuffer(base64.b64decode(text, validate=True), dtype="<f8").copy()
+
+
 def read_bodies(stored: Mapping[str, Any]) -> RobotBodies:
     """Return bodies that were stored as JSON; raises ValueError, TypeError or KeyError if they are damaged."""
     bodies = tuple(map(read_body, stored["bodies"]))
@@ -100,6 +111,6 @@ def read_bodies(stored: Mapping[str, Any]) -> RobotBodies:
 def read_body(stored: Mapping[str, Any]) -> Body:
     """Return a body that was stored as JSON; raises as `read_bodies` does."""
     arrays = {"points": (-1, 3), "T_link_body": (4, 4), "spheres": (-1, 4)}
-    read = {name: np.array(stored[name], dtype=float).reshape(shape) for name, shape in arrays.items()}
+    read = {name: _array(stored[name]).reshape(shape) for name, shape in arrays.items()}
     unknown = {name: math.nan for name in ("excess", "cover_excess", "protrusion") if stored[name] is None}
     return Body(**{**stored, **read, **unknown, "size": tuple(stored["size"])})

@@ -75,7 +75,7 @@ def parse(robot: RobotModel, call: MotionsRequest, most: int) -> MotionBatch:
     """Convert a request for the core; raises InvalidInput, which names the field, or TooLarge."""
     if len(call.targets) > most:
         raise TooLarge("motions in one call", len(call.targets), most)
-    if call.limits is not None and call.limits.joint_torque is not None:
+    if (given := call.own_limits()) is not None and given.joint_torque is not None:
         raise InvalidField("limits.joint_torque", "is of a single `trajectory`: motions of a batch have no torques")
     chain = robot.chain(call.base_frame, call.tip_frame)
     starts, targets = _ends(chain, call)

@@ -37,13 +37,13 @@ def is_heavy(call: TrajectoryRequest) -> bool:
 
     The first call in a cell prepares its bodies, which takes long.
     """
-    if call.segments is None:
+    if not (moves := call.moves()):
         return True
-    first = call.segments[0]
+    first = moves[0]
     is_move = isinstance(first, JointSegment) and not isinstance(first.target, Pose)
     is_moving = any(getattr(call, name) is not None for name in _MOVING)
     has_more = call.steps or call.coefficients or call.compare_timing or has_torques(call) or has_cell(call)
-    return len(call.segments) > 1 or not is_move or is_moving or has_more or is_awaited()
+    return len(moves) > 1 or not is_move or is_moving or has_more or is_awaited()
 
 
 def _planned(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> PlannedTrajectory:

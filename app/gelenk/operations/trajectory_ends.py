@@ -63,6 +63,8 @@ def with_rates(chain: Chain, call: Motion, segments: tuple[Segment, ...], state:
         start = state[1:]
         if _most(segments[0]) < 2:
             start = start * [[1.0], [0.0]]
+    if start is None and end is None:
+        return segments
     found = list(segments)
     for i, rows, side in ((0, start, "start"), (len(found) - 1, end, "end")):
         if rows is None or not rows.any():

@@ -6,14 +6,14 @@ few kilograms do.
 """
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
 from gelenk.contract.trajectory_answer import LimitSource
-from gelenk.contract.trajectory_request import JointValues, MotionOptions, TrajectoryLimits
+from gelenk.contract.trajectory_request import JointValues, MotionOptions
 from gelenk.errors import UnknownJoint, WrongJointCount, quoted
 from gelenk.language import marked, translated as _
 from gelenk.robot.arrays import Array, Flags
@@ -29,6 +29,7 @@ SLIDING = 0.25
 """Assumed velocity limit of a prismatic joint, [m/s]: the reduced speed of ISO 10218."""
 PLACEHOLDER = 100.0
 """Velocity limit, [rad/s or m/s], from which on a limit means none: robot files use 100, 1000, 10000 and 1e16."""
+_OF_TIP = ("tip_velocity", "tip_angular_velocity", "tip_acceleration", "tip_angular_acceleration")
 ACCELERATION_RATE = 2.0
 JERK_RATE = 10.0
 """Assumed limit divided by that of the derivative before it, [1/s]."""
@@ -84,8 +85,8 @@ def own_velocities(robot: RobotModel, chain: Chain) -> OwnVelocities:
 
 def has_own_limits(options: MotionOptions) -> bool:
     """Check whether options change any limit."""
-    given = (options.limits, options.velocity_scale, options.acceleration_scale)
-    return any(one is not None for one in given)
+    scales = options.velocity_scale, options.acceleration_scale
+    return options.limits is not None or scales != (None, None)
 
 
 def bounds_of(chain: Chain, own: OwnVelocities, layers: Mapping[str, MotionOptions]) -> SourcedLimits:
@@ -101,44 +102,38 @@ def bounds_of(chain: Chain, own: OwnVelocities, layers: Mapping[str, MotionOptio
         if rate is not None:
             values, source = [rate * value for value in values], ["assumed"] * len(chain)
         for prefix, options in layers.items():
-            given = None if options.limits is None else getattr(options.limits, quantity)
-            if given is not None:
+            limits = options.own_limits()
+            given = None if limits is None else getattr(limits, quantity)
+            if type(given) is list and len(given) == len(chain):  # as mostly
+                values, source = given, ["request"] * len(chain)
+            elif given is not None:
                 found = joint_row(chain, given, f"{prefix}limits.{quantity}").tolist()
                 values = [one if math.isfinite(one) else old for one, old in zip(found, values, strict=True)]
                 source = ["request" if math.isfinite(one) else old for one, old in zip(found, source, strict=True)]
         rows.append(np.array(values))
         sources[quantity] = tuple(source)
-    latest = list(layers.values())[::-1]
-    faster, harder = (_first(latest, name, 1.0) for name in ("velocity_scale", "acceleration_scale"))
-    limits = [options.limits for options in latest if options.limits is not None]
-    tip = TipLimits(
-        _first(limits, "tip_velocity", math.inf) * faster,
-        _first(limits, "tip_angular_velocity", math.inf) * faster,
-        _first(limits, "tip_acceleration", math.inf) * harder,
-        _first(limits, "tip_angular_acceleration", math.inf) * harder,
-    )
-    return SourcedLimits(SegmentLimits(rows[0] * faster, rows[1] * harder, rows[2] * harder, tip), sources)
+    faster, harder, tip = 1.0, 1.0, [math.inf] * len(_OF_TIP)
+    for options in layers.values():
+        faster, harder = options.velocity_scale or faster, options.acceleration_scale or harder
+        limits = options.own_limits()
+        if limits is not None:
+            tip = [getattr(limits, name) or most for name, most in zip(_OF_TIP, tip, strict=True)]
+    by_tip = TipLimits(tip[0] * faster, tip[1] * faster, tip[2] * harder, tip[3] * harder)
+    return SourcedLimits(SegmentLimits(rows[0] * faster, rows[1] * harder, rows[2] * harder, by_tip), sources)
 
 
 def joint_row(chain: Chain, given: JointValues, field: str) -> Array:
     """Return one number per joint, NaN if a name is left out; shape (n,)."""
-    if isinstance(given, Mapping):
+    if isinstance(given, dict):
         for name in given:
             if name not in chain.joint_names:
                 raise UnknownJoint(name, chain.joint_names, None, field)
         return np.array([given.get(name, math.nan) for name in chain.joint_names])
-    if isinstance(given, Sequence):
+    if isinstance(given, list):
         if len(given) != len(chain):
             raise WrongJointCount(len(given), chain.joint_names, None, field)
         return np.array(given, dtype=float)
     return np.full(len(chain), given)
-
-
-def _first(options: Iterable[MotionOptions | TrajectoryLimits], name: str, otherwise: float) -> float:
-    for one in options:
-        if (value := getattr(one, name)) is not None:
-            return float(value)
-    return otherwise
 
 
 def limit_notes(chain: Chain, own: OwnVelocities, used: Sequence[SourcedLimits]) -> list[str]:

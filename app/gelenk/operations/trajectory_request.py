@@ -1,23 +1,14 @@
 """Converts a trajectory request for the core, checking every number against the chain."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import cast
 
 import numpy as np
 
-from gelenk.contract.pose import Pose
-from gelenk.contract.trajectory_request import (
-    MAX_WAYPOINTS,
-    CircleSegment,
-    JointSegment,
-    LineSegment,
-    MotionOptions,
-    Segment,
-    SplineSegment,
-    TrajectoryRequest,
-)
+from gelenk.contract.pose import Pose, PoseLike, pose_of
+from gelenk.contract.trajectory_request import MAX_WAYPOINTS, MotionOptions, Segment, SplineSegment, TrajectoryRequest
 from gelenk.errors import InvalidField, InvalidPose, OutsideLimits, counted
 from gelenk.ik.search.bounds import mid_range
 from gelenk.ik.search.task import FULL_POSE, Task
@@ -52,8 +43,8 @@ class SourcedProblem:
 def parse(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedProblem:
     """Convert a request into the problem for the core; raises InvalidInput, which names the field."""
     refuse_beside(call)
-    requested = call.segments or ()
-    waypoints = sum(len(segment.waypoints) for segment in requested if isinstance(segment, SplineSegment))
+    requested = call.moves()
+    waypoints = sum(len(segment.waypoints) for segment in requested if segment.type == "spline")
     if waypoints > MAX_WAYPOINTS:
         raise InvalidField("segments", f"all together have {waypoints} waypoints; at most {MAX_WAYPOINTS} are allowed")
     own = own_velocities(robot, chain)
@@ -118,51 +109,44 @@ def _task(call: TrajectoryRequest) -> Task:
 
 
 def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedLimits, own: OwnVelocities) -> Part:
-    segments = call.segments or ()
+    segments = call.moves()
     segment, place = segments[index], f"segments.{index}"
     left_open = None if _task(call).has_rotations else OPEN
-    part = partial(
-        Part,
-        segment.type,
-        _tip_law(call, segment.law, f"{place}.law") if _is_tip_path(segment) else segment.law or call.law,
-        bounds.limits,
-        segment.duration,
-        stated_jerk=_stated(bounds),
+    law = segment.law or call.law
+    if _is_tip_path(segment):
+        law = _tip_law(call, segment.law, f"{place}.law")
+    part = partial(Part, segment.type, law, bounds.limits, segment.duration, stated_jerk=_stated(bounds))
+    # By the word: to ask for the class of a model takes long.
+    if segment.type == "spline":
+        _check_blends(segment, segment.law or call.law, place)
+        spline = partial(part, boundary=segment.boundary, blends=segment.blends)
+        if segment.waypoint_options is not None:
+            layers: dict[str, MotionOptions] = {"": call, f"{place}.": segment}
+            options = cast(Sequence[MotionOptions | None], segment.waypoint_options)
+            spline = partial(spline, ways=_ways(chain, own, layers, segment, options, spline()))
+        return _spline(chain, segment, spline, place, left_open)
+    if segment.type == "joint":
+        if isinstance(segment.target, Pose):
+            anyhow = None if left_open is None else np.eye(3)
+            return part(pose=_matrix(segment.target, f"{place}.target", anyhow))
+        return part(configuration=_within(chain, cast(Configuration, segment.target), f"{place}.target"))
+    _check_blend(segments, index)
+    return part(
+        via=None if segment.type == "line" else _matrix(segment.via, f"{place}.via", left_open),
+        pose=_matrix(segment.target, f"{place}.target", left_open),
+        blend_radius=segment.blend_radius or 0.0,
+        blend_acceleration=segment.blend_acceleration if segment.type == "line" else None,
+        blend_time=segment.blend_time if segment.type == "line" else None,
+        orientation=segment.orientation,
     )
-    match segment:
-        case JointSegment():
-            if isinstance(segment.target, Pose):
-                anyhow = None if left_open is None else np.eye(3)
-                return part(pose=_matrix(segment.target, f"{place}.target", anyhow))
-            return part(configuration=_within(chain, segment.target, f"{place}.target"))
-        case LineSegment():
-            _check_blend(segments, index)
-            return part(
-                pose=_matrix(segment.target, f"{place}.target", left_open),
-                blend_radius=segment.blend_radius or 0.0,
-                blend_acceleration=segment.blend_acceleration,
-                blend_time=segment.blend_time,
-                orientation=segment.orientation,
-            )
-        case CircleSegment():
-            _check_blend(segments, index)
-            return part(
-                blend_radius=segment.blend_radius or 0.0,
-                via=_matrix(segment.via, f"{place}.via", left_open),
-                pose=_matrix(segment.target, f"{place}.target", left_open),
-                orientation=segment.orientation,
-            )
-        case SplineSegment():
-            spline = part(boundary=segment.boundary, blends=segment.blends)
-            _check_blends(segment, spline, place)
-            ways = _ways(chain, own, {"": call, f"{place}.": segment}, segment, spline)
-            return _spline(chain, segment, replace(spline, ways=ways), place, left_open)
 
 
 def _stated(bounds: SourcedLimits) -> Array | None:
     """Return the limits of jerk that the request gives, ∞ for the others; None if it gives none; shape (n,)."""
-    stated = np.array([source == "request" for source in bounds.sources["joint_jerk"]])
-    return np.where(stated, bounds.limits.jerk, np.inf) if stated.any() else None
+    sources = bounds.sources["joint_jerk"]
+    if "request" not in sources:
+        return None
+    return np.where([source == "request" for source in sources], bounds.limits.jerk, np.inf)
 
 
 def _tip_law(call: TrajectoryRequest, own: Law | None, field: str) -> Law:
@@ -181,36 +165,38 @@ def _tip_law(call: TrajectoryRequest, own: Law | None, field: str) -> Law:
 
 def _is_tip_path(segment: Segment) -> bool:
     """Check whether the tip follows a path without given times."""
-    if isinstance(segment, SplineSegment):
+    if segment.type == "spline":
         return segment.times is None and isinstance(segment.waypoints[0], Pose)
-    return not isinstance(segment, JointSegment)
+    return segment.type != "joint"
 
 
-def _check_blends(segment: SplineSegment, part: Part, place: str) -> None:
+def _check_blends(segment: SplineSegment, law: Law, place: str) -> None:
     """Refuse parabolic blends of poses, and with any law but `trapezoidal`."""
     if not segment.blends:
         return
     if any(isinstance(one, Pose) for one in segment.waypoints):
         raise InvalidField(f"{place}.blends", "are of configurations; for poses take lines with a `blend_radius`")
-    if part.law != "trapezoidal":
-        raise InvalidField(f"{place}.blends", f"are only allowed with the law `trapezoidal`; this one is `{part.law}`")
+    if law != "trapezoidal":
+        raise InvalidField(f"{place}.blends", f"are only allowed with the law `trapezoidal`; this one is `{law}`")
     if "boundary" in segment.model_fields_set:
         raise InvalidField(f"{place}.boundary", "is of a spline, and with `blends` there is none")
 
 
-def _spline(chain: Chain, segment: SplineSegment, part: Part, place: str, left_open: Array | None) -> Part:
+def _spline(
+    chain: Chain, segment: SplineSegment, part: Callable[..., Part], place: str, left_open: Array | None
+) -> Part:
     waypoints, field = segment.waypoints, f"{place}.waypoints"
     times = None if segment.times is None else _times(segment, place)
-    poses = [one for one in waypoints if isinstance(one, Pose)]
+    poses = [one for one in waypoints if type(one) is Pose]  # quicker than to ask a model's class
     if not poses:
         if "orientation" in segment.model_fields_set:
             raise InvalidField(f"{place}.orientation", "is of poses, and these waypoints are configurations")
-        rows = configurations(chain, [one for one in waypoints if not isinstance(one, Pose)], field)
+        rows = configurations(chain, cast(Sequence[Configuration], waypoints), field)
         try:
             check_limits(chain, rows)
         except OutsideLimits as error:
             raise replace(error, field=field) from None
-        return replace(part, configurations=rows, times=times)
+        return part(configurations=rows, times=times)
     if len(poses) < len(waypoints):
         is_pose = [isinstance(one, Pose) for one in waypoints]
         raise InvalidField(
@@ -218,26 +204,30 @@ def _spline(chain: Chain, segment: SplineSegment, part: Part, place: str, left_o
             f"entry {is_pose.index(True)} is a pose and entry {is_pose.index(False)} a configuration: all are of one "
             "kind, so divide them among two segments",
         )
-    return replace(part, poses=poses_from(poses, field, left_open), times=times, orientation=segment.orientation)
+    return part(poses=poses_from(poses, field, left_open), times=times, orientation=segment.orientation)
 
 
 def _ways(
-    chain: Chain, own: OwnVelocities, layers: dict[str, MotionOptions], segment: SplineSegment, part: Part
+    chain: Chain,
+    own: OwnVelocities,
+    layers: dict[str, MotionOptions],
+    segment: SplineSegment,
+    of_each: Sequence[MotionOptions | None],
+    part: Part,
 ) -> tuple[Part, ...]:
-    """Return the limits on the way to each waypoint as parts; none if they are those of the segment."""
-    if segment.waypoint_options is None:
-        return ()
+    """Return the limits on the way to each waypoint as parts, with options of each beside the segment's."""
     field = f"{list(layers)[-1]}waypoint_options"
-    count, number = len(segment.waypoint_options), len(segment.waypoints)
+    count, number = len(of_each), len(segment.waypoints)
     if not isinstance(segment.waypoints[0], Pose):
         reason = "are of poses; for configurations give `limits` to segments that end at them"
         raise InvalidField(field, reason)
     if count != number:
         raise InvalidField(field, f"has {counted(count, 'entry')} for {counted(number, 'waypoint')}")
     ways = []
-    for k, options in enumerate(segment.waypoint_options):
+    for k, options in enumerate(of_each):
         place = f"{field}.{k}."
-        if options is not None and options.limits is not None and options.limits.joint_torque is not None:
+        given = None if options is None else options.own_limits()
+        if given is not None and given.joint_torque is not None:
             raise InvalidField(f"{place}limits.joint_torque", "holds along a whole segment: give it there")
         bounds = bounds_of(chain, own, layers if options is None else {**layers, place: options})
         limits = replace(bounds.limits, torque=part.limits.torque)
@@ -293,9 +283,9 @@ def _within(chain: Chain, value: Configuration, field: str) -> Array:
     return configuration
 
 
-def _matrix(pose: Pose, field: str, left_open: Array | None) -> Array:
+def _matrix(pose: PoseLike, field: str, left_open: Array | None) -> Array:
     """Return T_base_tip; shape (4, 4)."""
     try:
-        return pose.transform(left_open)
+        return pose_of(pose).transform(left_open)
     except InvalidPose as error:
         raise replace(error, field=field) from None

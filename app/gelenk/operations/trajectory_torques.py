@@ -34,7 +34,7 @@ def with_torques(
     load, gravity = load_of(call.payload), gravity_of(call.gravity)
     overall = _most(robot, chain, call, "", np.full(len(chain), np.inf))
     limits = torque_limits(found, overall, np.zeros(3) if gravity is None else gravity, load)
-    each = [_most(robot, chain, one, f"segments.{i}.", overall) for i, one in enumerate(call.segments or ())]
+    each = [_most(robot, chain, one, f"segments.{i}.", overall) for i, one in enumerate(call.moves())]
     return tuple(_with(one, replace(limits, most=most)) for one, most in zip(bounds, (overall, *each), strict=True))
 
 
@@ -44,7 +44,9 @@ def has_torques(call: Motion) -> bool:
 
 
 def _limits_torques(call: Motion) -> bool:
-    return any(one.limits is not None and one.limits.joint_torque is not None for one in (call, *(call.segments or ())))
+    return any(
+        (limits := one.own_limits()) is not None and limits.joint_torque is not None for one in (call, *call.moves())
+    )
 
 
 def torque_notes(robot: RobotModel, chain: Chain, call: Motion) -> list[str]:
@@ -58,7 +60,8 @@ def _with(bounds: SourcedLimits, torque: TorqueLimits) -> SourcedLimits:
 
 def _most(robot: RobotModel, chain: Chain, options: MotionOptions, prefix: str, otherwise: Array) -> Array:
     """Return the limit of each joint's torque, infinite for none; shape (n,), [N m or N]."""
-    given, field = None if options.limits is None else options.limits.joint_torque, f"{prefix}{_FIELD}"
+    limits, field = options.own_limits(), f"{prefix}{_FIELD}"
+    given = None if limits is None else limits.joint_torque
     if given is None:
         return otherwise
     if given != "effort":

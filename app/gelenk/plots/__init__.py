@@ -1,4 +1,4 @@
-"""Pictures drawn by matplotlib, as SVG or PNG, independent of how they are delivered.
+"""Pictures drawn by matplotlib, as SVG, PNG or PDF, independent of how they are delivered.
 
 - `figure`: one style for all pictures, and rendering to bytes, the same bytes for the same figure.
 - `arm`: an arm as a line through its joints.

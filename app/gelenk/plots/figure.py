@@ -13,6 +13,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
@@ -21,7 +22,7 @@ from matplotlib.ticker import ScalarFormatter
 from gelenk.language import has_decimal_comma
 from gelenk.robot.arrays import Array
 
-PictureFormat: TypeAlias = Literal["svg", "png"]
+PictureFormat: TypeAlias = Literal["svg", "png", "pdf"]
 
 INK: Final = "#1f2933"
 QUIET: Final = "#6b7580"
@@ -54,15 +55,22 @@ def new_figure(width: float, height: float) -> Figure:
 
 
 def as_bytes(figure: Figure, kind: PictureFormat) -> bytes:
-    """Render a figure as a PNG, or as an SVG whose letters are paths, so that it looks the same without the font."""
+    """Render a figure: the same bytes each time, and without need of the font.
+
+    Letters are paths in an SVG, and in a PDF text of a typeface that it contains.
+    """
     buffer = BytesIO()
     with drawing:
-        if kind == "svg":
-            FigureCanvasSVG(figure)
-            figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": "Gelenk"})
-        else:
-            FigureCanvasAgg(figure)
-            figure.savefig(buffer, format="png", dpi=_PNG_DOTS_PER_INCH, metadata={"Software": "Gelenk"})
+        match kind:
+            case "svg":
+                FigureCanvasSVG(figure)
+                figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": "Gelenk"})
+            case "png":
+                FigureCanvasAgg(figure)
+                figure.savefig(buffer, format="png", dpi=_PNG_DOTS_PER_INCH, metadata={"Software": "Gelenk"})
+            case "pdf":
+                FigureCanvasPdf(figure)
+                figure.savefig(buffer, format="pdf", metadata={"CreationDate": None, "Creator": "Gelenk"})
     return buffer.getvalue()
 
 

@@ -15,6 +15,7 @@ from typing import Any, Literal, TypeAlias
 
 from gelenk.processes import wire
 from gelenk.processes.fork_server import SELDOM_NEEDED
+from gelenk.processes.memory import keep_freed_memory
 from gelenk.processes.worker_process import FORK_SERVER
 
 Outcome: TypeAlias = tuple[Literal["result", "error", "memory"], Any]
@@ -51,6 +52,7 @@ class Priority:
 def serve(priority: Priority, stream: socket.socket) -> None:
     """Run calls until the service disconnects, memory runs out, or a fresh process should replace this one."""
     os.nice(priority.niceness)
+    keep_freed_memory()
     _limit(resource.RLIMIT_CORE, 0)
     at_start = _held_bytes()
     if math.isfinite(priority.memory_bytes):

@@ -14,6 +14,9 @@ from typing import Any
 PIECE = 256 * 1024
 """Size of the pieces in which the event loop sends a large response, [bytes]."""
 
+BUFFER = 1024 * 1024
+"""Bytes that a socket holds for the other side, as far as the system allows it: the fewer, the more switches."""
+
 _COUNT = struct.Struct("!I")
 _SMALL = 64 * 1024
 """Size of the largest message that is sent in one piece, [bytes]."""

@@ -46,6 +46,8 @@ class WorkerProcess:
         """
         (ours, theirs), (lifeline, far_end) = socket.socketpair(), socket.socketpair()
         try:
+            for end in (ours, theirs):
+                end.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, wire.BUFFER)
             with theirs, far_end:
                 if FORK_SERVER.start():
                     FORK_SERVER.warm_up().close()

@@ -8,6 +8,7 @@ import threading
 import time
 import zlib
 from collections.abc import Callable, Iterator
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import Any, TypeVar, cast
@@ -19,7 +20,7 @@ from numba.core.caching import UserProvidedCacheLocator
 from platformdirs import user_cache_path
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
-_KERNEL = re.compile(rb"^@(compiled|unmanaged|inlined)$", re.MULTILINE)
+_KERNEL = re.compile(rb"^@(compiled|unmanaged|inlined|exclusive)$", re.MULTILINE)
 _ROOMS = ("robot", "kinematics", "collision", "ik", "trajectory")
 """Where kernels are."""
 _IMPORT = re.compile(rb"^\s*from gelenk\.([\w.]+) import", re.MULTILINE)
@@ -108,13 +109,14 @@ class KernelLocator(UserProvidedCacheLocator):
         return super().from_function(function, file) if is_ours else None  # type: ignore[no-untyped-call]
 
 
-_FAST_COMPRESSION = 1
+_PACKED = "packed"
 
 
 class _PackedLibrary(codegen.JITCodeLibrary):
-    """A stored kernel, whose intermediate code is kept packed: only compiling another kernel with it needs that.
+    """A stored kernel, whose intermediate code stays packed: only compiling another kernel with it needs that.
 
-    Numba keeps it as a parsed module of LLVM; those of all kernels take 90 MB in each process.
+    Numba parses it at each load for the names of the functions, which takes half of the service's start, and keeps a
+    module of LLVM, which for all kernels takes 90 MB in each process. Here the names are stored beside it.
     """
 
     _packed: Any
@@ -129,12 +131,26 @@ class _PackedLibrary(codegen.JITCodeLibrary):
     def _shared_module(self, module: Any) -> None:
         self._packed = module
 
+    def serialize_using_object_code(self) -> tuple[str, str, Any]:
+        """Return what is stored: the code, the intermediate code, packed, and the names that this defines."""
+        name, _, (code, bitcode) = cast(Any, super()).serialize_using_object_code()
+        module = cast(Any, self)._get_module_for_linking()
+        values = chain(module.functions, module.global_variables)
+        names = {value.name for value in values if not value.is_declaration}
+        return name, _PACKED, (code, zlib.compress(bitcode), names)
+
     @classmethod
     def _unserialize(cls, generator: Any, state: Any) -> Any:
-        library = cast(Any, super())._unserialize(generator, state)
-        _, kind, data = state
-        if kind == "object":
-            library._shared_module = zlib.compress(data[1], _FAST_COMPRESSION)
+        name, kind, data = state
+        if kind != _PACKED:
+            return cast(Any, super())._unserialize(generator, state)
+        code, packed, names = data
+        library = generator.create_library(name)
+        library.enable_object_caching()
+        library._set_compiled_object(code)
+        library._shared_module = packed
+        library._finalize_final_module()
+        generator._engine._defined_symbols |= names
         return library
 
 
@@ -153,6 +169,8 @@ _OPTIONS: dict[str, Any] = {
     "nogil": True,
     "error_model": "numpy",
     "fastmath": {"contract"},
+    # Else that of the first caller: the code, and with it the roundings, would depend on what is called first.
+    "forceinline": False,
 }
 _UNMANAGED: dict[str, Any] = {**_OPTIONS, "_nrt": False}
 
@@ -263,4 +281,12 @@ def unmanaged(function: _Function) -> _Function:
 
 def inlined(function: _Function) -> _Function:
     """Compile like `unmanaged`, but inline the function into its callers, so that numbers stay in registers."""
-    return cast(_Function, numba.njit(**_UNMANAGED, forceinline=True)(function))
+    return cast(_Function, numba.njit(**{**_UNMANAGED, "forceinline": True})(function))
+
+
+def exclusive(function: _Function) -> _Function:
+    """Compile like `unmanaged`, but keep the GIL: calls from Python exclude each other and may share memory.
+
+    For a function of a few microseconds, of which letting go of the GIL would take a tenth.
+    """
+    return cast(_Function, numba.njit(**{**_UNMANAGED, "nogil": False})(function))

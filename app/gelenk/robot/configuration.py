@@ -37,11 +37,16 @@ def configurations(chain: Chain, values: Sequence[Configuration] | Array, field:
     """
     if isinstance(values, np.ndarray):
         return checked_rows(chain, values, field)
-    rows = [_by_name(chain, i, value, field) if isinstance(value, Mapping) else value for i, value in enumerate(values)]
+    # Most are lists; to ask whether something is a mapping takes long.
+    rows = [
+        value if type(value) is list or not isinstance(value, Mapping) else _by_name(chain, i, value, field)
+        for i, value in enumerate(values)
+    ]
+    count = len(chain)
     for i, row in enumerate(rows):
-        if len(row) != len(chain):
+        if len(row) != count:
             raise WrongJointCount(len(row), chain.joint_names, i, field)
-    return checked_rows(chain, np.array(rows, dtype=float).reshape(len(rows), len(chain)), field)
+    return checked_rows(chain, np.array(rows, dtype=float).reshape(len(rows), count), field)
 
 
 def one_configuration(chain: Chain, value: Configuration, field: str) -> Array:
@@ -60,44 +65,55 @@ def checked_rows(chain: Chain, rows: Array, field: str) -> Array:
         )
     if rows.shape[1] != len(chain):
         raise WrongJointCount(rows.shape[1], chain.joint_names, None, field)
-    if not _within(rows, MAX_MAGNITUDE):
+    if (beyond := _beyond(chain.flat.drives, chain.flat.joints, rows, MAX_MAGNITUDE)) == _NUMBER:
         row, column = np.argwhere(~(np.abs(rows) <= MAX_MAGNITUDE))[0]
         name = quoted(chain.joint_names[column])
         raise InvalidField(
             field, f"entry {row}: the value of joint {name} must be a finite number of magnitude ≤ {MAX_MAGNITUDE:g}"
         )
-    if not _joints_within(chain.flat.drives, chain.flat.joints, rows, MAX_MAGNITUDE):
+    if beyond == _MIMIC:
         raise InvalidField(field, f"a mimic joint must also have a value of magnitude ≤ {MAX_MAGNITUDE:g}")
     return rows
 
 
-@compiled
-def _joints_within(drives: Array, joints: Indices, qs: Array, most: float) -> bool:
-    """Whether all joint positions, mimic joints included, have at most a magnitude; false for NaN."""
-    for i in range(len(joints)):
-        for row in range(qs.shape[0]):
-            if not abs(drives[i, 0] * qs[row, joints[i, 1]] + drives[i, 1]) <= most:
-                return False
-    return True
+_NUMBER, _MIMIC = 1, 2
 
 
 @compiled
-def _within(qs: Array, most: float) -> bool:
-    """Whether all numbers have at most a magnitude; false for NaN."""
+def _beyond(drives: Array, joints: Indices, qs: Array, most: float) -> int:
+    """Return `_NUMBER` if a number is NaN or larger than `most`, else `_MIMIC` if so is a mimic joint's value, else 0.
+
+    All numbers are looked at, without leaving the loops early: that is several times quicker where all are fine.
+    """
+    count = 0
     for row in range(qs.shape[0]):
         for column in range(qs.shape[1]):
-            if not abs(qs[row, column]) <= most:
-                return False
-    return True
+            count += not abs(qs[row, column]) <= most
+    if count:
+        return _NUMBER
+    for i in range(len(joints)):
+        if drives[i, 0] != 1.0 or drives[i, 1] != 0.0:
+            for row in range(qs.shape[0]):
+                count += not abs(drives[i, 0] * qs[row, joints[i, 1]] + drives[i, 1]) <= most
+    return _MIMIC if count else 0
 
 
 def check_limits(chain: Chain, qs: Array) -> None:
     """Raise OutsideLimits for the first joint beyond its limits in configurations of shape (N, n), [rad or m]."""
-    outside = (qs < chain.lower) | (qs > chain.upper)
-    if outside.any():
+    if _is_outside(chain.lower, chain.upper, qs):
+        outside = (qs < chain.lower) | (qs > chain.upper)
         row, column = (int(index) for index in np.argwhere(outside)[0])
         value, lower, upper = (float(each) for each in (qs[row, column], chain.lower[column], chain.upper[column]))
         raise OutsideLimits(chain.joint_names[column], value, lower, upper, row)
+
+
+@compiled
+def _is_outside(lower: Array, upper: Array, qs: Array) -> bool:
+    count = 0
+    for row in range(qs.shape[0]):
+        for column in range(qs.shape[1]):
+            count += (qs[row, column] < lower[column]) | (qs[row, column] > upper[column])
+    return count > 0
 
 
 def _by_name(chain: Chain, index: int, value: Mapping[str, float], field: str) -> list[float]:

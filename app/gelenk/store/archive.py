@@ -1,10 +1,11 @@
-"""Unpacks an untrusted zip of a URDF, its meshes and its SRDF, and checks names, counts and actual sizes.
+"""Unpacks an untrusted zip of a description, its meshes and its SRDF, and checks names, counts and actual sizes.
 
-The sizes stated in a zip are not trusted: bytes are counted while they are unpacked. Nothing here parses a mesh:
-kinematics does not need meshes, and the browser gets them unchanged.
+The sizes stated in a zip are not trusted: bytes are counted while they are unpacked. A mesh is parsed only
+where a description leaves a mass to it: kinematics does not need meshes, and the browser gets them unchanged.
 """
 
 import os
+import re
 import stat
 import struct
 import zipfile
@@ -16,10 +17,15 @@ from io import BytesIO
 from pathlib import Path, PurePosixPath
 from typing import IO, BinaryIO
 
-from gelenk.errors import InvalidArchive, TooLarge, quoted
+from gelenk.collision.shapes.hulls import hull_triangles
+from gelenk.collision.shapes.meshes import read_triangles
+from gelenk.errors import InvalidArchive, InvalidMesh, TooLarge, counted, quoted
+from gelenk.robot.arrays import Array
+from gelenk.robot.formats.reading import is_robot
+from gelenk.robot.formats.sources import MAX_READ, Sources, folder_of
 from gelenk.robot.xml import MAX_BYTES
 from gelenk.store.folders import FileRange, nameless
-from gelenk.store.meshes import KEPT_SUFFIXES
+from gelenk.store.meshes import KEPT_SUFFIXES, MeshFiles
 
 MAX_ENTRIES = 2000
 MAX_UNPACKED = 256 * 1024 * 1024
@@ -28,33 +34,50 @@ MAX_DIRECTORY = 1024 * 1024
 """Largest size of the list of entries at the end of a zip, [bytes]: 2,000 entries need a quarter of it."""
 MAX_FOLDERS = 16
 """Largest number of folders above an entry; widely used packages have about ten at most."""
+MAX_CANDIDATES = 200
+"""Largest number of xacro and XML files that are read to find out which of them is the robot."""
+MAX_MESH_BYTES = 16 * 1024 * 1024
+"""Largest size of a mesh from which a description's masses are computed."""
+MAX_INDICES = 32
+"""Largest number of folders from which files have been looked for and whose index is kept."""
+_NAMED = re.compile(rb"(?<=[/\\\"'])[^/\\\"'<>]{4,200}+(?=[\"'])")
+"""The last part of a path in quotes, with a suffix of at least four bytes."""
 _CHUNK = 1024 * 1024
+_DESCRIPTIONS = (".urdf", ".xacro", ".xml")
 _END_RECORD = struct.Struct("<4s4H2LH")
 
 
 @dataclass(frozen=True, slots=True)
 class UnpackedRobot:
-    """Contents of an archive: a URDF and its folder, "" at the top, mesh files by path, and an SRDF if it has one.
+    """Contents of an archive: a description and its path, mesh files by path, and an SRDF if it has one.
 
-    The meshes are parts of an unnamed file that disappears when the context of `unpacked` or the process ends.
+    The meshes are parts of an unnamed file that disappears when the context of `unpacked` or the process ends; that
+    also ends `sources`, the files that the description may include.
     """
 
-    urdf: bytes
-    urdf_folder: str
+    model: bytes
+    path: str
+    sources: Sources
     meshes: dict[str, FileRange]
     srdf: bytes | None = None
+
+    @property
+    def folder(self) -> str:
+        """Folder of the description, "" at the top."""
+        return folder_of(self.path)
 
 
 @contextmanager
 def unpacked(
-    file: BinaryIO, max_unpacked: int = MAX_UNPACKED, root: Path | None = None, urdf: str | None = None
+    file: BinaryIO, max_unpacked: int = MAX_UNPACKED, root: Path | None = None, wanted: str | None = None
 ) -> Iterator[UnpackedRobot]:
     """Unpack an archive for the duration of the context, on the disk of `root`, else that of temporary files.
 
-    `urdf` is the path in the archive of the URDF that is meant; it may be left out if there is only one.
+    `wanted` is the path in the archive of the description that is meant; it may be left out if there is only one.
 
-    Raises InvalidArchive if it is no zip, has no such URDF, several and none is named, or an entry that is not allowed,
-    TooLarge with more entries than allowed or more than `max_unpacked` bytes, and StorageFailed without room on disk.
+    Raises InvalidArchive if it is no zip, has no such description, several and none is named, or an entry that is not
+    allowed, TooLarge with more entries than allowed or more than `max_unpacked` bytes, and StorageFailed without room
+    on disk.
     """
     _check_directory(file)
     try:
@@ -62,7 +85,7 @@ def unpacked(
     except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError) as error:
         raise InvalidArchive("the file is not a zip archive") from error
     with archive, nameless(root) as store:
-        yield _unpack(archive, store, max_unpacked, urdf)
+        yield _unpack(archive, store, max_unpacked, wanted)
 
 
 def _unpack(archive: zipfile.ZipFile, store: IO[bytes], max_unpacked: int, wanted: str | None) -> UnpackedRobot:
@@ -73,7 +96,8 @@ def _unpack(archive: zipfile.ZipFile, store: IO[bytes], max_unpacked: int, wante
     for entry in entries:
         _check_entry(entry)
     _check_names([entry.filename.lower() for entry in entries])
-    description = _description(entries, wanted)
+    sources = _sources(archive, entries)
+    path = _description(sources, [entry.filename for entry in entries], wanted)
     srdfs = [entry for entry in entries if entry.filename.lower().endswith(".srdf")]
     if len(srdfs) > 1:
         raise InvalidArchive(f"the archive holds {len(srdfs)} SRDF files; it may hold one")
@@ -85,25 +109,69 @@ def _unpack(archive: zipfile.ZipFile, store: IO[bytes], max_unpacked: int, wante
         size = _copy(archive, entry, store, max_unpacked - used, max_unpacked)
         meshes[entry.filename] = FileRange(store, used, size)
         used += size
-    urdf, srdf = BytesIO(), BytesIO()
-    for entry, text in zip((description, *srdfs), (urdf, srdf), strict=False):
-        _copy(archive, entry, text, MAX_BYTES, MAX_BYTES)
-    parent = PurePosixPath(description.filename).parent
-    folder = "" if str(parent) == "." else str(parent)
-    return UnpackedRobot(urdf.getvalue(), folder, meshes, srdf.getvalue() if srdfs else None)
+    srdf = sources.read(srdfs[0].filename) if srdfs else None
+    return UnpackedRobot(sources.read(path), path, sources, meshes, srdf)
 
 
-def _description(entries: list[zipfile.ZipInfo], wanted: str | None) -> zipfile.ZipInfo:
-    """Return the URDF that is wanted; the only one if none is named."""
-    found = {entry.filename: entry for entry in entries if entry.filename.lower().endswith(".urdf")}
-    if not found:
-        raise InvalidArchive("the archive holds no URDF file; it must hold at least one")
-    files = tuple(sorted(found))
-    if wanted is None and len(files) > 1:
-        raise InvalidArchive(f"the archive holds {len(files)} URDF files; name one of them in `file`", files=files)
-    if wanted is not None and wanted not in found:
-        raise InvalidArchive("`file` must be one of the archive's URDF files", files=files)
-    return found[wanted or files[0]]
+def _sources(archive: zipfile.ZipFile, entries: list[zipfile.ZipInfo]) -> Sources:
+    """Return the files of an archive; each is read when it is needed."""
+    known = {entry.filename: entry for entry in entries}
+    by_folder: dict[str, MeshFiles] = {}
+
+    def find(name: str, folder: str) -> list[str]:
+        if folder not in by_folder:
+            if len(by_folder) == MAX_INDICES:
+                by_folder.clear()
+            by_folder[folder] = MeshFiles(known, folder)
+        return by_folder[folder].find(name)
+
+    def read(path: str) -> bytes:
+        content = BytesIO()
+        _copy(archive, known[path], content, MAX_BYTES, MAX_BYTES)
+        return content.getvalue()
+
+    def triangles(path: str) -> Array:
+        if known[path].file_size > MAX_MESH_BYTES:
+            raise InvalidMesh(f"it has more than {MAX_MESH_BYTES} bytes", path)
+        content = BytesIO()
+        _copy(archive, known[path], content, MAX_MESH_BYTES, MAX_MESH_BYTES)
+        return read_triangles(path, content.getvalue())
+
+    return Sources(find, read, triangles, hull_triangles)
+
+
+def _description(sources: Sources, paths: list[str], wanted: str | None) -> str:
+    """Return the path of the description that is wanted; of the only one if none is named: a URDF before a xacro."""
+    by_kind = [sorted(path for path in paths if path.lower().endswith(kind)) for kind in _DESCRIPTIONS]
+    urdfs, others = by_kind[0], by_kind[1] + by_kind[2]
+    if wanted is not None and wanted in urdfs + others:
+        return wanted
+    files = tuple(urdfs or _robots(sources, others))
+    if not files:
+        raise InvalidArchive("the archive holds no description: a URDF, xacro or MJCF file")
+    if wanted is not None:
+        raise InvalidArchive("`file` must be one of the archive's descriptions", files=files)
+    if len(files) > 1:
+        raise InvalidArchive(
+            f"the archive holds {counted(len(files), 'description')}; name one of them in `file`", files=files
+        )
+    return files[0]
+
+
+def _robots(sources: Sources, paths: list[str]) -> list[str]:
+    """Return those of the paths whose files describe a robot and are not a part that another one of them includes."""
+    if len(paths) > MAX_CANDIDATES:
+        raise InvalidArchive(f"the archive holds {len(paths)} xacro and XML files; name the robot's in `file`")
+    found: dict[str, bytes] = {}
+    for path in paths:
+        found[path] = sources.read(path)
+        if (size := sum(map(len, found.values()))) > MAX_READ:
+            raise TooLarge("bytes of xacro and XML files in the archive", size, MAX_READ)
+    robots = [path for path in paths if is_robot(found[path])]
+    names = {path: PurePosixPath(path).name.encode() for path in robots}
+    mentioned = {path: set(_NAMED.findall(found[path])) for path in robots}
+    parts = {path for path in robots if any(names[path] in mentioned[other] for other in robots if other != path)}
+    return [path for path in robots if path not in parts] or robots
 
 
 def _check_directory(file: BinaryIO) -> None:

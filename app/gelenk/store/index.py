@@ -17,13 +17,15 @@ from typing import Any, NamedTuple
 
 import orjson
 
-from gelenk.contract.robots import RobotFile
+from gelenk.contract.robot_file import RobotFile
 from gelenk.errors import StorageFailed
 from gelenk.store import folders
 from gelenk.store.records import ROBOT_FILE, Source, Stamp, stamp_of, uploaded_record
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 _FILE = ".index"
+_FORM = 1
+"""What the checksums of lines begin with: other than that of releases whose lines lack fields of the list."""
 _LOOKED_AT = 2000
 """Number of robots that each listing checks for manual edits; a check takes a few microseconds."""
 _SPARE_LINES = 1000
@@ -142,11 +144,15 @@ class Index:
                 file.write(content)
 
 
+ABOUT = ("description", "maker", "kind", "closed_form")
+"""Fields of `robot.json` that the list of robots repeats."""
+
+
 def summary(name: str, source: Source, file: RobotFile) -> dict[str, Any]:
     """Return a robot's entry in the list of robots; its chain is None if `robot.json` does not name one."""
     chain = None if file.default_chain is None else file.default_chain.model_dump()
-    content = {"name": name, "description": file.description, "source": source, "format": file.format}
-    return content | {"default_chain": chain}
+    about = {field: getattr(file, field) for field in ABOUT}
+    return {"name": name, **about, "source": source, "format": file.format, "default_chain": chain}
 
 
 def _entry(name: str, stamp: Stamp, file: RobotFile) -> IndexEntry:
@@ -158,13 +164,13 @@ def _as_line(entry: IndexEntry) -> bytes:
     stamp = b"%d %d %d" % entry.stamp
     fields = (entry.name.encode(), stamp, orjson.dumps(entry.owner), b"%d" % entry.kept_bytes, entry.summary)
     line = b"\t".join(fields)
-    return b"\n%b\t%d\n" % (line, zlib.crc32(line))
+    return b"\n%b\t%d\n" % (line, zlib.crc32(line, _FORM))
 
 
 def _from_line(line: bytes) -> IndexEntry:
     """Parse a line; raises ValueError if it is damaged."""
     fields, _, checksum = line.rpartition(b"\t")
-    if int(checksum) != zlib.crc32(fields):
+    if int(checksum) != zlib.crc32(fields, _FORM):
         raise ValueError("it is damaged")
     name, stamp, owner, kept_bytes, listed = fields.split(b"\t")
     changed, inode, size = map(int, stamp.split())

@@ -13,7 +13,7 @@ import threading
 import time
 import uuid
 from collections import OrderedDict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from itertools import count
@@ -24,7 +24,7 @@ import orjson
 
 from gelenk.contract.collision_pairs import PairChoice
 from gelenk.contract.common import ChainEnds
-from gelenk.contract.robots import RobotFile
+from gelenk.contract.robot_file import RobotFile
 from gelenk.errors import (
     InvalidName,
     InvalidRobotFolder,
@@ -79,6 +79,7 @@ class RobotUpload:
         srdf: Bytes of the SRDF that came with a URDF.
         meshes, urdf_folder: Contents of mesh files by relative path, and the folder of the URDF among them.
         strict: Whether a URDF with harmless faults is refused; not stored.
+        notes: What else there is to say about the description; the robot's warnings include it.
         owner: Client that keeps it; it counts against this client's quota.
     """
 
@@ -92,6 +93,7 @@ class RobotUpload:
     srdf: bytes | None = None
     strict: bool = False
     owner: str | None = None
+    notes: Sequence[str] = ()
 
 
 class Library:
@@ -362,7 +364,7 @@ def _files(upload: RobotUpload) -> tuple[RobotFile, str, dict[str, Content]]:
         model=f"{version}/{_MODEL_NAMES[upload.format]}",
         srdf=None if upload.srdf is None else f"{version}/{_SRDF_NAME}",
         meshes=f"{version}/meshes" if used else None,
-        findings=findings({path: upload.meshes[path] for path in sorted(used)}, upload.srdf),
+        findings=[*upload.notes, *findings({path: upload.meshes[path] for path in sorted(used)}, upload.srdf)],
         urdf_folder=upload.urdf_folder,
         digest=_digest(upload),
         owner=upload.owner,

@@ -3,7 +3,7 @@
 import os
 from pathlib import Path
 
-from gelenk.contract.robots import RobotFile
+from gelenk.contract.robot_file import RobotFile
 from gelenk.robot.dh import DhTable
 from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot, Record

@@ -12,7 +12,7 @@ from pathlib import PurePosixPath
 
 from gelenk.errors import listed, meshes_are
 
-MESH_SUFFIXES = frozenset({".stl", ".obj", ".dae"})
+MESH_SUFFIXES = frozenset({".stl", ".obj", ".dae", ".msh"})
 COMPANION_SUFFIXES = frozenset({".mtl", ".png", ".jpg", ".jpeg"})
 """Materials and images, which OBJ and DAE files refer to."""
 KEPT_SUFFIXES = MESH_SUFFIXES | COMPANION_SUFFIXES
@@ -80,7 +80,7 @@ class MeshFiles:
         Those are all below the parent of the mesh's folder, because meshes are not parsed.
         """
         meshes = {path for reference in references for path in self.find(reference)}
-        around = tuple({_around(path) for path in meshes if not path.lower().endswith(".stl")})
+        around = tuple({_around(path) for path in meshes if not path.lower().endswith((".stl", ".msh"))})
         companions = (path for path in self._paths if PurePosixPath(path).suffix.lower() in COMPANION_SUFFIXES)
         return meshes | {path for path in companions if path.startswith(around)}
 
@@ -94,7 +94,7 @@ def mesh_warnings(found: Mapping[str, Sequence[str]]) -> tuple[str, ...]:
     warnings = []
     if unread:
         formats = sorted(set(unread.values()))
-        sentence = f"{', '.join(formats[:12])} {'is' if len(formats) == 1 else 'are'} not read: STL, OBJ, DAE"
+        sentence = f"{', '.join(formats[:12])} {'is' if len(formats) == 1 else 'are'} not read: STL, OBJ, DAE, MSH"
         warnings.append(f"{meshes_are(tuple(unread))} not shown: {sentence}")
     if missing:
         warnings.append(f"{meshes_are(tuple(missing))} missing")

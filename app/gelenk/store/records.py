@@ -16,8 +16,9 @@ from typing import Literal, TypeAlias
 from pydantic import ValidationError
 
 from gelenk.contract.dh import DhTablePayload
-from gelenk.contract.robots import PackagedFile, RobotFile
+from gelenk.contract.robot_file import PackagedFile, RobotFile
 from gelenk.dh.tables.convert import describe_dh
+from gelenk.dh.tables.housings import can_be_housed, housed_bodies
 from gelenk.errors import InvalidRobotFolder, InvalidUrdf, KinematicsError, TooLarge, counted, quoted
 from gelenk.robot.description import Description
 from gelenk.robot.dh import DhTable
@@ -32,6 +33,8 @@ Stamp: TypeAlias = tuple[int, int, int]
 Signature: TypeAlias = tuple[Stamp | None, Stamp | None]
 
 ROBOT_FILE = "robot.json"
+BUILT_KINDS = frozenset({"collaborative arm", "industrial arm"})
+"""Kinds of robots that are drawn as built arms if they are tables; the studio has the same in `view/figure.ts`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,16 +154,20 @@ def load(record: Record) -> LoadedRobot:
     size = record.model_path.stat().st_size
     if size > MAX_BYTES:
         raise TooLarge(f"bytes of {record.model_path.name}", size, MAX_BYTES)
-    description, urdf, table = describe(record.name, record.file.format, read_plain(record.model_path))
+    content = read_plain(record.model_path)
+    description, urdf, table = describe(record.name, record.file.format, content, about=record.file)
     ends = record.file.default_chain
     robot = RobotModel(description, (ends.base_frame, ends.tip_frame) if ends else None)
     return LoadedRobot(record, robot, urdf, table, _found_meshes(record, description.meshes))
 
 
-def describe(name: str, format_: str, content: bytes, strict: bool = False) -> tuple[Description, str, DhTable | None]:
+def describe(
+    name: str, format_: str, content: bytes, strict: bool = False, about: RobotFile | None = None
+) -> tuple[Description, str, DhTable | None]:
     """Return the description in a model file, the same as URDF text, and the DH table if the file holds one.
 
     A table is written as URDF and read like any other, so all robots use one code path; see `read_urdf` for `strict`.
+    If `about` says that the table is one of an arm that is built, its bodies are housings.
     """
     if format_ == "urdf":
         try:
@@ -173,7 +180,8 @@ def describe(name: str, format_: str, content: bytes, strict: bool = False) -> t
         table = DhTablePayload.model_validate_json(content).table()
     except ValidationError as error:
         raise InvalidRobotFolder(f"not a DH table: {_first_fault(error)}", "dh.json") from error
-    described = describe_dh(name, table)
+    is_built = about is not None and about.kind in BUILT_KINDS and can_be_housed(table)
+    described = describe_dh(name, table, housed_bodies(table, about.payload) if about and is_built else None)
     text = write_urdf(described)
     read = read_urdf(text)
     return Description(read.name, read.links, read.joints, described.warnings), text, table

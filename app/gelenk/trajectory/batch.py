@@ -26,7 +26,7 @@ from gelenk.trajectory.audit.contact.clearance import RESOLUTION
 from gelenk.trajectory.audit.contact.search import least_slack
 from gelenk.trajectory.audit.contact.travel import put_position
 from gelenk.trajectory.audit.motions import SIGMA_SAMPLES, TIP_SAMPLES, BatchLimits, figures, slowdown
-from gelenk.trajectory.audit.pieces import Pieces
+from gelenk.trajectory.audit.pieces import Pieces, rate_bounds, travels
 from gelenk.trajectory.audit.result import Audit
 from gelenk.trajectory.audit.tip import RATES, least_singular_value, rate_peaks
 from gelenk.trajectory.joints.fastest import LawShape, fastest_motion, shape_of
@@ -151,14 +151,14 @@ def _fill(
         if possible[i]:
             start, target = starts[min(i, len(starts) - 1)], targets[i]
             pieces = _pieces(*fastest_motion(start, target, limits.joints, law))
-            tip, _ = rate_peaks(flat, pieces, TIP_SAMPLES)
+            tip, _ = rate_peaks(flat, pieces, TIP_SAMPLES, *rate_bounds(pieces))
             factor = slowdown(tip, limits.tip)
             if factor > 1.0:
                 factor *= 1.0 + _MARGIN
                 pieces = Pieces(factor * pieces.starts, factor * pieces.widths, pieces.scaled)
-                tip, _ = rate_peaks(flat, pieces, TIP_SAMPLES)
+                tip, _ = rate_peaks(flat, pieces, TIP_SAMPLES, *rate_bounds(pieces))
             found = figures(pieces, start, target, tip, limits)
-            sigma, _ = least_singular_value(flat, pieces, _ROWS, False, SIGMA_SAMPLES)
+            sigma, _ = least_singular_value(flat, pieces, _ROWS, False, travels(pieces), SIGMA_SAMPLES)
             row = rows[i]
             row[0], row[5], row[10] = found.passed, found.margin, sigma
             row[1] = pieces.starts[-1] + pieces.widths[-1] if (start != target).any() else 0.0

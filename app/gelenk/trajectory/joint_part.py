@@ -28,6 +28,7 @@ from gelenk.trajectory.joints.moving_ends import given_rates, moving_motion
 from gelenk.trajectory.joints.splines import JointSpline, promised
 from gelenk.trajectory.joints.via_blends import via_blends
 from gelenk.trajectory.joints.waypoints import check_within
+from gelenk.trajectory.joints.ways import fastest_way
 from gelenk.trajectory.laws.laws import LAWS, scaled_law
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import EndRates
@@ -90,7 +91,8 @@ def _planned(
         motion, failure, share = _through(chain, start, segment, index)
     motion = _within_tip_limits(chain, motion, segment)
     timing = _comparison(chain, start, target, segment, index) if problem.compares_timing else None
-    end = motion.at(motion.breaks[-1:])[0] if target is None else target
+    goal = target if segment.configurations is None else segment.configurations[-1]
+    end = motion.at(motion.breaks[-1:])[0] if failure is not None or goal is None else goal
     report = SegmentReport(index, segment.type, segment.law, 0.0, motion.duration, notes=notes)
     return PlannedPart(motion, (report,), _demands(segment, start, end, problem.following.task), failure, share, timing)
 
@@ -150,6 +152,9 @@ def _through(
     chain: Chain, start: Array, segment: Segment, index: int
 ) -> tuple[PiecewisePolynomial, PlanningFailure | None, float]:
     """Plan through all waypoints, or the share of them before which no joint leaves its limits."""
+    usual = fastest_way(chain, start, segment)
+    if usual is not None:
+        return usual, None, 1.0
     spline = JointSpline.of(start, segment, chain)
     motion, excess = spline.motion(), first_limit_excess(chain, spline.path)
     if excess is None:
@@ -216,7 +221,7 @@ def _comparison(
 def _demands(segment: Segment, start: Array, end: Array, task: Task) -> Demands:
     continuous, keeps_jerk = promised(segment)
     return Demands(
-        JointLimits(*segment.limits.joints),
+        JointLimits(segment.limits.velocity, segment.limits.acceleration, segment.limits.jerk),
         segment.limits.tip,
         (start, end),
         task=task,

@@ -19,7 +19,7 @@ from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.audit import audit, whole_audit
 from gelenk.trajectory.audit.contact.clearance import clearance_of, nearness
 from gelenk.trajectory.audit.demands import Demands
-from gelenk.trajectory.audit.result import Audit, Peak, TipPeaks
+from gelenk.trajectory.audit.result import Audit, Peak, Reason, TipPeaks
 from gelenk.trajectory.contact_end import ContactEnd, contact_ends
 from gelenk.trajectory.joint_part import joint_part
 from gelenk.trajectory.joints.moving_ends import given_rates
@@ -77,7 +77,11 @@ def _clear(
         near = nearness(cell, lasting(found.motion))
         if near.first_contact is None:
             break
-    return replace(found, audit=replace(found.audit, clearance=clearance_of(cell, near)))
+    judgement = replace(found.audit, clearance=clearance_of(cell, near))
+    if near.first_contact is not None and found.failure is not None:  # at the start, before which nothing can end
+        reason = Reason("clearance", found.failure.detail, None, near.first_contact.time)
+        judgement = replace(judgement, passed=False, reasons=(reason,))
+    return replace(found, audit=judgement)
 
 
 def _whole(robot: RobotModel, chain: Chain, problem: TrajectoryProblem, planned: list[PlannedPart]) -> Trajectory:
@@ -112,8 +116,8 @@ def _parts(
 ) -> list[PlannedPart]:
     """Plan the parts one after the other, as far as it goes, or to a given end."""
     parts: list[PlannedPart] = []
-    configuration = problem.start
     for first, segments in _grouped(problem.segments):
+        configuration = parts[-1].motion.at(parts[-1].motion.breaks[-1:])[0] if parts else problem.start
         if segments[0].turn is not None and segments[0].turn.is_blocked:
             break
         if end is not None and first + len(segments) > end.failure.segment:
@@ -126,7 +130,6 @@ def _parts(
         parts.append(part)
         if part.failure is not None:
             break
-        configuration = part.motion.at(part.motion.breaks[-1:])[0]
     return parts
 
 
@@ -195,8 +198,9 @@ def _factor(parts: list[PlannedPart], problem: TrajectoryProblem) -> float:
 
 def _with_stated_jerk(part: PlannedPart, problem: TrajectoryProblem) -> PlannedPart:
     """Slow a part down to requested jerk limits that its law does not keep; `InvalidField` if its times are given."""
-    has_jerk = part.motion.coefficients.shape[1] > _CUBIC
-    if part.demands.keeps_jerk or part.motion.duration == 0.0 or not has_jerk:
+    demands, has_jerk = part.demands, part.motion.coefficients.shape[1] > _CUBIC
+    is_stated = demands.stated_jerk is not None or demands.zones
+    if demands.keeps_jerk or not is_stated or part.motion.duration == 0.0 or not has_jerk:
         return part
     stretches = [(motion, zone.stated_jerk) for motion, zone in part.stretches()]
     jerks = [largest_ratio(motion, _CUBIC, stated)[0] for motion, stated in stretches if stated is not None]
@@ -225,7 +229,7 @@ def _with_torques(part: PlannedPart, problem: TrajectoryProblem, tighter: float 
 
     It is refused too where the weight alone asks for more than a limit. The limits are first divided by `tighter`.
     """
-    if part.motion.duration == 0.0:
+    if (part.demands.torque is None and not part.demands.zones) or part.motion.duration == 0.0:
         return part
     stretches = [(motion, zone.torque) for motion, zone in part.stretches()]
     factors = (torque_factor(motion, torque.tightened(tighter)) for motion, torque in stretches if torque is not None)

@@ -6,12 +6,13 @@ import { FIRST, type Linked, type State, type Writing } from "./state.ts";
 import { asObjects } from "./scene/objects.ts";
 import type { Store } from "./store.ts";
 import { isPose } from "./robot/pose.ts";
+import { type Units, UNITS } from "./ui/quantity.ts";
 import { asLook } from "./view/looking.ts";
 import { type DhTable, DIRECTIONS, type InverseOptions } from "./types.ts";
 
 /** What can be drawn on a robot besides itself. */
-export const MARKS = ["frames", "axes", "names", "dh", "bodies"] as const;
-const FLAGS = ["degrees", ...MARKS] as const;
+export const MARKS = ["frames", "axes", "names", "dh", "dimensions", "bodies"] as const;
+const FLAGS = [...UNITS, "parallel", ...MARKS] as const;
 const OPTION = /^[a-z]+\.[a-z]+$/; // `panel.option`
 const PARTS: readonly string[] = ["transforms", "pose", "jacobian", "singular", "motion"];
 const WRITE_AFTER = 250; // browsers refuse more than some hundred changes of the address in half a minute
@@ -23,12 +24,13 @@ export interface Address {
 }
 
 /** What a link says; of what it leaves to whoever opens it, their preferences. */
-export function read(hash: string, prefs: Pick<Prefs, "theme" | "degrees">): Address {
+export function read(hash: string, prefs: Pick<Prefs, "theme" | keyof Units>): Address {
   const given = new URLSearchParams(hash.replace(/^#/, ""));
   const linked: Linked = { ...FIRST };
   linked.panel = given.get("panel") ?? FIRST.panel;
   linked.draft = json<DhTable>(given.get("dh-table"));
-  linked.robot = linked.draft ? "" : (given.get("robot") ?? FIRST.robot);
+  // A link with a panel alone shows it for the first robot; one without anything leaves the choice to the person.
+  linked.robot = linked.draft ? "" : (given.get("robot") ?? (given.has("panel") ? FIRST.robot : ""));
   linked.base = given.get("base");
   linked.tip = given.get("tip");
   const target = json<unknown>(given.get("target"));
@@ -43,7 +45,7 @@ export function read(hash: string, prefs: Pick<Prefs, "theme" | "degrees">): Add
   };
   const shown = new Set((given.get("show") ?? "").split(","));
   for (const flag of FLAGS) linked[flag] = shown.has(flag);
-  linked.degrees ||= prefs.degrees;
+  for (const unit of UNITS) linked[unit] ||= prefs[unit];
   linked.theme = asTheme(given.get("theme")) ?? prefs.theme;
   linked.camera = asLook(given.get("camera")?.split(",").map(Number) ?? []);
   linked.options = Object.fromEntries([...given].filter(([key]) => OPTION.test(key)));
@@ -75,7 +77,11 @@ export function write(state: Readonly<State>): string {
 }
 
 /** Keep the address bar as the state is; another robot, panel or exercise is a step that the browser's Back undoes. */
-export function mirror(store: Store<State>, restore: (address: Address) => void): void {
+export function mirror(
+  store: Store<State>,
+  restore: (address: Address) => void,
+  keep: (hash: string, title: string) => void,
+): void {
   let timer = 0;
   let written = location.hash;
   let place = placeOf(store.value);
@@ -83,6 +89,7 @@ export function mirror(store: Store<State>, restore: (address: Address) => void)
     const { model, robot, draft, loading } = store.value;
     if (loading || !model || model.name !== (draft ? null : robot)) return;
     const hash = write(store.value);
+    keep(hash, model.title);
     if (hash === written) return;
     const step = placeOf(store.value) !== place;
     place = placeOf(store.value);

@@ -2,6 +2,7 @@
 
 import type { Connection } from "./connection.ts";
 import type { Key } from "./key.ts";
+import { language, t } from "./texts/index.ts";
 
 export interface Call {
   method: "GET" | "POST" | "PUT" | "DELETE";
@@ -41,7 +42,7 @@ const OF_A_PROXY: ReadonlySet<number> = new Set([502, 503, 504]);
 const MAKES = /^v1\/(robots|scenes)$|\/workspace$/;
 
 /** Whatever went wrong as it is shown; the title is for what is not the service's. */
-export function asProblem(error: unknown, title = "The page cannot do this"): Problem {
+export function asProblem(error: unknown, title = t("The page cannot do this")): Problem {
   return error instanceof Problem ? error : new Problem(NOT_OF_THE_SERVICE, title, String(error));
 }
 
@@ -111,7 +112,7 @@ export class Api {
       const request = {
         method: call.method,
         body,
-        headers: { ...headers, ...this.key.headers },
+        headers: { ...headers, "Accept-Language": language, ...this.key.headers },
         signal: signal ?? null,
       };
       try {
@@ -126,7 +127,7 @@ export class Api {
         continue;
       }
       back.catch(() => {});
-      throw new Problem(NO_ANSWER, "No answer", "The service does not answer. Is it still running?");
+      throw new Problem(NO_ANSWER, t("No answer"), t("The service does not answer. Is it still running?"));
     }
   }
 }
@@ -148,10 +149,13 @@ function content(call: Call): { body: BodyInit | null; headers: Record<string, s
 }
 
 async function problem(answer: Response): Promise<Problem> {
-  const fallback = `The service answered ${answer.status} ${answer.statusText}.`;
-  if (!isJson(answer)) return new Problem(answer.status, "Error", fallback);
+  const fallback = t("The service answered {status} {statusText}.", {
+    status: answer.status,
+    statusText: answer.statusText,
+  });
+  if (!isJson(answer)) return new Problem(answer.status, t("Error"), fallback);
   const { title, detail, ...facts } = (await answer.json()) as Record<string, unknown>;
-  return new Problem(answer.status, String(title ?? "Error"), String(detail ?? fallback), facts);
+  return new Problem(answer.status, String(title ?? t("Error")), String(detail ?? fallback), facts);
 }
 
 /** Runs one call at a time and drops what is overtaken: for answers that follow a slider. */

@@ -1,5 +1,6 @@
 /** Whether the service answers. What asks it meanwhile waits here, and a line on the page says so. */
 
+import { t } from "./texts/index.ts";
 import { button, element } from "./ui/dom.ts";
 
 const PAUSE = 2000; // between two looks whether it is back, [ms]
@@ -27,8 +28,8 @@ export class Connection {
     const line = element(
       "p",
       { class: "lost", role: "alert" },
-      "The service does not answer. Is it still running? This page goes on by itself when it is back. ",
-      button("Try now", () => this.#ask(), { class: "button small" }),
+      t("The service does not answer. Is it still running? This page goes on by itself when it is back. "),
+      button(t("Try now"), () => this.#ask(), { class: "button small" }),
     );
     document.body.append(line);
     do {

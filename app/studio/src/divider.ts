@@ -3,6 +3,7 @@
 import { prefer } from "./prefs.ts";
 import type { State } from "./state.ts";
 import type { Store } from "./store.ts";
+import { t } from "./texts/index.ts";
 
 const USUAL = 480; // px, as in the style sheet
 const LEAST = 360; // px, of the panel and of the picture
@@ -18,7 +19,7 @@ export function divide(line: HTMLElement, main: HTMLElement, store: Store<State>
     line.setAttribute("aria-valuemin", String(LEAST));
     line.setAttribute("aria-valuemax", String(most()));
     line.setAttribute("aria-valuenow", String(width));
-    line.setAttribute("aria-valuetext", `Panel ${width} pixels wide`);
+    line.setAttribute("aria-valuetext", t("Panel {width} pixels wide", { width }));
   };
   let dragged: number | null = null;
   line.addEventListener("pointerdown", (event) => {

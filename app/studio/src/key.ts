@@ -1,7 +1,9 @@
 /** The key that calls are sent with where the service wants one: asked for when it does, kept for this tab alone. */
 
+import { t } from "./texts/index.ts";
+
 const NAME = "gelenk.key";
-const FIRST = "Whoever runs it makes them, and can give you one.";
+const FIRST = t("Whoever runs it makes them, and can give you one.");
 
 /** Asks a person for a key, with the reason; null where there is none to be had. */
 export type Asker = (reason: string) => Promise<string | null>;

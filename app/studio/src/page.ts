@@ -4,21 +4,25 @@ import type { Key } from "./key.ts";
 import { PANELS } from "./panels/index.ts";
 import type { Studio } from "./panels/panel.ts";
 import { shownChain } from "./robot/chain.ts";
-import { prefer } from "./prefs.ts";
+import { keep, prefer } from "./prefs.ts";
 import type { RobotModel } from "./robot/model.ts";
 import type { State } from "./state.ts";
 import type { Store } from "./store.ts";
 import { share } from "./share.ts";
+import { language, t } from "./texts/index.ts";
 import { askForKey, showShortcuts } from "./ui/dialogs.ts";
 import { button, element, toggle } from "./ui/dom.ts";
+import { tourButton } from "./tour/index.ts";
 import { SIDES } from "./view/looking.ts";
+import { Measuring } from "./view/measure.ts";
 
 const MARKS = [
-  { key: "frames", text: "Frames", title: "The frame of every link" },
-  { key: "axes", text: "Axes", title: "The axes of the joints" },
-  { key: "names", text: "Names", title: "The names of the links" },
-  { key: "dh", text: "DH frames", title: "The frames of the chain's DH table, with a and d" },
-  { key: "bodies", text: "Bodies", title: "What contacts are computed of" },
+  { key: "frames", text: t("Frames"), title: t("The frame of every link") },
+  { key: "axes", text: t("Axes"), title: t("The axes of the joints") },
+  { key: "names", text: t("Names"), title: t("The names of the links") },
+  { key: "dh", text: t("DH frames"), title: t("The frames of the chain's DH table, with a and d") },
+  { key: "dimensions", text: t("Dimensions"), title: t("a, d, α and θ of all rows, with the DH frames") },
+  { key: "bodies", text: t("Bodies"), title: t("What contacts are computed of") },
 ] as const;
 
 const DARK = matchMedia("(prefers-color-scheme: dark)");
@@ -36,10 +40,10 @@ export function furnish(places: Places, studio: Studio): void {
   tabs(places, studio);
   heading(places.heading, studio.store);
   marks(places.marks, studio);
-  const help = button("Help", showShortcuts, { class: "tool", title: "What the keyboard does (?)" });
-  const pages = { handbook: "Handbook", docs: "API" };
+  const help = button(t("Help"), showShortcuts, { class: "tool", title: t("What the keyboard does (?)") });
+  const pages = { handbook: t("Handbook"), docs: "API" };
   const links = Object.entries(pages).map(([href, name]) => element("a", { class: "tool", href }, name));
-  places.tools.append(help, themeSwitch(studio), ...links);
+  places.tools.append(tourButton(studio, t("Tour"), "tool"), help, themeSwitch(studio), languageSwitch(), ...links);
 }
 
 function tabs({ tabs: host, panel }: Places, studio: Studio): void {
@@ -85,10 +89,13 @@ function tabs({ tabs: host, panel }: Places, studio: Studio): void {
 /** The robot's name, and the ends of the chain that every panel speaks of. */
 function heading(host: HTMLElement, store: Store<State>): void {
   const name = element("h1");
-  const pick = button("", () => store.set({ panel: "robot" }), { class: "robot-pick", title: "Choose another robot" });
+  const pick = button("", () => store.set({ panel: "robot" }), {
+    class: "robot-pick",
+    title: t("Choose another robot"),
+  });
   pick.append(name);
-  const base = frameSelect("Base frame", (frame) => store.set({ base: frame }));
-  const tip = frameSelect("Tip frame", (frame) => store.set({ tip: frame }));
+  const base = frameSelect(t("Base frame"), (frame) => store.set({ base: frame }));
+  const tip = frameSelect(t("Tip frame"), (frame) => store.set({ tip: frame }));
   const status = element("p", { class: "status", role: "status" });
   host.append(
     pick,
@@ -110,9 +117,9 @@ function heading(host: HTMLElement, store: Store<State>): void {
   });
   store.watch(["loading", "failure", "model", "meshes", "received"], ({ loading, failure, model, received }) => {
     status.textContent = loading
-      ? "Loading …"
+      ? t("Loading …")
       : failure
-        ? "Not on the screen: the panel Robot says why."
+        ? t("Not on the screen: the panel Robot says why.")
         : model
           ? arriving(model.meshes, received)
           : "";
@@ -122,7 +129,7 @@ function heading(host: HTMLElement, store: Store<State>): void {
 /** How far the meshes have come; nothing once they are there. */
 function arriving({ wanted, shown, failed }: RobotModel["meshes"], received: number): string {
   if (shown + failed.length >= wanted) return "";
-  return `Meshes: ${shown} of ${wanted}, ${(received / 1e6).toFixed(1)} MB …`;
+  return t("Meshes: {shown} of {wanted}, {received} MB …", { shown, wanted, received: (received / 1e6).toFixed(1) });
 }
 
 function frameSelect(title: string, choose: (frame: string) => void): HTMLSelectElement {
@@ -142,10 +149,23 @@ function marks(host: HTMLElement, studio: Studio): void {
     store.watch([key], (state) => flip.setAttribute("aria-pressed", String(state[key])));
     return flip;
   });
-  const shared = button("Share", () => share(studio), { class: "toggle", title: "A link, a frame, the picture" });
+  const shared = button(t("Share"), () => share(studio), { class: "toggle", title: t("A link, a frame, the picture") });
   host.append(...made);
   if (!view) return void host.append(shared);
-  host.append(button("Fit", () => view.fit(), { class: "toggle", title: "Look at the whole robot (double click)" }));
+  host.append(
+    button(t("Fit"), () => view.fit(), { class: "toggle", title: t("Look at the whole robot (double click)") }),
+  );
+  const measuring = new Measuring(view, store);
+  const measure = toggle(t("Measure"), t("The distance of two points: of frames, or of what is drawn"), () => {
+    measuring.flip();
+    measure.setAttribute("aria-pressed", String(measuring.isOn));
+  });
+  const parallel = toggle(t("Parallel"), t("Parallel projection, as in drawings: what is far away is as large"), () =>
+    store.set({ parallel: !store.value.parallel }),
+  );
+  store.watch(["parallel"], (state) => parallel.setAttribute("aria-pressed", String(state.parallel)));
+  host.append(measure, parallel);
+  host.before(measuring.host);
   for (const { text, title, from } of SIDES)
     host.append(button(text, () => view.from(from), { class: "toggle", title }));
   host.append(shared);
@@ -167,13 +187,13 @@ export function followTheme(store: Store<State>): void {
 export function keySwitch(key: Key): HTMLElement {
   const change = async () => {
     const text = await askForKey(
-      key.isSet ? "Calls are sent with a key; this one takes its place." : "None is used yet.",
+      key.isSet ? t("Calls are sent with a key; this one takes its place.") : t("None is used yet."),
     );
     if (text === null) return;
     key.set(text);
     location.reload(); // everything is asked again; the address bar has what is shown
   };
-  const flip = button("Key", () => void change(), { class: "tool", title: "Use another key of the service" });
+  const flip = button(t("Key"), () => void change(), { class: "tool", title: t("Use another key of the service") });
   flip.hidden = !key.isWanted;
   return flip;
 }
@@ -186,8 +206,20 @@ function themeSwitch({ store }: Studio): HTMLElement {
   };
   const flip = button("", change, { class: "tool" });
   store.watch(["dark"], ({ dark }) => {
-    flip.textContent = dark ? "Light" : "Dark";
-    flip.title = `Change to ${dark ? "light" : "dark"} colours`;
+    flip.textContent = dark ? t("Light") : t("Dark");
+    flip.title = dark ? t("Change to light colours") : t("Change to dark colours");
   });
   return flip;
+}
+
+/** To the other language, which is named in itself; everything is asked again, and the address bar has what is shown. */
+function languageSwitch(): HTMLElement {
+  // Each in its own language; the letters are part of the name that is read out.
+  const [other, name] =
+    language === "en" ? (["de", "DE: die Seite auf Deutsch"] as const) : (["en", "EN: the page in English"] as const);
+  const change = () => {
+    keep({ language: other });
+    location.reload();
+  };
+  return button(other.toUpperCase(), change, { class: "tool", lang: other, title: name, "aria-label": name });
 }

@@ -1,5 +1,14 @@
 /** Made by `./dev studio` from the OpenAPI document, which describes each field; not to be edited. */
 
+export type AbsoluteInfo = {
+  readings: DiscPosition[];
+  unwrapped: number[];
+  motor_travel: number | null;
+  load_travel: number | null;
+  values: DiscPosition[];
+  table: DiscPosition[] | null;
+};
+
 export type ArrayInfo = { shape: number[]; columns: string[] };
 
 export type Audit = {
@@ -19,6 +28,24 @@ export type Audit = {
   way_error: PathError | null;
   reasons: Reason[];
   clearance?: MotionClearance | null;
+};
+
+export type AxisAngleInfo = { axis: number[] | null; other_axis: number[] | null; angle: number };
+
+export type AxisAnglePayload = { axis: number[]; angle: number };
+
+export type BlendCheck = {
+  steps: number;
+  max_position_error: number;
+  max_velocity_error: number;
+  closest_distance_error: number;
+};
+
+export type BlendsInfo = {
+  velocities: number[][];
+  accelerations: number[][];
+  blend_times: number[][];
+  deviations: number[][];
 };
 
 export type BlockingJoint = { name: string; position: number; lower: number; upper: number; excess: number };
@@ -81,6 +108,27 @@ export type ColumnFormulas = {
   angular: MatrixFormula;
 };
 
+export type CompareAnswer = {
+  equivalent: boolean;
+  base: Pose | null;
+  tool: Pose | null;
+  offsets: number[] | null;
+  signs: number[] | null;
+  max_position_error: number | null;
+  max_orientation_error: number | null;
+  first_difference: DifferenceEntry | null;
+  found: ("base" | "tool" | "offsets" | "signs")[];
+  held: ("base" | "tool" | "offsets" | "signs")[];
+  diagnoses: DiagnosisEntry[];
+  unverified: Unverified[];
+  notes: string[];
+  joint_names: string[];
+  base_frame: string;
+  tip_frame: string;
+  samples: number;
+  random_seed: number;
+};
+
 export type Configuration = number[] | JointValues;
 
 export type ContactCertificate = {
@@ -96,6 +144,16 @@ export type ContactPair = { a: string; b: string; distance: number; point_a: num
 
 export type Continuity = { position: Jump | null; velocity: Jump | null; acceleration: Jump | null; jerk: Jump | null };
 
+export type Controller = {
+  pose_format: "ur" | "kuka_abc" | "abb" | "fanuc_wpr";
+  base_frame: string;
+  tip_frame: string;
+  joint_signs: (-1 | 1)[];
+  joint_zeros: number[];
+  added?: Record<string, string>;
+  subtracted?: Record<string, string>;
+};
+
 export type CoursePicture = { name: string; title: string };
 
 export type CoursePictures = { pictures: CoursePicture[] };
@@ -103,6 +161,41 @@ export type CoursePictures = { pictures: CoursePicture[] };
 export type CylinderShape = { type: "cylinder"; radius: number; length: number };
 
 export type Damping = { distance: number; angle: number };
+
+export type DcMotorAnswer = {
+  steady_state: OperatingPoint;
+  torque_speed_line: TorqueSpeedLine;
+  dynamics: MotorDynamicsInfo;
+  response: StepResponseInfo | null;
+  steps: Step[];
+  warnings: string[];
+  certificate: MotorCertificate;
+};
+
+export type DcMotorRequest = {
+  language?: "en" | "de";
+  resistance: number;
+  inductance: number;
+  torque_constant: number;
+  back_emf_constant?: number | null;
+  viscous_friction?: number;
+  inertia: number;
+  voltage: number;
+  load_torque?: number;
+  times?: number[] | null;
+  duration?: number | null;
+  samples?: number | null;
+  initial_current?: number;
+  initial_angular_velocity?: number;
+};
+
+export type Degeneracy = {
+  notation: "zyz" | "rpy" | "axis_angle";
+  case: string;
+  determined: string | null;
+  value: number | null;
+  chosen: string;
+};
 
 export type DeriveAnswer = {
   convention: "standard" | "modified";
@@ -170,6 +263,58 @@ export type DhTablePayload = {
   tool?: Pose | null;
 };
 
+export type DiagnosisEntry = {
+  mistake:
+    | "sign"
+    | "degrees"
+    | "millimetres"
+    | "centimetres"
+    | "power_of_ten"
+    | "convention"
+    | "columns"
+    | "rows"
+    | "row_missing"
+    | "row_doubled"
+    | "row_extra"
+    | "joint_sense"
+    | "number"
+    | "joint_zero"
+    | "base"
+    | "tool";
+  mistakes: (
+    | "sign"
+    | "degrees"
+    | "millimetres"
+    | "centimetres"
+    | "power_of_ten"
+    | "convention"
+    | "columns"
+    | "rows"
+    | "row_missing"
+    | "row_doubled"
+    | "row_extra"
+    | "joint_sense"
+    | "number"
+    | "joint_zero"
+    | "base"
+    | "tool"
+  )[];
+  detail: string;
+  differences: DifferenceEntry[];
+};
+
+export type DifferenceEntry = {
+  row: number | null;
+  joint: string | null;
+  parameter: "a" | "alpha" | "d" | "theta" | "sign" | "type" | "mimic" | "joints" | "base" | "tool";
+  value: number | string | null;
+  expected: number | string | null;
+  difference: number | null;
+  pointer: string | null;
+};
+
+export type DiscPosition = { value: number; binary: string; gray: string; angle: number };
+
 export type DynamicsInfo = {
   gravity: MatrixFormula;
   links: LinkFormulas[];
@@ -185,6 +330,8 @@ export type DynamicsInfo = {
   numeric_certificate: EquationsCertificate | null;
 };
 
+export type ElementaryPayload = { axis: "x" | "y" | "z"; angle: number };
+
 export type EllipsoidCertificate = {
   samples: number;
   max_error: number;
@@ -194,6 +341,41 @@ export type EllipsoidCertificate = {
 };
 
 export type EllipsoidInfo = { axes: number[][]; semi_axes: (number | null)[]; unbounded: boolean[] };
+
+export type EncoderAnswer = {
+  resolution: EncoderResolution | null;
+  required: RequiredEncoder | null;
+  quadrature: Quadrature | null;
+  absolute: AbsoluteInfo | null;
+  steps: Step[];
+};
+
+export type EncoderRequest = {
+  language?: "en" | "de";
+  type: "incremental" | "absolute";
+  gear_ratio?: number;
+  sample_period?: number | null;
+  motor_angular_velocity?: number | null;
+  wanted_resolution?: number | null;
+  decoding?: "x1" | "x2" | "x4";
+  pulses_per_revolution?: number | null;
+  samples?: string | null;
+  counter_bits?: number | null;
+  bits?: number | null;
+  code?: "gray" | "binary";
+  readings?: string[] | null;
+  values?: number[] | null;
+  table?: boolean;
+};
+
+export type EncoderResolution = {
+  counts_per_revolution: number;
+  motor: number;
+  load: number;
+  motor_velocity_quantum: number | null;
+  load_velocity_quantum: number | null;
+  count_rate: number | null;
+};
 
 export type EquationsCertificate = {
   samples: number;
@@ -248,6 +430,57 @@ export type ExitInfo = { joint: string; direction: number[]; rate: number };
 
 export type Family = { free_joints: string[]; relation: string | null; text: string; sweep: number[][] };
 
+export type FlyOverAnswer = {
+  given: "blend_time" | "distance_before" | "distance_after" | "radius" | "max_acceleration";
+  blend: FlyOverBlend;
+  rest_to_rest: RestToRestInfo | null;
+  motion: MotionInfo | null;
+  samples: FlyOverSamples | null;
+  steps: Step[];
+  warnings: string[];
+  certificate: BlendCheck;
+};
+
+export type FlyOverBlend = {
+  blend_time: number;
+  distance_before: number;
+  distance_after: number;
+  entry: number[];
+  exit: number[];
+  direction_before: number[];
+  direction_after: number[];
+  turn: "corner" | "straight" | "reversal";
+  angle: number;
+  acceleration: number[];
+  acceleration_norm: number;
+  closest_distance: number;
+  closest_time: number;
+  longest_blend_time: number;
+};
+
+export type FlyOverRequest = {
+  language?: "en" | "de";
+  start: number[];
+  corner: number[];
+  end: number[];
+  speed_before: number;
+  speed_after: number;
+  blend_time?: number | null;
+  distance_before?: number | null;
+  distance_after?: number | null;
+  radius?: number | null;
+  max_acceleration?: number | null;
+  rest_acceleration?: number | null;
+  samples?: number | null;
+};
+
+export type FlyOverSamples = {
+  times: number[];
+  positions: number[][];
+  velocities: number[][];
+  accelerations: number[][];
+};
+
 export type ForceLimit = { direction: number[]; alone: number | null; component: number | null };
 
 export type ForcePolytope = { along: ForceLimit[]; vertices: number[][] | null };
@@ -271,11 +504,24 @@ export type ForwardRequest = {
   steps?: boolean;
   base_frame?: string | null;
   tip_frame?: string | null;
-  pose_format?: "quaternion_xyzw" | "quaternion_wxyz" | "rpy" | "zyz" | "rotation_vector" | "rotation" | "matrix";
+  pose_format?:
+    | "quaternion_xyzw"
+    | "quaternion_wxyz"
+    | "rpy"
+    | "zyz"
+    | "rotation_vector"
+    | "rotation"
+    | "matrix"
+    | "ur"
+    | "kuka_abc"
+    | "abb"
+    | "fanuc_wpr";
   frames?: string[] | "all" | null;
   respect_limits?: boolean;
   joint_positions: Configuration[];
 };
+
+export type FrameInfo = { rotation: number[][]; position: number[] };
 
 export type FromUrdfAnswer = {
   dh: DhTablePayload;
@@ -287,6 +533,24 @@ export type FromUrdfAnswer = {
   warnings: string[];
   steps: Step[] | null;
 };
+
+export type FurtherPayload = {
+  quaternion_xyzw?: number[] | null;
+  quaternion_wxyz?: number[] | null;
+  rpy?: number[] | null;
+  zyz?: number[] | null;
+  rotation_vector?: number[] | null;
+  rotation?: number[][] | null;
+  axis_angle?: AxisAnglePayload | null;
+  elementary?: ElementaryPayload | null;
+  project?: boolean;
+  position?: number[] | null;
+  about?: "moving" | "fixed";
+};
+
+export type IdleSpin = { links: string[]; joints: string[] };
+
+export type IndexPulse = { sample: number; count: number; count_error: number | null };
 
 export type InternalMotionInfo = { joint_velocities: number[]; only_here: boolean };
 
@@ -327,7 +591,18 @@ export type InverseRequest = {
   elbow_angle?: number | null;
   fixed_joints?: Record<string, number> | null;
   trace?: boolean;
-  pose_format?: "quaternion_xyzw" | "quaternion_wxyz" | "rpy" | "zyz" | "rotation_vector" | "rotation" | "matrix";
+  pose_format?:
+    | "quaternion_xyzw"
+    | "quaternion_wxyz"
+    | "rpy"
+    | "zyz"
+    | "rotation_vector"
+    | "rotation"
+    | "matrix"
+    | "ur"
+    | "kuka_abc"
+    | "abb"
+    | "fanuc_wpr";
   targets: Pose[];
   seeds?: Configuration[] | null;
   posture?: Configuration | null;
@@ -361,7 +636,7 @@ export type JacobianAnswer = {
   joint_names: string[];
   base_frame: string;
   tip_frame: string;
-  reference: "local_world_aligned" | "local" | "world";
+  reference: "local_world_aligned" | "local" | "world" | "space_screws" | "body_screws";
   representation: "geometric" | "zyz" | "rpy";
   jacobians: number[][][];
   ranks: number[];
@@ -419,9 +694,19 @@ export type JointSegment = {
   target: number[] | JointValues | Pose;
 };
 
+export type JointSplit = { joint: string; links: number; pairs: number; added: number; constraints: number };
+
 export type JointValues = Record<string, number>;
 
 export type Jump = { value: number; joint: string | null; time: number };
+
+export type KnotInfo = {
+  time: number;
+  positions: number[];
+  velocities: number[];
+  accelerations: number[];
+  fictitious: boolean;
+};
 
 export type LimitMargin = { value: number; joint: string; bound: "lower" | "upper"; time: number };
 
@@ -489,6 +774,8 @@ export type MeasureInfo = {
   joint_positions: number[] | null;
 };
 
+export type MechanismLinkPayload = { name: string; ground?: boolean };
+
 export type MeshInfo = { reference: string; path: string | null };
 
 export type MimicInfo = { joint: string; multiplier: number; offset: number };
@@ -496,6 +783,45 @@ export type MimicInfo = { joint: string; multiplier: number; offset: number };
 export type MimicPayload = { joint: string; multiplier?: number; offset?: number };
 
 export type MistakeInfo = { code: string; text: string };
+
+export type MobilityAnswer = {
+  mobility: number;
+  verdict: "mechanism" | "structure" | "overconstrained";
+  space: "planar" | "spatial";
+  space_freedoms: number;
+  link_count: number;
+  pair_count: number;
+  constraint_count: number;
+  coupling_count: number;
+  kinds: PairCount[];
+  splits: JointSplit[];
+  mobility_without_split: number | null;
+  idle: IdleSpin[] | null;
+  mobility_without_idle: number | null;
+  ground: string | null;
+  chain: "open" | "closed" | "mixed" | null;
+  loop_count: number | null;
+  components: string[][] | null;
+  bridges: string[] | null;
+  pairs: Pair[] | null;
+  mobility_by_loops: number | null;
+  posture: PostureMobility | null;
+  rank_tolerance: number | null;
+  spaces: SpacesInfo | null;
+  warnings: string[];
+  steps: Step[];
+};
+
+export type MobilityRequest = {
+  language?: "en" | "de";
+  space?: "planar" | "spatial" | null;
+  links?: number | (string | MechanismLinkPayload)[] | null;
+  pairs?: PairPayload[] | Record<string, number> | null;
+  coincident?: NodePayload[] | null;
+  output?: string | null;
+  rank_tolerance?: number;
+  robot?: string | null;
+};
 
 export type Moment = { value: number | null; time: number; joint_positions: number[]; pair: ClosestPair | null };
 
@@ -529,7 +855,27 @@ export type Motion = {
   coefficients?: boolean;
   tip_poses?: boolean;
   torques?: boolean;
-  pose_format?: "quaternion_xyzw" | "quaternion_wxyz" | "rpy" | "zyz" | "rotation_vector" | "rotation" | "matrix";
+  pose_format?:
+    | "quaternion_xyzw"
+    | "quaternion_wxyz"
+    | "rpy"
+    | "zyz"
+    | "rotation_vector"
+    | "rotation"
+    | "matrix"
+    | "ur"
+    | "kuka_abc"
+    | "abb"
+    | "fanuc_wpr";
+};
+
+export type MotionCertificate = {
+  boundary_error: number;
+  knot_error: number;
+  continuity: number;
+  continuity_error: number;
+  peak_error: number;
+  samples: number;
 };
 
 export type MotionClearance = {
@@ -541,6 +887,14 @@ export type MotionClearance = {
   resolution: number;
   certificate: ContactCertificate;
   continuous: true;
+};
+
+export type MotionInfo = { breaks: number[]; coefficients: number[][][] };
+
+export type MotionLimits = {
+  joint_velocity?: number | number[] | null;
+  joint_acceleration?: number | number[] | null;
+  joint_jerk?: number | number[] | null;
 };
 
 export type MotionLimitsInfo = {
@@ -569,6 +923,22 @@ export type MotionOptions = {
   acceleration_scale?: number | null;
 };
 
+export type MotorCertificate = {
+  voltage_residual: number;
+  torque_residual: number;
+  samples: number;
+  max_current_difference: number | null;
+  max_angular_velocity_difference: number | null;
+};
+
+export type MotorDynamicsInfo = {
+  poles: PoleInfo[];
+  damping: "first_order" | "overdamped" | "critically_damped" | "underdamped";
+  time_constants: number[];
+  mechanical_time_constant: number;
+  electrical_time_constant: number;
+};
+
 export type NearestInfo = {
   joint_positions: number[];
   pose: Pose;
@@ -587,6 +957,34 @@ export type NearestSingularityInfo = {
   smallest_singular_value: number;
   kinds: ("wrist" | "elbow" | "shoulder")[];
   dependent_joints: string[];
+};
+
+export type NodePayload = {
+  joint?: string | null;
+  links: number | string[];
+  type?:
+    | "revolute"
+    | "prismatic"
+    | "rolling"
+    | "pin_in_slot"
+    | "cam"
+    | "gear"
+    | "screw"
+    | "universal"
+    | "cylindrical"
+    | "spherical"
+    | "planar"
+    | "sphere_in_groove"
+    | "point_contact"
+    | "fixed"
+    | "R"
+    | "P"
+    | "H"
+    | "U"
+    | "C"
+    | "S"
+    | "E"
+    | null;
 };
 
 export type NumericCertificate = {
@@ -612,6 +1010,105 @@ export type NumericInfo = {
   determinant: number | null;
 };
 
+export type OperatingPoint = {
+  angular_velocity: number;
+  current: number;
+  torque: number;
+  electrical_power: number;
+  shaft_power: number;
+  copper_loss: number;
+  friction_loss: number;
+  efficiency: number | null;
+  regime: "motoring" | "standstill" | "assisted" | "generating" | "driven_backwards" | "braking";
+};
+
+export type OrientationAnswer = {
+  rotation: number[][];
+  quaternion_xyzw: number[];
+  quaternion_wxyz: number[];
+  rotation_vector: number[];
+  axis_angle: AxisAngleInfo;
+  zyz: number[];
+  zyz_solutions: number[][];
+  rpy: number[];
+  rpy_solutions: number[][];
+  degenerate: Degeneracy[];
+  degenerate_threshold: number;
+  position: number[];
+  inverse: FrameInfo;
+  points: number[][];
+  frames: FrameInfo[];
+  validations: (Validation | null)[];
+  steps: Step[];
+  warnings: string[];
+  certificate: OrientationCertificate;
+};
+
+export type OrientationCertificate = { max_rotation_error: number; max_inverse_error: number; max_point_error: number };
+
+export type OrientationRequest = {
+  language?: "en" | "de";
+  quaternion_xyzw?: number[] | null;
+  quaternion_wxyz?: number[] | null;
+  rpy?: number[] | null;
+  zyz?: number[] | null;
+  rotation_vector?: number[] | null;
+  rotation?: number[][] | null;
+  axis_angle?: AxisAnglePayload | null;
+  elementary?: ElementaryPayload | null;
+  project?: boolean;
+  position?: number[] | null;
+  then?: FurtherPayload[];
+  points?: number[][];
+};
+
+export type Pair = {
+  name: string;
+  link_a: string;
+  link_b: string;
+  type: string;
+  order: "low" | "high" | null;
+  constraints: number;
+  freedoms: number;
+  joint: string | null;
+  added: boolean;
+};
+
+export type PairCount = { type: string; order: "low" | "high" | null; count: number; constraints: number };
+
+export type PairPayload = {
+  name?: string | null;
+  link_a: string;
+  link_b: string;
+  type:
+    | "revolute"
+    | "prismatic"
+    | "rolling"
+    | "pin_in_slot"
+    | "cam"
+    | "gear"
+    | "screw"
+    | "universal"
+    | "cylindrical"
+    | "spherical"
+    | "planar"
+    | "sphere_in_groove"
+    | "point_contact"
+    | "fixed"
+    | "R"
+    | "P"
+    | "H"
+    | "U"
+    | "C"
+    | "S"
+    | "E";
+  joint?: string | null;
+  point?: number[] | null;
+  axis?: number[] | null;
+  second_axis?: number[] | null;
+  pitch?: number | null;
+};
+
 export type PartInfo = {
   rank: number;
   singular: boolean;
@@ -631,6 +1128,12 @@ export type PathError = { velocity: number | null; acceleration: number | null; 
 
 export type Peak = { ratio: number | null; value: number; joint: string | null; time: number };
 
+export type PeakInfo = { value: number; time: number; limit: number | null; ratio: number | null };
+
+export type PeaksInfo = { velocity: PeakInfo[]; acceleration: PeakInfo[]; jerk: PeakInfo[] };
+
+export type Phase = { name: "accelerate" | "coast_before" | "blend" | "coast_after" | "decelerate"; duration: number };
+
 export type PlaneInfo = { origin: number[]; normal: number[]; thickness: number };
 
 export type PlanningFailure = {
@@ -644,6 +1147,8 @@ export type PlanningFailure = {
   nearest?: Moment | null;
 };
 
+export type PoleInfo = { real: number; imaginary: number };
+
 export type PolynomialsInfo = { breaks: number[]; coefficients: number[][][] };
 
 export type Pose = {
@@ -655,6 +1160,10 @@ export type Pose = {
   rotation_vector?: number[] | null;
   rotation?: number[][] | null;
   matrix?: number[][] | null;
+  ur?: number[] | null;
+  kuka_abc?: number[] | null;
+  abb?: number[] | null;
+  fanuc_wpr?: number[] | null;
 };
 
 export type PoseCertificate = {
@@ -664,21 +1173,81 @@ export type PoseCertificate = {
   seed: number;
 };
 
+export type PostureMobility = {
+  mobility: number;
+  redundant: number;
+  output: number | null;
+  smallest_counted: number | null;
+  largest_neglected: number | null;
+  residual: number;
+};
+
+export type ProfileInfo = {
+  peak_velocity: number;
+  acceleration: number;
+  acceleration_time: number;
+  coast_time: number;
+  deceleration_time: number;
+  own_duration: number;
+  factor: number | null;
+  reverses: boolean;
+};
+
+export type Quadrature = {
+  count: number;
+  counts: number[];
+  direction: "forward" | "backward" | "none";
+  reversals: number;
+  illegal_transitions: number[];
+  motor_angle: number | null;
+  load_angle: number | null;
+  motor_angle_in_turn: number | null;
+  register_value: number | null;
+  index_pulses: IndexPulse[];
+  count_from_index: number | null;
+};
+
 export type ReachInfo = { min: number; max: number };
 
 export type Reason = {
-  check: "velocity" | "acceleration" | "jerk" | "joint_limit" | "continuity" | "path" | "tip" | "boundary" | "torque";
+  check:
+    | "velocity"
+    | "acceleration"
+    | "jerk"
+    | "joint_limit"
+    | "continuity"
+    | "path"
+    | "tip"
+    | "boundary"
+    | "torque"
+    | "clearance";
   detail: string;
   joint: string | null;
   time: number;
 };
 
+export type RequiredEncoder = {
+  motor_resolution: number;
+  counts_per_revolution: number;
+  bits: number;
+  pulses_per_revolution: number;
+  count_rate: number | null;
+};
+
+export type RestToRestInfo = { phases: Phase[]; duration: number; stopping_duration: number; time_saved: number };
+
 export type RobotInfo = {
   name: string;
   description: string;
+  maker: string | null;
+  kind: string | null;
+  closed_form: string | null;
   source: "catalogue" | "uploaded";
   format: "urdf" | "dh";
   default_chain: ChainEnds;
+  payload: number | null;
+  reach: number | null;
+  controller: Controller | null;
   chains: Record<string, ChainEnds>;
   root: string;
   joints: JointInfo[];
@@ -698,6 +1267,9 @@ export type RobotInfo = {
 export type RobotSummary = {
   name: string;
   description: string;
+  maker: string | null;
+  kind: string | null;
+  closed_form: string | null;
   source: "catalogue" | "uploaded";
   format: "urdf" | "dh";
   default_chain: ChainEnds;
@@ -739,6 +1311,8 @@ export type SceneSphere = { type: "sphere"; radius: number };
 export type SceneSummary = { name: string; objects: number; size: number };
 
 export type SegmentBlend = { radius: number; start_time: number; end_time: number; acceleration: number | null };
+
+export type SegmentInfo = { start_time: number; end_time: number; coefficients: number[][] };
 
 export type SingularCondition = {
   kind: "solved" | "equation" | "never";
@@ -840,7 +1414,48 @@ export type SpaceInfo = {
   measure_unit: string;
 };
 
+export type SpacesInfo = {
+  base_frame: string;
+  tip_frame: string;
+  configuration_dimension: number;
+  workspace_dimension: number;
+  tasks: TaskKind[];
+};
+
 export type SphereCover = { spheres: number[][]; excess: number | null; protrusion: number };
+
+export type SplineAnswer = {
+  duration: number;
+  switching_times: number[];
+  segments: SegmentInfo[];
+  peaks: PeaksInfo;
+  times: number[];
+  joint_positions: number[][];
+  joint_velocities: number[][];
+  joint_accelerations: number[][];
+  joint_jerks: number[][];
+  certificate: MotionCertificate;
+  boundary: "clamped" | "natural" | "not_a_knot" | "periodic" | "assigned";
+  system: SystemInfo | null;
+  knots: KnotInfo[];
+  steps: Step[];
+  warnings: string[];
+};
+
+export type SplineRequest = {
+  language?: "en" | "de";
+  samples?: number;
+  sample_times?: number[] | null;
+  limits?: MotionLimits | null;
+  times: number[];
+  waypoints: (number | number[])[];
+  boundary?: "clamped" | "natural" | "not_a_knot" | "periodic" | "assigned";
+  start_velocity?: number | number[] | null;
+  end_velocity?: number | number[] | null;
+  start_acceleration?: number | number[] | null;
+  end_acceleration?: number | number[] | null;
+  fictitious_times?: number[] | null;
+};
 
 export type SplineSegment = {
   limits?: TrajectoryLimits | null;
@@ -859,6 +1474,8 @@ export type SplineSegment = {
 
 export type Step = { title: string; text: string; latex: string[]; plain: string[] };
 
+export type StepResponseInfo = { times: number[]; currents: number[]; angular_velocities: number[] };
+
 export type SymbolEntry = {
   latex: string;
   plain: string;
@@ -867,11 +1484,68 @@ export type SymbolEntry = {
   value: number | null;
 };
 
+export type SystemInfo = {
+  matrix: number[][] | null;
+  lower: number[];
+  diagonal: number[];
+  upper: number[];
+  right_side: number[][];
+  unknowns: number[];
+};
+
 export type TableCertificate = {
   samples: number;
   max_position_error: number;
   max_orientation_error: number;
   seed: number;
+};
+
+export type TaskKind = {
+  task: "xy" | "xy_phi" | "xyz" | "pose";
+  dimension: number;
+  rank: number;
+  redundancy: number;
+  solutions: "none" | "finite" | "infinite";
+};
+
+export type TimeLawAnswer = {
+  duration: number;
+  switching_times: number[];
+  segments: SegmentInfo[];
+  peaks: PeaksInfo;
+  times: number[];
+  joint_positions: number[][];
+  joint_velocities: number[][];
+  joint_accelerations: number[][];
+  joint_jerks: number[][];
+  certificate: MotionCertificate;
+  law: "cubic" | "quintic" | "septic" | "4-3-4" | "trapezoidal" | "parabolic_blends";
+  normalised: (number[] | null)[] | null;
+  profiles: ProfileInfo[] | null;
+  blends: BlendsInfo | null;
+  steps: Step[];
+  warnings: string[];
+};
+
+export type TimeLawRequest = {
+  language?: "en" | "de";
+  samples?: number;
+  sample_times?: number[] | null;
+  limits?: MotionLimits | null;
+  law: "cubic" | "quintic" | "septic" | "4-3-4" | "trapezoidal" | "parabolic_blends";
+  start?: number | number[] | null;
+  target?: number | number[] | null;
+  start_velocity?: number | number[] | null;
+  end_velocity?: number | number[] | null;
+  start_acceleration?: number | number[] | null;
+  end_acceleration?: number | number[] | null;
+  start_jerk?: number | number[] | null;
+  end_jerk?: number | number[] | null;
+  duration?: number | null;
+  waypoints?: (number | number[])[] | null;
+  times?: number[] | null;
+  blend_time?: number | number[] | null;
+  may_reverse?: boolean;
 };
 
 export type TimingComparison = {
@@ -901,6 +1575,15 @@ export type ToolChoice = {
 };
 
 export type ToolPath = { poses: Pose[]; free: ("rx" | "ry" | "rz")[]; steps?: number };
+
+export type TorqueSpeedLine = {
+  no_load_angular_velocity: number;
+  no_load_current: number;
+  stall_torque: number;
+  stall_current: number;
+  slope: number;
+  most_power: number;
+};
 
 export type TrajectoryAnswer = {
   joint_names: string[];
@@ -970,7 +1653,18 @@ export type TrajectoryRequest = {
   coefficients?: boolean;
   tip_poses?: boolean;
   torques?: boolean;
-  pose_format?: "quaternion_xyzw" | "quaternion_wxyz" | "rpy" | "zyz" | "rotation_vector" | "rotation" | "matrix";
+  pose_format?:
+    | "quaternion_xyzw"
+    | "quaternion_wxyz"
+    | "rpy"
+    | "zyz"
+    | "rotation_vector"
+    | "rotation"
+    | "matrix"
+    | "ur"
+    | "kuka_abc"
+    | "abb"
+    | "fanuc_wpr";
   at?: RunningMotion | null;
 };
 
@@ -995,6 +1689,53 @@ export type Transmission = {
   velocity: number | null;
   force: number | null;
   force_unbounded: boolean;
+};
+
+export type TriangleAnswer = {
+  case: "SSS" | "SAS" | "SSA" | "ASA" | "AAS";
+  triangles: TriangleInfo[];
+  steps: Step[];
+  warnings: string[];
+  certificate: TriangleCheck;
+};
+
+export type TriangleCheck = { max_side_error: number; max_angle_error: number };
+
+export type TriangleInfo = {
+  a: number;
+  b: number;
+  c: number;
+  alpha: number;
+  beta: number;
+  gamma: number;
+  area: number;
+  corners: number[][];
+};
+
+export type TriangleRequest = {
+  language?: "en" | "de";
+  a?: number | null;
+  b?: number | null;
+  c?: number | null;
+  alpha?: number | null;
+  beta?: number | null;
+  gamma?: number | null;
+};
+
+export type Unverified = {
+  row: number;
+  joint: string;
+  parameter: "a" | "alpha" | "d" | "theta";
+  absorbed_by: "base" | "tool" | "offsets";
+};
+
+export type Validation = {
+  orthogonality_error: number;
+  determinant: number;
+  distance: number;
+  is_reflection: boolean;
+  is_unique: boolean;
+  projected: boolean;
 };
 
 export type VelocityLimit = { direction: number[]; alone: number; component: number };

@@ -3,6 +3,7 @@
 import { MARKS, write } from "./address.ts";
 import type { Studio } from "./panels/panel.ts";
 import type { State } from "./state.ts";
+import { t } from "./texts/index.ts";
 import { copyButton } from "./ui/copy.ts";
 import { dialog } from "./ui/dialogs.ts";
 import { button, element } from "./ui/dom.ts";
@@ -16,19 +17,19 @@ export function share({ store, view, api }: Studio): void {
   const remark = element("p", { class: "muted small" });
   void framing(api.url("embed")).then((text) => (remark.textContent = text));
   const shown = dialog(
-    "Share",
+    t("Share"),
     () => {},
-    text("A link to this page", api.url(`.${write(state)}`)),
-    text("A frame with this picture, for another page", frame(api.url(`embed${write(state)}`), title)),
+    text(t("A link to this page"), api.url(`.${write(state)}`)),
+    text(t("A frame with this picture, for another page"), frame(api.url(`embed${write(state)}`), title)),
     remark,
-    state.model?.name ? text("The same in a notebook", notebook(state)) : null,
+    state.model?.name ? text(t("The same in a notebook"), notebook(state)) : null,
     element(
       "div",
       { class: "bar" },
-      button("Close", () => shown.close(), { class: "button primary" }),
+      button(t("Close"), () => shown.close(), { class: "button primary" }),
       view &&
-        button("Save the picture", () => void view.picture().then((png) => save(`${title}.png`, "image/png", png)), {
-          title: "A PNG of what is drawn, without the names on it",
+        button(t("Save the picture"), () => void view.picture().then((png) => save(`${title}.png`, "image/png", png)), {
+          title: t("A PNG of what is drawn, without the names on it"),
         }),
     ),
   );
@@ -75,8 +76,8 @@ async function framing(url: string): Promise<string> {
     const allowed = /frame-ancestors ([^;]*)/.exec(policy)?.[1] ?? "'none'";
     if (allowed === "'none'")
       return "This service lets no other page show it yet: its setting GELENK_FRAME_ANCESTORS names those that may.";
-    return allowed === "*" ? "Any page may show it." : `Pages of ${allowed} may show it.`;
+    return allowed === "*" ? t("Any page may show it.") : t("Pages of {allowed} may show it.", { allowed });
   } catch {
-    return "The service does not answer now, so that it is unknown which pages may show it.";
+    return t("The service does not answer now, so that it is unknown which pages may show it.");
   }
 }

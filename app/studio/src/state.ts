@@ -4,11 +4,13 @@ import type { Problem } from "./api.ts";
 import type { Plan } from "./panels/trajectory/answer.ts";
 import { type Theme, USUAL } from "./prefs.ts";
 import type { Motion } from "./panels/trajectory/motion.ts";
+import type { Parameter } from "./robot/dh.ts";
 import type { RobotModel } from "./robot/model.ts";
 import type { ChainTable } from "./robot/table.ts";
 import type { Contacts } from "./scene/contacts.ts";
 import { EMPTY, type Scene } from "./scene/objects.ts";
 import type { DhTable, InverseOptions, Pose } from "./types.ts";
+import { SI, type Units } from "./ui/quantity.ts";
 import type { Look } from "./view/looking.ts";
 
 export type Positions = Readonly<Record<string, number>>;
@@ -22,7 +24,13 @@ export interface Writing {
   symbolic: boolean;
 }
 
-export interface Linked {
+/** A row of a DH table, and one of its parameters or all of them. */
+export interface Lit {
+  row: number;
+  part: Parameter | null;
+}
+
+export interface Linked extends Units {
   panel: string;
   /** Name of a robot that the service keeps; empty where a draft is shown. */
   robot: string;
@@ -43,12 +51,14 @@ export interface Linked {
   theme: Theme;
   /** Where the picture is looked at from; null where the whole robot is fitted into it. */
   camera: Look | null;
-  /** Whether angles are shown and typed in degrees; calls are always in radians. */
-  degrees: boolean;
+  /** Whether the picture is a parallel projection. */
+  parallel: boolean;
   frames: boolean;
   axes: boolean;
   names: boolean;
   dh: boolean;
+  /** Whether the table's frames have all their dimensions and angles; else those of the row that is pointed at. */
+  dimensions: boolean;
   /** Whether what contacts are computed of is in the picture. */
   bodies: boolean;
   /** What is chosen in panels, by `panel.option`; see `chosen`. */
@@ -56,6 +66,8 @@ export interface Linked {
 }
 
 export interface State extends Linked {
+  /** Whether the choice of a robot is in the place of picture and panel. */
+  starting: boolean;
   /** Position of every joint of the model that has one of its own, [rad or m]. */
   positions: Positions;
   /** The robot on the screen; the one before while another is on its way. */
@@ -79,6 +91,8 @@ export interface State extends Linked {
   chosen: string | null;
   /** The joint that the pointer or the focus is on, in whatever list of joints. */
   joint: string | null;
+  /** The row of the table that is pointed at, and the parameter, in the table or the picture. */
+  lit: Lit | null;
   /** Length that suits marks on the robot on the screen, [m]. */
   unit: number;
   /** Width of the panel beside the picture, [px]; null for the usual one. */
@@ -100,11 +114,13 @@ export const FIRST: Linked = {
   scene: EMPTY,
   theme: USUAL.theme,
   camera: null,
-  degrees: USUAL.degrees,
+  parallel: false,
+  ...SI,
   frames: false,
   axes: false,
   names: false,
   dh: false,
+  dimensions: false,
   bodies: false,
   options: {},
 };
@@ -112,6 +128,7 @@ export const FIRST: Linked = {
 export function initial(linked: Linked, width: number | null): State {
   return {
     ...linked,
+    starting: isNone(linked),
     positions: {},
     model: null,
     meshes: 0,
@@ -124,10 +141,16 @@ export function initial(linked: Linked, width: number | null): State {
     refusal: null,
     chosen: null,
     joint: null,
+    lit: null,
     unit: 0.1,
     width,
     dark: false,
   };
+}
+
+/** Whether a link names nothing to show. */
+export function isNone({ robot, draft }: Pick<Linked, "robot" | "draft">): boolean {
+  return robot === "" && draft === null;
 }
 
 /** What is chosen of an option's values: the first of them where a link names none. */

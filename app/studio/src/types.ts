@@ -7,6 +7,7 @@ export type CollisionAnswer = api.CollisionAnswer;
 export type CollisionBodies = api.CollisionBodies;
 export type CollisionBody = api.CollisionBody;
 export type CollisionResult = CollisionAnswer["results"][number];
+export type CompareAnswer = api.CompareAnswer;
 export type CoursePictures = api.CoursePictures;
 export type DeriveAnswer = api.DeriveAnswer;
 export type ExerciseGrade = api.ExerciseGrade;
@@ -30,7 +31,11 @@ export type SceneObject = api.SceneObject;
 export type SingularityAnswer = api.SingularityAnswer;
 export type ToUrdfAnswer = api.ToUrdfAnswer;
 
-export type PoseFormat = NonNullable<api.ForwardRequest["pose_format"]>;
+/** The notations that the studio shows; those of pendants are for calls. */
+export type PoseFormat = Exclude<
+  NonNullable<api.ForwardRequest["pose_format"]>,
+  "ur" | "kuka_abc" | "abb" | "fanuc_wpr"
+>;
 
 export type DhTable = api.DhTablePayload;
 export type DhRow = DhTable["joints"][number];
@@ -77,3 +82,20 @@ export type Language = NonNullable<api.ExerciseRequest["language"]>;
 export type ExerciseInfo = api.ExerciseInfo;
 export type ExerciseField = api.ExerciseField;
 export type FieldGrade = api.ExerciseFieldGrade;
+
+export type TimeLawRequest = api.TimeLawRequest;
+export type TimeLawAnswer = api.TimeLawAnswer;
+export type SplineRequest = api.SplineRequest;
+export type SplineAnswer = api.SplineAnswer;
+export type FlyOverRequest = api.FlyOverRequest;
+export type FlyOverAnswer = api.FlyOverAnswer;
+export type OrientationRequest = api.OrientationRequest;
+export type OrientationAnswer = api.OrientationAnswer;
+export type TriangleRequest = api.TriangleRequest;
+export type TriangleAnswer = api.TriangleAnswer;
+export type MobilityRequest = api.MobilityRequest;
+export type MobilityAnswer = api.MobilityAnswer;
+export type EncoderRequest = api.EncoderRequest;
+export type EncoderAnswer = api.EncoderAnswer;
+export type DcMotorRequest = api.DcMotorRequest;
+export type DcMotorAnswer = api.DcMotorAnswer;

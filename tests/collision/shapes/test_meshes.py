@@ -48,6 +48,53 @@ def text_stl(triangles: Array) -> bytes:
     return ("solid s\n" + "".join(f"facet normal 0 0 0\n{loop}endfacet\n" for loop in loops) + "endsolid s\n").encode()
 
 
+def msh(
+    vertices: Array, faces: Array | None = None, has_normals: bool = False, counts: tuple[int, ...] | None = None
+) -> bytes:
+    """Return MuJoCo's binary form of a mesh; without faces it stands for the hull of its vertices."""
+    normals = vertices if has_normals else vertices[:0]
+    corners = np.zeros((0, 3)) if faces is None else faces
+    heads = counts or (len(vertices), len(normals), len(normals), len(corners))
+    parts = vertices.astype("<f4"), normals.astype("<f4"), normals[:, :2].astype("<f4"), corners.astype("<i4")
+    return struct.pack("<4i", *heads) + b"".join(part.tobytes() for part in parts)
+
+
+NUMBERS = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+
+
+@pytest.mark.parametrize("has_normals", [False, True])
+def test_a_msh_is_read_with_what_surrounds_its_vertices(has_normals: bool) -> None:
+    np.testing.assert_array_equal(read_triangles("a.MSH", msh(CORNERS, NUMBERS, has_normals)), FACES)
+
+
+def test_a_msh_without_faces_is_the_hull_of_its_vertices() -> None:
+    inside = np.array([[0.1, 0.1, 0.1]])
+    found = read_triangles("a.msh", msh(np.concatenate([CORNERS, inside])))
+    np.testing.assert_array_equal(in_order(found), in_order(FACES))
+
+
+BROKEN_MSH = {
+    "short": (b"\4\0\0\0", "it ends within its four counts"),
+    "few vertices": (msh(CORNERS[:3], NUMBERS[:1] * 0), "its counts are 3, 0, 0, 1, but must be"),
+    "negative": (msh(CORNERS, NUMBERS, counts=(4, 0, 0, -4)), "its counts are 4, 0, 0, -4, but must be"),
+    "normals of some": (msh(CORNERS, NUMBERS, counts=(4, 3, 0, 1)), "its counts are 4, 3, 0, 1, but must be"),
+    "huge": (msh(CORNERS, NUMBERS, counts=(2**31 - 1, 0, 0, 4)), "it has 112 bytes, but its counts make 25769803828"),
+    "faces": (msh(CORNERS, NUMBERS, counts=(4, 0, 0, 2**31 - 1)), "more than 1000000 triangles"),
+    "longer": (msh(CORNERS, NUMBERS) + b"x", "it has 113 bytes, but its counts make 112"),
+    "beyond": (msh(CORNERS, NUMBERS + 1), "a face has a vertex beyond its 4"),
+    "below": (msh(CORNERS, NUMBERS - 1), "a face has a vertex beyond its 4"),
+    "not finite": (msh(CORNERS * np.nan, NUMBERS), "a coordinate is not finite"),
+    "flat": (msh(CORNERS * 0.0), "it is flat: its hull has no volume"),
+}
+
+
+@pytest.mark.parametrize("name", BROKEN_MSH)
+def test_a_broken_msh_is_refused_with_what_is_wrong(name: str) -> None:
+    content, reason = BROKEN_MSH[name]
+    with pytest.raises(InvalidMesh, match=f"'a.msh'.*({reason})"):
+        read_triangles("a.msh", content)
+
+
 def in_order(triangles: Array) -> Array:
     """Return the corners of all triangles, sorted."""
     corners = triangles.reshape(-1, 3).round(6) + 0.0

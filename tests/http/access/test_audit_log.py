@@ -108,13 +108,13 @@ def test_refusals_of_many_addresses_are_summed_up_within_bounds(tmp_path: Path) 
 
 @pytest.mark.slow
 def test_what_was_counted_is_written_in_time_also_where_nothing_more_comes(tmp_path: Path) -> None:
-    audit = AuditLog(tmp_path, sum_seconds=0.5)
+    audit = AuditLog(tmp_path, sum_seconds=2.0)
     for _ in range(2):
         for _ in range(20):
             exchange = written_by("anna")
             exchange.status, exchange.was_let_in = 403, False
             audit.write(exchange, None)
-        until = time.monotonic() + 20.0
+        until = time.monotonic() + 60.0
         while len(lines := (tmp_path / "audit.jsonl").read_text().splitlines()) % 2 and time.monotonic() < until:
             time.sleep(0.02)
     assert [json.loads(line)["refused"] for line in lines] == [1, 19, 1, 19]
@@ -222,7 +222,7 @@ def test_a_hostile_client_leaves_no_control_character_in_the_log(tmp_path: Path)
         assert get(f"{url}/v1/jobs/{quoted}")[0] in {404, 422}
         request = urllib.request.Request(f"{url}/healthz", headers={"X-Request-Id": "\x9b31m", "Host": "\x9b.example"})
         with pytest.raises(urllib.error.HTTPError, match="400"):
-            urllib.request.urlopen(request, timeout=20)
+            urllib.request.urlopen(request, timeout=60)
         run.terminate()
         assert run.stdout is not None
         text = run.stdout.read()

@@ -143,7 +143,7 @@ def test_refusals_are_counted_and_metrics_need_the_admin_scope() -> None:
 @pytest.mark.slow
 def test_several_processes_are_counted_together_and_a_killed_one_takes_nothing_away(tmp_path: Path) -> None:
     def counted() -> Numbers:
-        with urllib.request.urlopen(f"{url}/metrics", timeout=20) as answer:
+        with urllib.request.urlopen(f"{url}/metrics", timeout=60) as answer:
             return numbers(answer.read().decode())
 
     def calls(found: Numbers) -> float:

@@ -63,7 +63,7 @@ def test_a_request_is_a_span_of_its_callers_trace_and_names_its_id(tmp_path: Pat
                     "traceparent": f"00-{TRACE}-00f067aa0ba902b7-01",
                 },
             )
-            with urllib.request.urlopen(request, timeout=20) as answer:
+            with urllib.request.urlopen(request, timeout=60) as answer:
                 assert answer.headers["x-request-id"] == "traced-1"
                 assert json.load(answer)["poses"][0]["position"] == [1.7, 0.0, 0.0]
         (span,) = [each for each in spans if each.trace_id.hex() == TRACE and each.kind == 2]

@@ -1,6 +1,6 @@
 """Robots, tables and fields, from arguments, files and standard input.
 
-Xacro is expanded on the user's machine: it can read any file, so no server expands it.
+A xacro that is no part of a zip is expanded on the user's machine, where the files are that it includes.
 """
 
 import errno
@@ -13,72 +13,55 @@ import uuid
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
 from gelenk.cli.files.rows import STDIN, cells_of, number, text_of
-from gelenk.errors import InvalidDhTable, InvalidField, InvalidName, InvalidUrdf, counted
-from gelenk.robot.xml import read_xml, without_links
+from gelenk.errors import InvalidDhTable, InvalidField, InvalidName, counted, quoted
 
 if TYPE_CHECKING:
     from gelenk.client import Client
+    from gelenk.robot.formats.reading import Read
 
 
-_FINDER = "ament_index_python.packages"
-
-
-def expanded(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path]) -> str:
-    """Return the URDF that a xacro file expands to, with values of its `xacro:arg`s; raises InvalidUrdf.
+def expanded(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path]) -> "Read":
+    """Return the URDF that a file describes, a xacro with values of its `xacro:arg`s, and notes; raises InvalidUrdf.
 
     `packages` are folders for `$(find NAME)`; other packages are searched for above the file, and in ROS if it is
     installed.
     """
-    # Loading it takes a tenth of a second, which few calls need.
-    import xacro  # noqa: PLC0415
+    # Loading them takes a moment, which few calls need.
+    from gelenk.collision.shapes.hulls import hull_triangles  # noqa: PLC0415
+    from gelenk.collision.shapes.meshes import read_triangles  # noqa: PLC0415
+    from gelenk.robot.formats.reading import as_urdf  # noqa: PLC0415
+    from gelenk.robot.formats.sources import Fault, Sources  # noqa: PLC0415
 
-    _stand_in(file.resolve(), packages)
+    def find(name: str, folder: str) -> list[str]:
+        scheme, is_address, rest = name.partition("://")
+        package, _, inside = rest.partition("/")
+        if not (is_address and scheme == "package"):
+            path = file.parent / folder / name
+        elif (found := packages.get(package) or _above(file.resolve(), package) or _installed(package)) is not None:
+            path = found / inside
+        else:
+            raise Fault(f"package {package!r} is not found: name its folder with --package {package}=FOLDER")
+        return [os.path.relpath(path, file.parent)] if path.is_file() else []
+
+    def read(path: str) -> bytes:
+        return (file.parent / path).read_bytes()
+
+    sources = Sources(find, read, lambda path: read_triangles(path, read(path)), hull_triangles)
+    return as_urdf(file.read_bytes(), file.name, sources, arguments)
+
+
+def _installed(name: str) -> Path | None:
+    """Return the folder of a package of ROS, if that is installed and has it."""
     try:
-        document = xacro.process_file(str(file), mappings=dict(arguments))
-    except Exception as error:  # xacro evaluates expressions: they raise what they like
-        raise InvalidUrdf(f"xacro cannot expand it: {_sentence(error)}", element=file.name) from error
-    if not any(child.nodeName == "link" for child in document.documentElement.childNodes):
-        raise InvalidUrdf(without_links(read_xml(file.read_text("utf-8", "replace"))), element=file.name)
-    return str(document.toxml())
+        from ament_index_python.packages import get_package_share_directory  # type: ignore[import-not-found]  # noqa: PLC0415
 
-
-def _sentence(error: Exception) -> str:
-    """Return the error once, on one line: xacro repeats the class and the text of the cause."""
-    if isinstance(error, RecursionError):
-        return "it includes itself, or a macro calls itself"
-    words = re.sub(r"<class '[^']*'>: | \[Errno.*", "", " ".join(str(error).split()))
-    half = len(words) // 2
-    return words[:half] if words[:half] == words[half + 1 :] else words
-
-
-def _stand_in(file: Path, packages: Mapping[str, Path]) -> None:
-    """Replace ROS's index of packages, and fall back on it."""
-    index = sys.modules.get(_FINDER)
-    real = getattr(index, "_real", index)
-    if real is None:
-        try:
-            from ament_index_python import packages as real  # type: ignore[import-not-found, no-redef]  # noqa: PLC0415
-        except ImportError:
-            real = None
-
-    def find(name: str) -> str:
-        folder = packages.get(name) or _above(file, name)
-        if folder is not None:
-            return str(folder)
-        if real is not None:
-            return str(real.get_package_share_directory(name))
-        raise LookupError(f"package {name!r} is not found: name its folder with --package {name}=FOLDER")
-
-    module = ModuleType(_FINDER)
-    module.get_package_share_directory = find  # type: ignore[attr-defined]
-    module._real = real  # type: ignore[attr-defined]
-    sys.modules.setdefault("ament_index_python", ModuleType("ament_index_python"))
-    sys.modules[_FINDER] = module
+        return Path(get_package_share_directory(name))
+    except (ImportError, LookupError):
+        return None
 
 
 def _above(file: Path, name: str) -> Path | None:
@@ -98,22 +81,28 @@ def _name_of(manifest: Path) -> str | None:
         return None
 
 
-_TABLES = (".json", ".toml", ".csv")
-_SUFFIXES = (".urdf", ".xacro", ".xml", ".zip", *_TABLES)
+TABLE_SUFFIXES = (".json", ".toml", ".csv")
+_SUFFIXES = (".urdf", ".xacro", ".xml", ".zip", *TABLE_SUFFIXES)
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
-_NUMBERS = {"a", "alpha", "d", "theta", "lower", "upper", "velocity", "effort"}
+_FOLLOWED = "mimic."
+_NUMBERS = {"a", "alpha", "d", "theta", "lower", "upper", "velocity", "effort", "mimic.multiplier", "mimic.offset"}
 _HEADING = re.compile(r"#\s*(convention|base|tool)\s*[:=]\s*(.*?)\s*")
 
 
 @contextmanager
 def robot_named(
-    client: "Client", argument: str, describe: Callable[[Path], dict[str, Any]], strict: bool
+    client: "Client",
+    argument: str,
+    describe: Callable[[Path], dict[str, Any]],
+    strict: bool,
+    arguments: Mapping[str, str],
 ) -> Iterator[str]:
     """Provide a robot's name at the service: its own, or a temporary one for a file.
 
     Args:
-        argument: Name, or file: URDF, xacro, a zip of one URDF and its meshes, a table as JSON, TOML or CSV.
+        argument: Name, or file: URDF, xacro, a zip of one of them and its meshes, a table as JSON, TOML or CSV.
         describe: Returns the robot of a file without meshes as the API takes it.
+        arguments: Values of the arguments of a xacro in a zip.
     """
     file = Path(argument)
     if not is_file(file):
@@ -122,7 +111,7 @@ def robot_named(
         return
     name = f"{name_of(file)[:40]}-{uuid.uuid4().hex[:8]}"
     if file.suffix.lower() == ".zip":
-        client.add_archive(name, file, strict=strict)
+        client.add_archive(name, file, strict=strict, arguments=arguments)
     else:
         client.add_robot(name=name, **describe(file))
     try:
@@ -148,13 +137,26 @@ def name_of(file: Path) -> str:
 
 
 def description_from(
-    file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path], strict: bool
+    file: Path,
+    arguments: Mapping[str, str],
+    packages: Mapping[str, Path],
+    strict: bool,
+    note: Callable[[str], None],
 ) -> dict[str, Any]:
-    """Return a robot without meshes as the API takes it, `dh` or `urdf`; for xacro with arguments and folders."""
-    if file.suffix.lower() in _TABLES:
+    """Return a robot without meshes as the API takes it, `dh` or `urdf`; for xacro with arguments and folders.
+
+    `note` is told what is not read of a xacro or MJCF, a sentence at a time: the service gets the URDF alone.
+    """
+    if file.suffix.lower() in TABLE_SUFFIXES:
         return {"dh": table_from(file)}
-    is_xacro = file.suffix.lower() == ".xacro"
-    urdf = expanded(file, arguments, packages) if is_xacro else text_of(file.read_bytes(), file.name)
+    is_plain = file.suffix.lower() == ".urdf" and not arguments
+    if is_plain:
+        urdf = text_of(file.read_bytes(), file.name)
+    else:
+        read = expanded(file, arguments, packages)
+        urdf = read.urdf.decode("utf-8")
+        for oddity in read.notes:
+            note(f"file {quoted(file.name)}: {oddity}")
     return {"urdf": urdf, **({"strict": True} if strict else {})}
 
 
@@ -188,7 +190,10 @@ def _table_of_rows(text: str) -> dict[str, Any]:
     for joint, row in enumerate(rows):
         if len(row) > len(header):
             raise InvalidDhTable(f"{counted(len(row), 'cell')} for {counted(len(header), 'column')}", joint)
-        joints.append({name: _cell(joint, name, text) for name, text in zip(header, row, strict=False) if text})
+        cells = {name: _cell(joint, name, text) for name, text in zip(header, row, strict=False) if text}
+        plain = {name: value for name, value in cells.items() if not name.startswith(_FOLLOWED)}
+        followed = {name.removeprefix(_FOLLOWED): cells[name] for name in cells.keys() - plain.keys()}
+        joints.append(plain | ({"mimic": followed} if followed else {}))
     places = {name: json.loads(headings[name]) for name in ("base", "tool") if name in headings}
     return {"convention": headings.get("convention", "standard"), "joints": joints, **places}
 

@@ -11,13 +11,12 @@ from io import BytesIO, StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from rich.console import Console
-from rich.table import Table
-
 from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
+    from rich.console import Console
+    from rich.table import Table
 
     from gelenk.robot.arrays import Array
 
@@ -55,10 +54,14 @@ class AnswerRows:
 
 @dataclass(frozen=True, slots=True)
 class Output:
-    """Where answers are written, by default standard output; in `form`, by default the file's suffix or a table."""
+    """Where answers are written, by default standard output; in `form`, by default the file's suffix or a table.
+
+    If quiet, a table has no notes.
+    """
 
     form: Format | None = None
     file: Path | None = None
+    is_quiet: bool = False
 
     @property
     def format(self) -> Format:
@@ -84,7 +87,8 @@ class Output:
         """Write an answer that has no rows: as JSON, unless another format is requested."""
         content = answer.model_dump(mode="json", exclude_unset=True)
         rows = AnswerRows(("field", "value"), list(content.items()))
-        Output(self.form or Format.JSON, self.file).write(lambda: answer.model_dump_json(exclude_unset=True), rows)
+        form = Format.JSON if self.format is Format.TABLE else self.format
+        Output(self.form or form, self.file).write(lambda: answer.model_dump_json(exclude_unset=True), rows)
 
     def save(self, array: "Array") -> None:
         """Write an array as npy."""
@@ -109,11 +113,15 @@ class Output:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
     def _show(self, rows: AnswerRows) -> None:
+        from rich.console import Console  # noqa: PLC0415 - --help need not wait for it
+        from rich.table import Table  # noqa: PLC0415
+
         table = Table(*map(_word, rows.columns), box=None, header_style="bold", pad_edge=False)
         for row in rows.rows[:_SHOWN]:
             table.add_row(*(_word(cell) for cell in row))
         left = len(rows.rows) - _SHOWN
-        notes = [*rows.notes, *([f"and {left} more rows: ask for --format csv or json"] if left > 0 else [])]
+        said = () if self.is_quiet else rows.notes
+        notes = [*said, *([f"and {left} more rows: ask for --format csv or json"] if left > 0 else [])]
         console = Console() if self.file is None else Console(file=StringIO(), width=200)
         # Not by the console itself: on a closed pipe it exits with 1, "the answer is no".
         with console.capture() as shown:
@@ -133,7 +141,23 @@ def check_place(file: Path) -> None:
         raise OSError(wrong, os.strerror(wrong), str(file))
 
 
-def picture_kind(file: Path) -> Literal["svg", "png"]:
+_ENDINGS = ("", ".txt", *(f".{form}" for form in Format if form is not Format.TABLE))
+"""Of files that hold an answer; the first two, a table."""
+_OWN_ENDINGS: dict[str, tuple[str, ...]] = {"dh": (".urdf", ".xml"), "robots": (".urdf", ".xml")}
+"""Of files that some commands write beside."""
+_OF_ANY_ENDING = frozenset({"sheet", "ask"})
+"""Commands that say themselves what they write, or that write what comes."""
+
+
+def check_ending(file: Path, command: str) -> None:
+    """Raise InvalidField if a command writes no file that ends like this, unless its format is named."""
+    allowed = (*_ENDINGS, *_OWN_ENDINGS.get(command, ()))
+    if command not in _OF_ANY_ENDING and file.suffix.lower() not in allowed:
+        reason = f"{file.name!r} must end in one of {', '.join(allowed[1:])}; or name the format with --format"
+        raise InvalidField("output", reason)
+
+
+def picture_kind(file: Path) -> Literal["svg", "png", "pdf"]:
     """Return the kind of picture that a file's suffix asks for; raises OSError as `check_place` does."""
     check_place(file)
     match file.suffix.lower():
@@ -141,10 +165,12 @@ def picture_kind(file: Path) -> Literal["svg", "png"]:
             return "svg"
         case ".png":
             return "png"
-    raise InvalidField("plot", f"{file.name!r} must end in .svg or .png")
+        case ".pdf":
+            return "pdf"
+    raise InvalidField("plot", f"{file.name!r} must end in .svg, .png or .pdf")
 
 
-def _write(console: Console, table: Table, notes: Sequence[str]) -> None:
+def _write(console: "Console", table: "Table", notes: Sequence[str]) -> None:
     # Truncated numbers would be wrong: a table keeps its width, and the terminal wraps what does not fit.
     whole = console.measure(table, options=console.options.update(width=_WIDEST)).maximum
     console.width = max(console.width, whole)

@@ -22,9 +22,18 @@ ORIENTATIONS = {
     "rotation_vector": ("rx", "ry", "rz"),
 }
 """Names of columns by notation of the orientation."""
+PENDANTS = {
+    "ur": ("x", "y", "z", "rx", "ry", "rz"),
+    "kuka_abc": ("X", "Y", "Z", "A", "B", "C"),
+    "abb": ("X", "Y", "Z", "q1", "q2", "q3", "q4"),
+    "fanuc_wpr": ("X", "Y", "Z", "W", "P", "R"),
+}
+"""Names of columns by notation of a whole pose, as the pendants of controllers show it."""
 AXES = ("x", "y", "z")
 _ANSWERED = {"targets": "poses"}
 """By input field, the field of another command's answer that may stand for it."""
+_UNIT = re.compile(r"(?s)(.*?)\s*(deg|°|rad)?")
+_RADIANS = {"deg": math.pi / 180.0, "°": math.pi / 180.0}
 _PI = re.compile(r"([+-]?)(?:(\d+(?:\.\d*)?)\s*\*?\s*)?pi(?:\s*/\s*(\d+(?:\.\d*)?))?")
 
 
@@ -57,6 +66,9 @@ class InputRows:
 
     def targets(self, *, position_suffices: bool) -> list[Any]:
         """Return poses in the API's form; a header that names a notation sets the columns."""
+        pendant = next((notation for notation, columns in PENDANTS.items() if columns == self.header), None)
+        if pendant is not None:
+            return [{pendant: row} for row in self._numbers(None)]
         named = {columns: notation for notation, columns in ORIENTATIONS.items()}
         columns = [i for i, name in enumerate(self.header) if name in {*AXES, *(n for one in named for n in one)}]
         names = tuple(self.header[i] for i in columns)
@@ -136,10 +148,14 @@ def target_of(row: Sequence[float], position_suffices: bool, notation: str | Non
 
 
 def number(text: str) -> float:
-    """Parse a number, or a multiple of π such as `-pi/2` and `3*pi/4`; raises ValueError if it is neither."""
-    found = _PI.fullmatch(text.strip())
+    """Parse a number, or a multiple of π such as `-pi/2` and `3*pi/4`; `30deg` is an angle, as is `0.5rad`.
+
+    Raises ValueError if it is nothing of this.
+    """
+    value, unit = _UNIT.fullmatch(text.strip()).groups()  # type: ignore[union-attr]  # it matches any line
+    found = _PI.fullmatch(value)
     if found is None:
-        return float(text)
+        return float(value) * _RADIANS.get(unit, 1.0)
     sign, factor, divisor = found.groups()
     return (-1.0 if sign == "-" else 1.0) * float(factor or 1.0) * math.pi / float(divisor or 1.0)
 

@@ -110,7 +110,7 @@ def core_distance(bodies: FlatBodies, a: int, b: int, T: Array, near: float, far
     The search ends early once the distance is above `far`, or at most `near`. Four vertices contain the origin: the
     cores overlap. `work` then has the simplex and the nearest points; its length is `WORK`.
     """
-    v, count, lower, upper = (-T[9], -T[10], -T[11]), 0, 0.0, math.inf
+    v, count, lower, upper = _between_middles(bodies.boxes[a], bodies.boxes[b], T), 0, 0.0, math.inf
     if dot(v, v) <= TINY * TINY:
         v = (1.0, 0.0, 0.0)
     for _ in range(_MOST_STEPS):
@@ -132,6 +132,17 @@ def core_distance(bodies: FlatBodies, a: int, b: int, T: Array, near: float, far
         if upper <= near or upper <= TINY:
             break
     return count, min(lower, upper), upper
+
+
+@inlined
+def _between_middles(A: Array, B: Array, T: Array) -> Vector:
+    """Return the way from the middle of B's box to that of A's, in A's axes."""
+    u = turned_by(T, (B[0] + B[3], B[1] + B[4], B[2] + B[5]))
+    return (
+        0.5 * (A[0] + A[3] - u[0]) - T[9],
+        0.5 * (A[1] + A[4] - u[1]) - T[10],
+        0.5 * (A[2] + A[5] - u[2]) - T[11],
+    )
 
 
 @inlined

@@ -44,7 +44,15 @@ class ContactJudge:
     """Coal's pieces of a world, and Pinocchio's poses of them."""
 
     def __init__(self, world: World) -> None:
-        self._world = world
+        robot, self._world = world.robot, world
+        self._frames = {body.link: robot.frame_id(body.link) for body in world.bodies}
+        self._places = [(body.link, pin.SE3(body.T_link_body)) for body in world.bodies]
+        self._drives = [
+            (robot.model.joints[robot.model.frames[robot.frame_id(joint.child)].parentJoint].idx_q, drive)
+            for joint in robot.description.joints
+            if joint.type in MOVABLE
+            for drive in [robot.description.drives[joint.name]]
+        ]
         self.shapes = [_shape(body) for body in world.bodies]
         self._boxes = np.array([_local_box(shape) for shape in self.shapes]).reshape(-1, 6)
         self._first, self._second = world.flat.pairs.T
@@ -52,28 +60,24 @@ class ContactJudge:
 
     def poses(self, q: Array) -> list[pin.SE3]:
         """Return the poses of all pieces in the root at a configuration of the chain."""
-        return self._placed(q, self._world.bodies)
+        return self._placed(q, self._places)
 
-    def _placed(self, q: Array, bodies: Sequence[Body]) -> list[pin.SE3]:
+    def _placed(self, q: Array, places: Sequence[tuple[str, pin.SE3]]) -> list[pin.SE3]:
         robot = self._world.robot
         with robot.lock:
             pin.forwardKinematics(robot.model, robot.data, self.whole(q))
             links = {
-                link: pin.updateFramePlacement(robot.model, robot.data, robot.frame_id(link)).copy()
-                for link in {body.link for body in bodies}
+                link: pin.updateFramePlacement(robot.model, robot.data, self._frames[link]).copy()
+                for link in {link for link, _ in places}
             }
-        return [links[body.link] * pin.SE3(body.T_link_body) for body in bodies]
+        return [links[link] * place for link, place in places]
 
     def whole(self, q: Array) -> Array:
         """Return Pinocchio's configuration: the chain's joints, and all others where the world has them."""
-        robot, chain = self._world.robot, self._world.chain
-        values = {**self._world.others, **dict(zip(chain.joint_names, q.tolist(), strict=True))}
-        whole = np.zeros(robot.model.nq)
-        for joint in robot.description.joints:
-            if joint.type in MOVABLE:
-                frame = robot.model.frames[robot.frame_id(joint.child)]
-                position = joint_position(robot.description.drives[joint.name], values)
-                whole[robot.model.joints[frame.parentJoint].idx_q] = position
+        values = {**self._world.others, **dict(zip(self._world.chain.joint_names, q.tolist(), strict=True))}
+        whole = np.zeros(self._world.robot.model.nq)
+        for index, drive in self._drives:
+            whole[index] = joint_position(drive, values)
         return whole
 
     def distance(self, poses: list[pin.SE3], k: int, is_signed: bool = False, shift: Array | None = None) -> float:
@@ -85,7 +89,7 @@ class ContactJudge:
 
     def distance_at(self, q: Array, k: int, shift: Array) -> float:
         """Return the same, at most 0 in contact, at a configuration of the chain."""
-        one, other = self._placed(q, [self._world.bodies[i] for i in (self._first[k], self._second[k])])
+        one, other = self._placed(q, [self._places[i] for i in (self._first[k], self._second[k])])
         return self._apart(k, one, other, False, shift)
 
     def _apart(self, k: int, one: pin.SE3, other: pin.SE3, is_signed: bool, shift: Array | None) -> float:

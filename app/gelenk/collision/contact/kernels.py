@@ -1,47 +1,95 @@
 """Contacts and clearances of many configurations in one compiled call."""
 
+from typing import Any
+
 import numpy as np
 
-from gelenk.collision.contact.pair import is_near
-from gelenk.collision.contact.room import (
-    ContactRoom,
-    FlatWorld,
-    distance_of,
-    nearest,
-    place,
-    place_body,
-    room_of,
-    touches,
+from gelenk.collision.contact.gjk import WORK
+from gelenk.collision.contact.pair import is_near, relative
+from gelenk.collision.contact.room import FlatWorld, distance_of, nearest, parts_of, place, room_of, touches, world_of
+from gelenk.collision.contact.spheres import (
+    Rake,
+    balls_meet,
+    empty_rake,
+    place_eight,
+    place_root,
+    put_pose,
+    spheres_meet,
 )
-from gelenk.collision.contact.spheres import Rake, balls_meet, place_eight, rake_of, spheres_meet
 from gelenk.kinematics.simd.lanes import LANES
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.compilation import compiled, unmanaged
 
 
-@compiled
-def first_contacts(world: FlatWorld, qs: Array) -> Indices:
-    """Return the number of a pair in contact at each configuration, -1 where there is none; (N, n) → (N,)."""
-    room, rake, found = room_of(world), rake_of(world, qs.shape[1]), np.full(len(qs), -1)
-    for first in range(0, len(qs), LANES):
-        place_eight(world, qs, first, rake)
-        _find_contacts(world, True, rake, room, found[first : first + LANES])
-    return found
+def first_contacts(world: FlatWorld, qs: Array, *, is_exact: bool = True) -> Indices:
+    """Return the number of a pair in contact at each configuration, -1 where there is none; (N, n) → (N,).
+
+    If not `is_exact`, of a pair whose spheres touch: where none do, there is no contact.
+    """
+    return _first_contacts(parts_of(world), qs, is_exact)
 
 
 @compiled
-def first_spheres(world: FlatWorld, qs: Array) -> Indices:
-    """Return the number of a pair whose spheres touch at each configuration, -1 where none do: there is no contact."""
-    room, rake, found = room_of(world), rake_of(world, qs.shape[1]), np.full(len(qs), -1)
+def _first_contacts(parts: tuple[Any, ...], qs: Array, is_exact: bool) -> Indices:
+    world = world_of(parts)
+    rake = empty_rake(len(world.parents) + 1, len(world.bodies.balls), qs.shape[1])
+    poses, work, found = np.empty((3, 12)), np.zeros(WORK), np.full(len(qs), -1)
+    place_root(world.bodies, rake)
     for first in range(0, len(qs), LANES):
         place_eight(world, qs, first, rake)
-        _find_contacts(world, False, rake, room, found[first : first + LANES])
+        _find_contacts(world, is_exact, rake, poses, work, found[first : first + LANES])
     return found
+
+
+def first_free(world: FlatWorld, qs: Array, order: Indices, firsts: Indices) -> Indices:
+    """Return of some configurations in each group the first that touches nothing, without a look at those behind it.
+
+    Args:
+        qs: All configurations; shape (M, n).
+        order: Their rows, as the groups have them; shape (K,).
+        firsts: Where each group begins there, and K at the end; shape (N + 1,).
+
+    Returns:
+        The row of each group, -1 where none is free; shape (N,).
+    """
+    return _first_free(parts_of(world), qs, order, firsts)
+
+
+@compiled
+def _first_free(parts: tuple[Any, ...], qs: Array, order: Indices, firsts: Indices) -> Indices:
+    world = world_of(parts)
+    rake = empty_rake(len(world.parents) + 1, len(world.bodies.balls), qs.shape[1])
+    poses, work, some = np.empty((3, 12)), np.zeros(WORK), np.empty((LANES, qs.shape[1]))
+    owners, rows, found = np.empty(LANES, np.int64), np.empty(LANES, np.int64), np.empty(LANES, np.int64)
+    free, following = np.full(len(firsts) - 1, -1), firsts[:-1].copy()
+    waiting = np.flatnonzero(firsts[1:] > firsts[:-1])
+    place_root(world.bodies, rake)
+    left = len(waiting)
+    while left:
+        # The lanes take one configuration of each group, of the last few groups some more.
+        here, each, left = left, max(LANES // left, 1), 0
+        for first in range(0, here, LANES // each):
+            last, count = min(first + LANES // each, here), 0
+            for i in waiting[first:last]:
+                for at in range(following[i], min(following[i] + each, firsts[i + 1])):
+                    owners[count], rows[count], found[count], some[count] = i, order[at], -1, qs[order[at]]
+                    count += 1
+            place_eight(world, some[:count], 0, rake)
+            _find_contacts(world, True, rake, poses, work, found[:count])
+            for lane in range(count):
+                i = owners[lane]
+                following[i] += 1
+                if found[lane] < 0 and free[i] < 0:
+                    free[i] = rows[lane]
+            for i in waiting[first:last]:
+                if free[i] < 0 and following[i] < firsts[i + 1]:
+                    waiting[left], left = i, left + 1
+    return free
 
 
 @unmanaged
-def _find_contacts(world: FlatWorld, is_exact: bool, rake: Rake, room: ContactRoom, found: Indices) -> None:
-    """Set a pair in contact at each of up to eight configurations, as `first_contacts` or `first_spheres` do."""
+def _find_contacts(world: FlatWorld, is_exact: bool, rake: Rake, poses: Array, work: Array, found: Indices) -> None:
+    """Set a pair in contact at each of up to eight configurations, as `first_contacts` does."""
     free = (1 << len(found)) - 1
     for g in range(len(world.groups)):
         k, end = world.groups[g, 2], world.groups[g, 3]
@@ -49,29 +97,33 @@ def _find_contacts(world: FlatWorld, is_exact: bool, rake: Rake, room: ContactRo
         while near and k < end:
             met = spheres_meet(world, k, near, rake)
             for lane in range(len(found) if met else 0):
-                if met >> lane & 1 and (not is_exact or _touches(world, k, lane, rake, room)):
+                if met >> lane & 1 and (not is_exact or _touches(world, k, lane, rake, poses, work)):
                     found[lane], near, free = k, near ^ 1 << lane, free ^ 1 << lane
             k += 1
 
 
 @unmanaged
-def _touches(world: FlatWorld, k: int, lane: int, rake: Rake, room: ContactRoom) -> bool:
+def _touches(world: FlatWorld, k: int, lane: int, rake: Rake, poses: Array, work: Array) -> bool:
     """Whether the k-th pair is in contact at one of eight configurations."""
-    a, b, bodies = world.pairs[k, 0], world.pairs[k, 1], world.bodies
-    for i in (a, b):
-        if bodies.nodes[i] > 0:
-            for j in range(12):
-                room.nodes[bodies.nodes[i], j] = rake.nodes[(12 * bodies.nodes[i] + j) * LANES + lane]
-            place_body(bodies, i, room)
-    return is_near(bodies, a, b, room.poses, world.margins[k], room.T, room.work)
+    a, b = world.pairs[k, 0], world.pairs[k, 1]
+    put_pose(world.bodies, a, lane, rake, poses[0])
+    put_pose(world.bodies, b, lane, rake, poses[1])
+    relative(poses[0], poses[1], poses[2])
+    return is_near(world.bodies, a, b, world.margins[k], poses[2], work)
 
 
-@compiled
 def nearest_pairs(world: FlatWorld, qs: Array) -> tuple[Array, Indices, Array]:
     """Return the smallest distance less its pair's margin at each configuration, the pair, and the nearest points.
 
     Of configurations (N, n): (N,) [m], negative the depth, infinite without pairs; (N,), -1 without pairs; (N, 6) [m].
     """
+    distances, pairs, points = _nearest_pairs(parts_of(world), qs)
+    return distances, pairs, points
+
+
+@compiled
+def _nearest_pairs(parts: tuple[Any, ...], qs: Array) -> tuple[Array, Indices, Array]:
+    world = world_of(parts)
     room, count = room_of(world), len(qs)
     distances, pairs, points = np.empty(count), np.empty(count, dtype=np.int64), np.zeros((count, 6))
     bounds, trial = np.empty(len(world.pairs)), np.empty(6)

@@ -1,8 +1,11 @@
 """Distance of two pieces: of their cores, less the radii around these; negative is the depth."""
 
-from gelenk.collision.contact.flat import HALF_SPACE, FlatBodies
+import math
+
+from gelenk.collision.contact.flat import BOX, HALF_SPACE, HULL, FlatBodies
 from gelenk.collision.contact.gjk import NEAREST, TINY, core_distance, furthest, turned_by
 from gelenk.collision.contact.penetration import Polytope, core_depth
+from gelenk.kinematics.simd.lanes import LANES, abs_lanes, bits, lanes, load, max_lanes, min_lanes
 from gelenk.kinematics.simd.vectors import Vector, dot, plus, scaled
 from gelenk.robot.arrays import Array
 from gelenk.robot.compilation import inlined, unmanaged
@@ -29,7 +32,7 @@ def separation(
         T, work, room: Work arrays; T has shape (12,), work that of `gjk.WORK`.
         points: The nearest or deepest points of both pieces in the root are written here; shape (6,), [m].
     """
-    relative(poses, a, b, T)
+    relative(poses[a], poses[b], T)
     if bodies.kinds[b] == HALF_SPACE:
         distance, normal, x = _above_half_space(bodies, a, b, T, work)
     else:
@@ -54,9 +57,8 @@ def separation(
 
 
 @inlined
-def relative(poses: Array, a: int, b: int, T: Array) -> None:
+def relative(A: Array, B: Array, T: Array) -> None:
     """Write T_a_b of two poses in the root."""
-    A, B = poses[a], poses[b]
     for i in range(3):
         for j in range(3):
             T[3 * i + j] = A[i] * B[j] + A[3 + i] * B[3 + j] + A[6 + i] * B[6 + j]
@@ -79,10 +81,33 @@ def _put_point(points: Array, at: int, pose: Array, x: Vector) -> None:
 
 
 @unmanaged
-def is_near(bodies: FlatBodies, a: int, b: int, poses: Array, most: float, T: Array, work: Array) -> bool:
-    """Whether two pieces are at most so far apart, [m]; the search ends once a bound decides it."""
-    relative(poses, a, b, T)
+def is_near(bodies: FlatBodies, a: int, b: int, most: float, T: Array, work: Array) -> bool:
+    """Whether two pieces, T_a_b apart, are at most so far from each other, [m]; ends once a bound decides it."""
     if bodies.kinds[b] == HALF_SPACE:
         return _above_half_space(bodies, a, b, T, work)[0] <= most
+    if bodies.kinds[a] == HULL and bodies.kinds[b] == BOX:
+        decided = _by_faces(bodies, a, b, most, T)
+        if decided:
+            return decided > 0
     limit = most + bodies.cores[a, 3] + bodies.cores[b, 3]
     return core_distance(bodies, a, b, T, limit, limit, work)[1] <= float(limit)
+
+
+@unmanaged
+def _by_faces(bodies: FlatBodies, a: int, b: int, most: float, T: Array) -> int:
+    """Return 1 if a vertex of hull A is in box B, -1 if all are further than `most` beyond one of its faces, else 0."""
+    x, y, z = bodies.cores[b, 0], bodies.cores[b, 1], bodies.cores[b, 2]
+    low, high = lanes(math.inf), lanes(-math.inf)
+    low_u, low_v, low_w, high_u, high_v, high_w = low, low, low, high, high, high
+    for block in range(bodies.blocks[a], bodies.blocks[a + 1]):
+        p = load(bodies.vertices, 3 * block) - T[9]
+        q = load(bodies.vertices, 3 * block + 1) - T[10]
+        r = load(bodies.vertices, 3 * block + 2) - T[11]
+        u, v, w = T[0] * p + T[3] * q + T[6] * r, T[1] * p + T[4] * q + T[7] * r, T[2] * p + T[5] * q + T[8] * r
+        if bits((abs_lanes(u) <= x) & (abs_lanes(v) <= y) & (abs_lanes(w) <= z)):
+            return 1
+        low_u, low_v, low_w = min_lanes(u, low_u), min_lanes(v, low_v), min_lanes(w, low_w)
+        high_u, high_v, high_w = max_lanes(u, high_u), max_lanes(v, high_v), max_lanes(w, high_w)
+    beyond = max(bits(low_u > x + most), bits(low_v > y + most), bits(low_w > z + most))
+    below = max(bits(high_u < -x - most), bits(high_v < -y - most), bits(high_w < -z - most))
+    return -1 if max(beyond, below) == (1 << LANES) - 1 else 0

@@ -5,13 +5,13 @@ at the first that decides it.
 """
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from gelenk.collision.contact.flat import HALF_SPACE, FlatBodies
 from gelenk.collision.contact.gjk import WORK, turned_back_by, turned_by
-from gelenk.collision.contact.pair import is_near, pair_distance
+from gelenk.collision.contact.pair import is_near, pair_distance, relative
 from gelenk.collision.contact.penetration import Polytope, empty_polytope
 from gelenk.kinematics.simd.vectors import Vector, dot, minus, row
 from gelenk.robot.arrays import Array, Indices
@@ -41,6 +41,18 @@ class FlatWorld(NamedTuple):
     pairs: Indices
     margins: Array
     groups: Indices
+
+
+def parts_of(world: FlatWorld) -> tuple[Any, ...]:
+    """Return a world as plain tuples: passing a named one to a compiled function costs some microseconds."""
+    return (*world[:4], tuple(world.bodies), *world[5:])
+
+
+@compiled
+def world_of(parts: tuple[Any, ...]) -> FlatWorld:
+    """Return the world of which these are the parts."""
+    parents, placements, joints, drives, bodies, pairs, margins, groups = parts
+    return FlatWorld(parents, placements, joints, drives, FlatBodies(*bodies), pairs, margins, groups)
 
 
 class ContactRoom(NamedTuple):
@@ -120,7 +132,8 @@ def touches(world: FlatWorld, k: int, room: ContactRoom) -> bool:
         return False
     if box_bound(world.bodies, a, b, room) > margin:
         return False
-    return is_near(world.bodies, a, b, room.poses, margin, room.T, room.work)
+    relative(room.poses[a], room.poses[b], room.T)
+    return is_near(world.bodies, a, b, margin, room.T, room.work)
 
 
 @inlined

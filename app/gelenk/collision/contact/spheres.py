@@ -31,20 +31,19 @@ class Rake(NamedTuple):
 
 
 @compiled
-def rake_of(world: FlatWorld, n: int) -> Rake:
-    """Return work arrays for configurations of `n` columns, with what no joint moves in place."""
-    bodies = world.bodies
-    rake = Rake(
-        np.empty(max(n, 1) * LANES),
-        np.zeros(12 * (len(world.parents) + 1) * LANES),
-        np.empty(3 * len(bodies.balls) * LANES),
-    )
+def empty_rake(nodes: int, balls: int, n: int) -> Rake:
+    """Return work arrays for so many nodes and balls, and configurations of `n` columns."""
+    return Rake(np.empty(max(n, 1) * LANES), np.zeros(12 * nodes * LANES), np.empty(3 * balls * LANES))
+
+
+@unmanaged
+def place_root(bodies: FlatBodies, rake: Rake) -> None:
+    """Put in place what no joint moves."""
     for k in range(0, 12, 4):
         store(rake.nodes, k, lanes(1.0))
     for i in range(len(bodies.balls)):
         if bodies.nodes[i] == 0:
             _place_ball(bodies, i, rake)
-    return rake
 
 
 @unmanaged
@@ -86,6 +85,18 @@ def _place_ball(bodies: FlatBodies, i: int, rake: Rake) -> None:
     store(rake.centres, 3 * i, x)
     store(rake.centres, 3 * i + 1, y)
     store(rake.centres, 3 * i + 2, z)
+
+
+@inlined
+def put_pose(bodies: FlatBodies, i: int, lane: int, rake: Rake, pose: Array) -> None:
+    """Write the pose of a piece in the root at one of eight configurations; shape (12,)."""
+    local, first = bodies.poses[i], 12 * LANES * bodies.nodes[i] + lane
+    for row in range(3):
+        at = first + 3 * LANES * row
+        x, y, z = rake.nodes[at], rake.nodes[at + LANES], rake.nodes[at + 2 * LANES]
+        for j in range(3):
+            pose[3 * row + j] = x * local[j] + y * local[3 + j] + z * local[6 + j]
+        pose[9 + row] = rake.nodes[first + (9 + row) * LANES] + x * local[9] + y * local[10] + z * local[11]
 
 
 @inlined

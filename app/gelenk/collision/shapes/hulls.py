@@ -5,12 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.collision.shapes.quickhull import quickhull
-from gelenk.collision.shapes.surfaces import used, volume_within
+from gelenk.collision.shapes.surfaces import distinct, used, volume_within
 from gelenk.robot.arrays import Array, Indices
 
 MAX_VERTICES = 128
 _THINNEST = 1e-6
 """Least thickness of a hull, relative to its size: flatter ones are thickened, because no hull of them is found."""
+_SHORTEST = 1e-9
+"""Least size of a hull's box, [m]."""
 _FACES = MAX_VERTICES // 2 + 2
 """Of a simplified hull: F faces meet in at most 2 F - 4 vertices."""
 _FACES_A_ROUND = 16
@@ -42,6 +44,19 @@ def convex_hull(points: Array) -> Hull:
     return Hull(hull.points * sizes @ axes.T + centre, hull.faces, volume_within(hull) * float(np.prod(sizes)))
 
 
+def hull_triangles(points: Array) -> Array:
+    """Return the triangles of the hull of points, shapes (…, 3) and (F, 3, 3), seen from outside.
+
+    Raises:
+        ValueError: They are flat.
+    """
+    points, _ = distinct(points.reshape(-1, 3))
+    sizes = _box(points)[2]
+    if sizes.min() <= max(_THINNEST * sizes.max(), _SHORTEST):
+        raise ValueError("it is flat: its hull has no volume")
+    return np.asarray(points[quickhull(points)])
+
+
 def few_vertices(hull: Hull) -> Hull:
     """Return a hull around another, of at most `MAX_VERTICES`."""
     return hull if len(hull.vertices) <= MAX_VERTICES else convex_hull(_around(hull))
@@ -54,7 +69,7 @@ def _box(points: Array) -> tuple[Array, Array, Array]:
     along = (points - mean) @ axes
     least, most = along.min(axis=0), along.max(axis=0)
     sizes = most - least
-    return axes @ (least + most) / 2 + mean, axes, np.maximum(sizes, max(_THINNEST * sizes.max(), 1e-9))
+    return axes @ (least + most) / 2 + mean, axes, np.maximum(sizes, max(_THINNEST * sizes.max(), _SHORTEST))
 
 
 def _around(hull: Hull) -> Array:

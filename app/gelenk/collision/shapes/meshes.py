@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from gelenk.collision.shapes.collada import MeshPart, read_collada
+from gelenk.collision.shapes.msh import read_msh
 from gelenk.errors import InvalidMesh, quoted
 from gelenk.robot.arrays import Array
 
@@ -26,8 +27,9 @@ def read_triangles(name: str, content: bytes) -> Array:
 def read_parts(name: str, content: bytes) -> list[MeshPart]:
     """Return a mesh's triangles in its own axes, in parts that look alike.
 
-    STL (text or binary), OBJ and Collada, by the end of the name. The numbers count as metres; Collada's unit is
-    applied, as the studio and RViz do and Pinocchio does not, and its up axis is ignored, as all of them do.
+    STL (text or binary), OBJ, Collada and MuJoCo's MSH, by the end of the name. The numbers count as metres;
+    Collada's unit is applied, as the studio and RViz do and Pinocchio does not, and its up axis is ignored, as all of
+    them do.
 
     Raises:
         InvalidMesh: The file is broken, has no triangle, or exceeds a limit of this module.
@@ -51,6 +53,8 @@ def read_parts(name: str, content: bytes) -> list[MeshPart]:
 
 
 def _read(kind: str, content: bytes) -> Array:
+    if kind == "msh":
+        return read_msh(content, MAX_TRIANGLES)
     import trimesh  # noqa: PLC0415 - only robots with meshes need it
 
     mesh: Any = trimesh.load_mesh(BytesIO(content), file_type=kind, process=False, skip_materials=True)

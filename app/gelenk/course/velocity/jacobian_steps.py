@@ -1,6 +1,6 @@
 """The worked solution of a Jacobian: columns by geometry, rank, Euler rates, time variation."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -30,13 +30,16 @@ _EULER = {
 }
 """T(φ) of each kind of angles, its determinant, and where that vanishes."""
 
+_SCREWS = {"space_screws": "world", "body_screws": "local"}
+"""The view that is the same but for the order of its rows."""
+
 
 @dataclass(frozen=True, slots=True)
 class JacobianQuestion:
     """A Jacobian to be derived, and how.
 
     Attributes:
-        view: `local_world_aligned`, `local`, `world`, `zyz` or `rpy`.
+        view: `local_world_aligned`, `local`, `world`, `space_screws`, `body_screws`, `zyz` or `rpy`.
         angles: The Euler angles of the tip, for `zyz` and `rpy`; shape (3,), [rad].
         rank_tolerance: A singular value counts where it exceeds this times the largest.
         q_dot: Joint velocities for the time variation, None without it; shape (n,).
@@ -109,6 +112,8 @@ def derived_jacobian(question: JacobianQuestion) -> tuple[Array, list[Step]]:
         return J, []
     if view in {"zyz", "rpy"}:
         return _analytic(question, J)
+    if view in _SCREWS:
+        return _angular_first(question)
     if view == "local":
         R = geometry.tip[:3, :3]
         J = np.concatenate((R.T @ J[:3], R.T @ J[3:]))
@@ -121,6 +126,18 @@ def derived_jacobian(question: JacobianQuestion) -> tuple[Array, list[Step]]:
     text = _("The linear rows become the velocity of the point of the tip's body that passes the base's origin.")
     rule = r"J' = \begin{bmatrix} J_L + p_{EE} \times J_A \\ J_A \end{bmatrix}"
     return J, [step(title, text, f"p_{{EE}} = {row(p)}", f"{rule} = {matrix(J)}")]
+
+
+def _angular_first(question: JacobianQuestion) -> tuple[Array, list[Step]]:
+    J, steps = derived_jacobian(replace(question, view=_SCREWS[question.view]))
+    J = np.roll(J, 3, axis=0)
+    text = _(
+        "A screw (ω, v) names the angular velocity first: in the order of the product of exponentials the halves of "
+        "each column change places."
+    )
+    name = "J_s" if question.view == "space_screws" else "J_b"
+    rule = rf"{name} = \begin{{bmatrix}} 0 & I \\ I & 0 \end{{bmatrix}} J' = {matrix(J)}"
+    return J, [*steps, step(_("Angular rows first"), text, rule)]
 
 
 def euler_rates(view: str, angles: Array) -> Array:
@@ -174,6 +191,10 @@ def time_variation(question: JacobianQuestion, q_dot: Array) -> tuple[Array, str
     geometry = question.geometry
     J, dJ = geometry.jacobian(), geometry.time_variation(q_dot)
     v, w = J[:3] @ q_dot, J[3:] @ q_dot
+    if question.view in _SCREWS:
+        same, rule = time_variation(replace(question, view=_SCREWS[question.view]), q_dot)
+        name = "J_s" if question.view == "space_screws" else "J_b"
+        return np.roll(same, 3, axis=0), rf"{rule},\quad \dot {name}"
     if question.view == "local":
         R = geometry.tip[:3, :3].T
         halves = [R @ (rates - np.cross(w, part.T).T) for part, rates in ((J[:3], dJ[:3]), (J[3:], dJ[3:]))]

@@ -14,6 +14,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from gelenk.dh.tables.screws import screws_of_chain
 from gelenk.robot.arrays import Array, Flags, Indices, cross_matrices
 from gelenk.robot.chain import FlatChain
 from gelenk.robot.dh import Convention, DhTable
@@ -107,15 +108,8 @@ def parameters_of(table: DhTable) -> Array:
 
 def chain_screws(flat: FlatChain) -> ChainScrews:
     """Compute the screws of a chain's joints, each mimic joint as a joint of its own, at its offset."""
-    T = np.eye(4)
-    twists = np.empty((len(flat.joints), 6))
-    slides = flat.joints[:, 0] == 1
-    for i, offset in enumerate(flat.drives[:, 1]):
-        T = T @ flat.placement(i)
-        twists[i] = _twists(T[None], 2, bool(slides[i]))[0]
-        motion = _about_z(np.zeros(1), np.array([offset])) if slides[i] else _about_z(np.array([offset]), np.zeros(1))
-        T = T @ motion[0]
-    return ChainScrews(twists, slides, T @ flat.placement(-1))
+    found = screws_of_chain(flat)
+    return ChainScrews(np.roll(found.space, 3, axis=1), flat.joints[:, 0] == 1, found.home)
 
 
 def geometry(tables: Tables) -> TableAxes:

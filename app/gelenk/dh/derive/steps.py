@@ -9,7 +9,8 @@ from gelenk.course.steps import Step, step
 from gelenk.course.writing import decimal, matrix
 from gelenk.dh.derive.jacobian import Block
 from gelenk.dh.derive.numeric import NumericSolution
-from gelenk.dh.derive.texts import COLUMNS, Column, Formulas, SingularCondition, Singularities, array_of
+from gelenk.dh.derive.texts import Formulas, SingularCondition, Singularities, array_of
+from gelenk.dh.tables.columns import COLUMNS, Column
 from gelenk.language import translated as _
 from gelenk.robot.dh import DhTable
 

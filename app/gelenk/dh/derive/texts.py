@@ -8,6 +8,7 @@ from gelenk.course.steps import table
 from gelenk.dh.derive.jacobian import Block, Setting
 from gelenk.dh.derive.table import TableNumbers
 from gelenk.dh.derive.typeset import Formula, MatrixFormula, Style
+from gelenk.dh.tables.columns import Column
 from gelenk.language import Language, current_language
 from gelenk.robot.result import Result
 
@@ -224,9 +225,6 @@ class Singularities:
     sizes: Sequence[float] = ()
 
 
-Column: TypeAlias = Literal["a", "alpha", "d", "theta"]
-
-COLUMNS: tuple[Column, ...] = ("a", "alpha", "d", "theta")
 _HEADS = {"a": "a", "alpha": r"\alpha", "d": "d", "theta": r"\vartheta"}
 
 

@@ -30,9 +30,10 @@ _EXACT = 1e-15
 """Rounding within which a transform counts as Tx(a) Rx(α), so that a row can absorb it."""
 
 
-def describe_dh(name: str, table: DhTable) -> Description:
+def describe_dh(name: str, table: DhTable, bodies: Mapping[str, list[Solid]] | None = None) -> Description:
     """Convert a DH table to a description, with the module docstring's frames and simple solids as bodies.
 
+    `bodies` are the solids of `base` and of each link, if they are others than rods along the table's lengths.
     The table may begin with a prismatic joint and contain links of zero length. The description warns of omitted
     limits, of angles beyond a full turn, and of leaders that are not rows.
     """
@@ -48,7 +49,7 @@ def describe_dh(name: str, table: DhTable) -> Description:
         parent, pending = link, after
     joints.append(_fixed(taken, f"frame_{n}", TOOL_FRAME, table.tool))
     leaders = _leaders(table)
-    return Description(name, _links(table, len(leaders)), (*joints, *leaders), _warnings(table))
+    return Description(name, _links(table, len(leaders), bodies), (*joints, *leaders), _warnings(table))
 
 
 def _around_motion(row: DhJoint, convention: Convention) -> tuple[Array, Array]:
@@ -115,10 +116,10 @@ def _limits_of_leader(rows: Sequence[DhJoint]) -> UrdfLimits:
 # Bodies
 
 
-def _links(table: DhTable, leaders: int) -> tuple[Link, ...]:
+def _links(table: DhTable, leaders: int, bodies: Mapping[str, list[Solid]] | None) -> tuple[Link, ...]:
     """Return the links with their bodies: first the chain from base to tool, then DH frames and leaders beside it."""
     stock = Stock(length for row in table.joints for length in (row.a, row.d))
-    bodies = _bodies(table, stock)
+    bodies = _rods(table, stock) if bodies is None else bodies
     n = len(table.joints)
     chain = ["frame_0", *(f"link_{i}" for i in range(1, n + 1)), f"frame_{n}", TOOL_FRAME]
     beside = [f"frame_{i}" for i in range(1, n)]
@@ -132,8 +133,8 @@ def _links(table: DhTable, leaders: int) -> tuple[Link, ...]:
     return (*links, *(Link(name, inertial_of(solids)) for name, solids in rotors.items()))
 
 
-def _bodies(table: DhTable, stock: Stock) -> Mapping[str, list[Solid]]:
-    """Return the solids of the base and of each link, in the frame of the link."""
+def _rods(table: DhTable, stock: Stock) -> Mapping[str, list[Solid]]:
+    """Return rods and the bodies of joints: the solids of the base and of each link, in the frame of the link."""
     origin = np.zeros(3)
     bodies = {BASE_FRAME: stock.rod(origin, table.base[:3, 3]), "frame_0": []}
     parent, pending = "frame_0", np.eye(4)

@@ -14,7 +14,6 @@ from collections import Counter as Tally, defaultdict
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
-from typing import TypeAlias
 
 from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram, generate_latest
 from prometheus_client.metrics_core import GaugeMetricFamily, Metric
@@ -50,10 +49,6 @@ class _Spread(Histogram):
         self._sum.inc(sum(amounts))
         for place, count in Tally(bisect_left(self._upper_bounds, amount) for amount in amounts).items():
             self._buckets[place].inc(count)
-
-
-_Label: TypeAlias = tuple[_Sum | _Spread, *tuple[str | int, ...]]
-"""A metric and its labels."""
 
 
 class Metrics:
@@ -98,27 +93,28 @@ class Metrics:
             self._settle()
 
     def _settle(self) -> None:
-        amounts: defaultdict[_Label, list[float]] = defaultdict(list)
+        alike: defaultdict[tuple[str, str | None, int], list[RequestContext]] = defaultdict(list)
         for exchange in self._over:
-            operation, robot = exchange.operation.id, self._label(exchange)
-            amounts[self._seconds, operation, robot].append(exchange.seconds)
-            amounts[self._answers, operation, exchange.status or _LEFT].append(1)
-            if exchange.counts is not None:
-                self._count_call(amounts, exchange.counts, operation, robot)
+            alike[exchange.operation.id, exchange.robot, exchange.status].append(exchange)
         self._over.clear()
-        for label, values in amounts.items():
-            self._bound(*label).add(values)
+        for (operation, name, status), exchanges in alike.items():
+            robot = self._label(name, status)
+            self._bound(self._seconds, operation, robot).add([exchange.seconds for exchange in exchanges])
+            self._bound(self._answers, operation, status or _LEFT).add([len(exchanges)])
+            counts = [exchange.counts for exchange in exchanges if exchange.counts is not None]
+            if batches := [each.batch for each in counts if each.batch]:
+                self._bound(self._batch, operation, robot).add(batches)
+            if solved := [each for each in counts if each.verdicts]:
+                self._count_solutions(solved, robot)
 
-    def _count_call(
-        self, amounts: defaultdict[_Label, list[float]], counts: RequestCounts, operation: str, robot: str
-    ) -> None:
-        if counts.batch:
-            amounts[self._batch, operation, robot].append(counts.batch)
-        if counts.verdicts:
-            for verdict, count in counts.verdicts.items():
-                amounts[self._targets, robot, verdict].append(count)
-            amounts[self._solutions, robot].append(counts.solutions)
-            amounts[self._iterations, robot].append(counts.iterations)
+    def _count_solutions(self, counts: Sequence[RequestCounts], robot: str) -> None:
+        verdicts: Tally[str] = Tally()
+        for each in counts:
+            verdicts.update(each.verdicts)
+        for verdict, count in verdicts.items():
+            self._bound(self._targets, robot, verdict).add([count])
+        self._bound(self._solutions, robot).add([each.solutions for each in counts])
+        self._bound(self._iterations, robot).add([each.iterations for each in counts])
 
     def publish(self) -> None:
         """Publish the counts of finished and current requests, and the state of this process."""
@@ -162,12 +158,11 @@ class Metrics:
         jobs.register(_Jobs(self._jobs()))
         return generate_latest(registry) + generate_latest(jobs)
 
-    def _label(self, exchange: RequestContext) -> str:
+    def _label(self, robot: str | None, status: int) -> str:
         """Return the label of a robot: its own once it has answered a request, as long as labels are left."""
-        robot = exchange.robot
         if robot is None or robot in self._robots:
             return robot or ""
-        if 200 <= exchange.status < 300 and len(self._robots) < MOST_ROBOTS:
+        if 200 <= status < 300 and len(self._robots) < MOST_ROBOTS:
             self._robots.add(robot)
             return robot
         return OTHER

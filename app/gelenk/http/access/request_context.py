@@ -21,6 +21,7 @@ class RequestContext:
 
     Attributes:
         headers: Headers of the request; of a repeated one, the last value.
+        has_single_fields: Whether no header field is repeated.
         request_id: The caller's own if it is valid, else a new one.
         started, seconds: Start time, by `time.perf_counter`, and duration once it is over, [s].
         key: Name of the caller's key; "" without a valid one.
@@ -33,6 +34,7 @@ class RequestContext:
     operation: Route
     robot: str | None
     headers: dict[bytes, bytes]
+    has_single_fields: bool
     request_id: str
     started: float
     key: str = ""
@@ -44,20 +46,21 @@ class RequestContext:
 
     @classmethod
     def of(cls, scope: AsgiScope, operation: Route, robot: str | None) -> "RequestContext":
-        """Build the context of a request that has just arrived; puts the request id in the scope for problems."""
+        """Build the context of a request that has just arrived.
+
+        Puts in the scope its id, for problems, and the operation and the robot, for the application.
+        """
         headers = dict(scope["headers"])
         given = headers.get(b"x-request-id")
-        request_id = given.decode("ascii") if given and _WELL_FORMED.fullmatch(given) else f"{getrandbits(128):032x}"
-        scope["request_id"] = request_id
+        request_id = (
+            given.decode("ascii") if given and _WELL_FORMED.fullmatch(given) else getrandbits(128).to_bytes(16).hex()
+        )
+        scope["request_id"], scope["gelenk.operation"] = request_id, (operation.id, robot)
         can_be_job = b"prefer" in headers and isinstance(operation, Endpoint) and operation.job
         if can_be_job and wants_answer_later(scope["headers"]):
             operation = replace(operation, scope=Scope.WRITE)  # a job is stored
-        return cls(scope, operation, robot, headers, request_id, time.perf_counter())
-
-    @property
-    def has_single_fields(self) -> bool:
-        """Whether no header field is repeated."""
-        return len(self.headers) == len(self.scope["headers"])
+        are_single = len(headers) == len(scope["headers"])
+        return cls(scope, operation, robot, headers, are_single, request_id, time.perf_counter())
 
     def values(self, name: bytes) -> list[bytes]:
         """Return all values of a header field."""

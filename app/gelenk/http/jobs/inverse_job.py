@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 from io import BytesIO
 from pathlib import Path
-from typing import IO, Any, TypeAlias
+from typing import IO, Any, NamedTuple, TypeAlias
 
 import numpy as np
 import orjson
@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 from gelenk.collision.cell import Cell
 from gelenk.collision.contact.words import ContactCertificate, together
 from gelenk.contract.ik import MAX_JOB_STEPWISE, MAX_JOB_TARGETS, MAX_TRACE, InverseRequest
-from gelenk.errors import InvalidField
+from gelenk.errors import InvalidField, UnknownJob
 from gelenk.http.jobs.long_work import AS_SENT, HEADERS, LongWork, as_bytes, headers_file, npy_file
 from gelenk.http.messages.payloads import NPY, read_json
 from gelenk.ik.search.problem import TargetProblem
+from gelenk.ik.search.search import in_one_thread
 from gelenk.ik.solve import solve
 from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
@@ -55,8 +56,30 @@ _STAGE = "targets"
 _SOLVED = 0.95
 """Progress when only the files are left to write."""
 
-_Part: TypeAlias = tuple[RobotText, bytes, bytes | None, Array, Array]
-"""The robot, the call, its cell, the targets (as sent, or rows of 12: position, rotation matrix), the seeds."""
+
+class _Rows(NamedTuple):
+    """Rows of the targets (as sent, or 12 numbers: position, rotation matrix) and the seeds, in the job's folder."""
+
+    folder: Path
+    first: int
+    last: int
+
+    def read(self) -> tuple[Array, Array]:
+        """Read both from disk as they are needed: a million targets are a hundred megabytes.
+
+        Raises UnknownJob if the job has been removed.
+        """
+        try:
+            targets, seeds = (np.load(self.folder / name, mmap_mode="r") for name in (_TARGETS, _SEEDS))
+        except FileNotFoundError:
+            raise UnknownJob(self.folder.parent.name) from None
+        rows = slice(self.first, self.last)
+        found = np.array(targets[rows], dtype=np.float64, order="C")
+        return found, np.array(seeds if len(seeds) == 1 else seeds[rows])
+
+
+_Part: TypeAlias = tuple[RobotText, bytes, bytes | None, _Rows | tuple[Array, Array]]
+"""The robot, the call, its cell, and targets and seeds, or where processes of this machine find them."""
 
 
 def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[str, bytes | None]:
@@ -111,23 +134,16 @@ def _work(_: Limits, folder: Path) -> Work:
     text, content = robot_text(folder), read_plain(folder / _CALL)
     call = read_json(InverseRequest, content)
     cell = read_plain(folder / _CELL) if (folder / _CELL).exists() else None
-    # Read from disk as they are needed: a million targets are a hundred megabytes.
-    targets, seeds = (np.load(folder / name, mmap_mode="r") for name in (_TARGETS, _SEEDS))
+    number = len(np.load(folder / _TARGETS, mmap_mode="r"))
     quick = call.solutions == "one" and call.objective is None and not is_stepwise(call) and cell is None
     size = _PART if quick else _PART_OF_MANY
-    count = max(1, -(-len(targets) // size))
-
-    def part(k: int) -> _Part:
-        rows = slice(k * size, (k + 1) * size)
-        return (
-            text,
-            content,
-            cell,
-            np.array(targets[rows], dtype=np.float64, order="C"),
-            np.array(seeds if len(seeds) == 1 else seeds[rows]),
-        )
+    count = max(1, -(-number // size))
 
     def work(run: Run) -> Files:
+        def part(k: int) -> _Part:
+            rows = _Rows(folder, k * size, (k + 1) * size)
+            return text, content, cell, rows if run.is_here else rows.read()
+
         run.map(_STAGE, solved_part, part, count, (0.0, _SOLVED), size)
         chain = robot_of(text).chain(call.base_frame, call.tip_frame)
         warnings = None if cell is None else read_cell_bodies(cell).warnings
@@ -139,12 +155,14 @@ def _work(_: Limits, folder: Path) -> Work:
 
 def solved_part(job: _Part) -> bytes:
     """Solve some targets, in a separate process: results as arrays or as JSON, and indices of unsolved targets."""
-    text, content, bodies, rows, seeds = job
+    text, content, bodies, given = job
+    rows, seeds = given.read() if isinstance(given, _Rows) else given
     robot, call = robot_of(text), _call(content)
     chain = robot.chain(call.base_frame, call.tip_frame)
     cell = None if bodies is None else read_cell_bodies(bodies).cell(robot, chain, call.min_clearance)
     targets = Poses(rows[:, :3].copy(), rows[:, 3:].reshape(-1, 3, 3)) if rows.shape[1] == 12 else poses_from(rows, "")
-    return _solved(TargetProblem(robot, chain, targets, seeds, options_of(chain, call, None)), call, cell)
+    with in_one_thread():
+        return _solved(TargetProblem(robot, chain, targets, seeds, options_of(chain, call, None)), call, cell)
 
 
 def _solved(problem: TargetProblem, call: InverseRequest, cell: Cell | None) -> bytes:
@@ -181,7 +199,7 @@ class _Found:
 
     def write_parts(self, target: IO[bytes]) -> None:
         for part in self._parts():
-            values = unpacked(part)
+            values = unpacked(part, "form", "count", "unsolved", "certificate")
             self._form = values["form"].tobytes()
             self._unsolved += (self._count + values["unsolved"]).tolist()
             self._count += int(values["count"])
@@ -207,16 +225,18 @@ def _streamed(folder: Path, media_type: str) -> Iterator[bytes] | None:
         about = orjson.loads(read_plain(folder / _ABOUT))
         if media_type == NPY and about["shape"] is None:
             return None
-        parts = _parts(open_plain(folder / _PARTS), about["sizes"])
+        source = open_plain(folder / _PARTS)
     except FileNotFoundError:
         return None
-    return _npy(about["shape"], parts) if media_type == NPY else _json(about["frame"].encode(), parts)
+    if media_type == NPY:
+        return _npy(about["shape"], _parts(source, about["sizes"], "rows"))
+    return _json(about["frame"].encode(), _parts(source, about["sizes"]))
 
 
-def _parts(source: IO[bytes], sizes: Sequence[int]) -> Iterator[dict[str, NDArray[Any]]]:
+def _parts(source: IO[bytes], sizes: Sequence[int], *wanted: str) -> Iterator[dict[str, NDArray[Any]]]:
     with source:
         for size in sizes:
-            yield unpacked(source.read(size))
+            yield unpacked(source.read(size), *wanted)
 
 
 def _json(frame: bytes, parts: Iterator[dict[str, NDArray[Any]]]) -> Iterator[bytes]:

@@ -1,8 +1,8 @@
-"""Endpoints of existing jobs: state, progress events, result, cancelling and removal."""
+"""Endpoints of existing jobs: the list, state, progress events, result, cancelling and removal."""
 
 import asyncio
 from collections.abc import AsyncIterator, Iterator, Mapping
-from typing import IO, Annotated, Any, Literal
+from typing import IO, Annotated, Any
 
 import orjson
 from fastapi import APIRouter, Header, Path, Query, Response
@@ -15,7 +15,8 @@ from gelenk.http.jobs import trajectory_job
 from gelenk.http.jobs.long_work import HEADERS, NO_STORE, RESULTS, headers_of, job_content, job_response
 from gelenk.http.jobs.long_works import LONG_WORK
 from gelenk.http.messages.openapi import documentation
-from gelenk.http.messages.payloads import CSV, JSON, NO_ARRAY, NPY, PNG, SVG, preferred_type
+from gelenk.http.messages.payloads import CSV, JSON, NO_ARRAY, NPY, PICTURES, preferred_type
+from gelenk.http.workers.pool_client import client_of
 from gelenk.jobs.job import JobRecord
 from gelenk.jobs.runner import Runner
 from gelenk.jobs.workspace import ARRAY, KIND, SUMMARY
@@ -29,12 +30,24 @@ HEARTBEAT_SECONDS = 15.0
 """Time without news after which a stream sends a comment, so that no proxy takes it for dead, [s]."""
 
 _PIECE = 256 * 1024
-EXTRA: dict[str, tuple[str, ...]] = {KIND: (SVG, PNG), trajectory_job.KIND: (CSV, SVG, PNG)}
+EXTRA: dict[str, tuple[str, ...]] = {KIND: (*PICTURES,), trajectory_job.KIND: (CSV, *PICTURES)}
 """Media types, besides JSON and npy, in which a kind of job has a result."""
-_PICTURES: dict[str, Literal["svg", "png"]] = {SVG: "svg", PNG: "png"}
 
 JobPath = Annotated[
     str, Path(description="Name of a job.", openapi_examples={"panda-workspace": {"value": "panda-workspace"}})
+]
+_NEWEST = 2**53 - 1
+LimitQuery = Annotated[
+    int, Query(ge=1, le=1000, description="How many at most.", openapi_examples={"few": {"value": 20}})
+]
+BeforeQuery = Annotated[
+    int,
+    Query(
+        ge=1,
+        le=_NEWEST,
+        description="`next` of the answer before; the newest if left out.",
+        openapi_examples={"newest": {"value": _NEWEST}},
+    ),
 ]
 FinishedQuery = Annotated[
     Finished,
@@ -52,10 +65,22 @@ LastEvent = Annotated[
     ),
 ]
 
+_FORWARDED = {"forwarded", "x-forwarded-for", "x-real-ip"}
+"""Headers by which a proxy tells that the request is someone else's."""
+
 
 def jobs_router(runner: Runner) -> APIRouter:
     """Return the router of the operations on existing jobs."""
     router = APIRouter()
+
+    @router.api_route(**documentation("list_jobs"))
+    def list_jobs(request: Request, limit: LimitQuery = 50, before: BeforeQuery = _NEWEST) -> Response:
+        # Behind a proxy that does not name them, all clients without a key look like one: nobody is shown the others'.
+        is_one_of_many = not client_of(request) and not _FORWARDED.isdisjoint(request.headers.keys())
+        found = [] if is_one_of_many else runner.store.newest(client_of(request), limit + 1, before)
+        following = found[limit - 1].number if len(found) > limit else None
+        content = {"jobs": [job_content(job) for job in found[:limit]], "next": following}
+        return Response(orjson.dumps(content), headers=NO_STORE, media_type=JSON)
 
     @router.api_route(**documentation("get_job"))
     def get_job(job: JobPath) -> Response:
@@ -74,9 +99,9 @@ def jobs_router(runner: Runner) -> APIRouter:
     def get_result(job: JobPath, request: Request) -> Response:
         record = runner.store.get(job)
         wanted = preferred_type(request.headers.get("accept", ""), (JSON, NPY, *EXTRA.get(record.kind, ())))
-        if record.kind == KIND and wanted in _PICTURES:
+        if record.kind == KIND and wanted in PICTURES:
             paths = runner.result(job, ARRAY), runner.result(job, SUMMARY)
-            response = Response(runner.rendered(picture, (*paths, _PICTURES[wanted])), media_type=wanted)
+            response = Response(runner.rendered(picture, (*paths, PICTURES[wanted])), media_type=wanted)
         else:
             response = _result_response(runner, record, wanted)
         if record.robot_digest is not None:

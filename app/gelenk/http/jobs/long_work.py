@@ -17,7 +17,7 @@ from starlette.responses import Response
 from gelenk.contract.common import Payload, content_of
 from gelenk.contract.jobs import JobInfo
 from gelenk.errors import kind_of
-from gelenk.http.messages.payloads import CSV, JSON, NPY, PNG, SVG
+from gelenk.http.messages.payloads import CSV, JSON, NPY, PICTURES
 from gelenk.http.workers.pool_client import client_of
 from gelenk.jobs.job import JobRecord
 from gelenk.jobs.parts import packed, unpacked
@@ -48,7 +48,12 @@ def job_content(job: JobRecord) -> dict[str, Any]:
 
 _Request = TypeVar("_Request", bound=Payload)
 
-RESULTS = {JSON: "result.json", NPY: "result.npy", CSV: "result.csv", SVG: "result.svg", PNG: "result.png"}
+RESULTS = {
+    JSON: "result.json",
+    NPY: "result.npy",
+    CSV: "result.csv",
+    **{media_type: f"result.{kind}" for media_type, kind in PICTURES.items()},
+}
 """File of a result by its media type, for every kind of job."""
 CALL = "call.json"
 """File of a request that holds the call, perhaps with a name for the job in `job_id`."""

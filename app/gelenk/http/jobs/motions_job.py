@@ -60,14 +60,14 @@ def _work(_: Limits, folder: Path) -> Work:
         def write_npy(target: IO[bytes]) -> None:
             shape = len(rows), len(COLUMNS) + (cell is not None)
             np.lib.format.write_array_header_1_0(target, {"descr": "<f8", "fortran_order": False, "shape": shape})
-            target.writelines(unpacked(one)["rows"].tobytes() for one in run.parts.of(_STAGE, count))
+            target.writelines(unpacked(one, "rows")["rows"].tobytes() for one in run.parts.of(_STAGE, count))
 
         def write_json(target: IO[bytes]) -> None:
-            each = (unpacked(one)["certificate"].tobytes() for one in run.parts.of(_STAGE, count))
+            each = (unpacked(one, "certificate")["certificate"].tobytes() for one in run.parts.of(_STAGE, count))
             certificates = [PoseCertificate(**orjson.loads(one)) for one in each]
             about: tuple[list[str], ContactCertificate] | tuple[()] = ()
             if cell is not None:
-                parts = [unpacked(one)["contacts"].tobytes() for one in run.parts.of(_STAGE, count)]
+                parts = [unpacked(one, "contacts")["contacts"].tobytes() for one in run.parts.of(_STAGE, count)]
                 contacts = together([ContactCertificate(**orjson.loads(one)) for one in parts])
                 about = read_cell_bodies(cell).warnings, contacts
             batch = parse(robot_of(text), _call(content, np.array(rows[:1])), MAX_JOB_MOTIONS)
@@ -75,7 +75,7 @@ def _work(_: Limits, folder: Path) -> Work:
             before, after = orjson.dumps(answer, option=orjson.OPT_SERIALIZE_NUMPY).split(b'"results":[]', 1)
             target.write(before + b'"results":[')
             for i, one in enumerate(run.parts.of(_STAGE, count)):
-                target.write((b"," if i else b"") + unpacked(one)["results"].tobytes()[1:-1])
+                target.write((b"," if i else b"") + unpacked(one, "results")["results"].tobytes()[1:-1])
             target.write(b"]" + after)
 
         return {RESULTS[JSON]: write_json, RESULTS[NPY]: write_npy}

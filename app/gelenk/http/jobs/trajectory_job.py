@@ -2,7 +2,7 @@
 
 import itertools
 from collections.abc import Iterator
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import IO, TypeAlias
 
@@ -11,7 +11,7 @@ import orjson
 
 from gelenk.contract.trajectory_request import MAX_JOB_SAMPLES, TrajectoryRequest
 from gelenk.http.jobs.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file
-from gelenk.http.messages.payloads import CSV, JSON, NPY, PNG, SVG, read_json
+from gelenk.http.messages.payloads import CSV, JSON, NPY, PICTURES, read_json
 from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
@@ -32,7 +32,7 @@ _PART = 8192
 """Samples per part."""
 _PLAN, _STAGE, _DRAWING = "plan", "samples", "picture"
 _PLANNED, _SAMPLED, _DRAWN = 0.5, 0.9, 0.95
-_PICTURES: tuple[PictureFormat, ...] = ("svg", "png")
+_KINDS = tuple(PICTURES.values())
 _GAP = b"\0"
 """Encloses the name of a field whose entries come from the parts; no JSON contains it."""
 
@@ -71,11 +71,12 @@ def _work(limits: Limits, folder: Path) -> Work:
         rows, width = values["shape"].tolist()
         count, headers = -(-rows // _PART), orjson.loads(values["headers"].tobytes())
         run.map(_STAGE, sampled_part, lambda k: (job, k), count, (_PLANNED, _SAMPLED), _PART)
-        run.map(_DRAWING, drawn_part, lambda k: (job, _PICTURES[k]), len(_PICTURES), (_SAMPLED, _DRAWN))
-        svg, png = run.parts.of(_DRAWING, len(_PICTURES))
+        run.map(_DRAWING, drawn_part, lambda k: (job, _KINDS[k]), len(_KINDS), (_SAMPLED, _DRAWN))
+        drawn = zip(PICTURES, run.parts.of(_DRAWING, len(_KINDS)), strict=True)
+        pictures = {RESULTS[media_type]: partial(_write, picture) for media_type, picture in drawn}
 
         def column(name: str) -> Iterator[bytes]:
-            return (unpacked(part)[name].tobytes() for part in run.parts.of(_STAGE, count))
+            return (unpacked(part, name)[name].tobytes() for part in run.parts.of(_STAGE, count))
 
         def write_npy(target: IO[bytes]) -> None:
             np.lib.format.write_array_header_1_0(
@@ -94,12 +95,15 @@ def _work(limits: Limits, folder: Path) -> Work:
             RESULTS[JSON]: write_json,
             RESULTS[NPY]: write_npy,
             RESULTS[CSV]: lambda target: target.writelines(itertools.chain((names,), column("csv"))),
-            RESULTS[SVG]: lambda target: target.write(svg),
-            RESULTS[PNG]: lambda target: target.write(png),
+            **pictures,
             HEADERS: lambda target: target.write(headers_file({NPY: headers, CSV: headers})),
         }
 
     return work
+
+
+def _write(content: bytes, target: IO[bytes]) -> None:
+    target.write(content)
 
 
 def _write_list(target: IO[bytes], lists: Iterator[bytes]) -> None:

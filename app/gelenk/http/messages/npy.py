@@ -48,10 +48,11 @@ def _head(dtype: np.dtype[Any], shape: tuple[int, ...]) -> bytes:
     return head.getvalue()
 
 
-def read_npy(body: bytes) -> Array:
+def read_npy(body: bytes | bytearray) -> Array:
     """Return the array in an npy body, as native float64; raises InvalidArray for any other body.
 
-    The header is checked against the actual bytes before anything is allocated, and no object is unpickled.
+    The header is checked against the actual bytes before anything is allocated, and no object is unpickled. The array
+    is over the body itself where that may be written to: a `bytearray` that nobody else needs.
     """
     header, start = _header(body)
     kind = _NUMBERS.fullmatch(header["descr"])
@@ -68,13 +69,13 @@ def read_npy(body: bytes) -> Array:
     if len(body) - start != count * dtype.itemsize:
         raise InvalidArray(f"the array of shape {shape} needs {count * dtype.itemsize} bytes, no more, no fewer")
     flat = np.frombuffer(body, dtype, count, start)
-    # A copy, because an array over received bytes is read-only: kernels would be compiled for that type as well.
     order: Literal["C", "F"] = "F" if header["fortran_order"] == "True" else "C"
     with np.errstate(invalid="ignore"):  # NumPy warns of a signalling NaN; no field accepts any
-        return np.array(flat.reshape(shape, order=order), dtype=np.float64, order="C")
+        # Writable, because kernels would be compiled for read-only arrays as well: of `bytes` this is a copy.
+        return np.require(flat.reshape(shape, order=order), np.float64, ["C", "A", "W"])
 
 
-def _header(body: bytes) -> tuple[dict[str, str], int]:
+def _header(body: bytes | bytearray) -> tuple[dict[str, str], int]:
     """Return the entries of an npy header, word for word, and the offset of the data.
 
     NumPy parses a header as Python, whose compiler would write warnings about a client's text to the service's log.

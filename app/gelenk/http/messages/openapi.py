@@ -18,7 +18,7 @@ from gelenk.contract.jobs import JobInfo
 from gelenk.contract.kinematics import ByName, Configuration
 from gelenk.contract.problem import Problem
 from gelenk.contract.resources import RESOURCES
-from gelenk.http.messages.payloads import CSV, JSON, MULTIPART, NPY, PNG, SVG
+from gelenk.http.messages.payloads import CSV, JSON, MULTIPART, NPY, PICTURES
 from gelenk.http.messages.problems import MEDIA_TYPE
 
 RobotPath = Annotated[
@@ -109,7 +109,8 @@ def documentation(name: str) -> dict[str, Any]:
 def endpoint_documentation(endpoint: Endpoint[Any, Any]) -> dict[str, Any]:
     """Return the arguments of FastAPI's route that document one of the `ENDPOINTS`."""
     problems, responses, notes = [400, 413, 415, 422, *_BY_WORKER], {}, ""
-    contents = _contents({NPY: endpoint.npy_answer, CSV: endpoint.table, SVG: endpoint.picture, PNG: endpoint.picture})
+    pictures = dict.fromkeys(PICTURES, endpoint.picture)
+    contents = _contents({NPY: endpoint.npy_answer, CSV: endpoint.table, **pictures})
     contents |= _contents(endpoint.programs)
     body: dict[str, Any] = {JSON: {"example": endpoint.example}}
     if isinstance(endpoint, RobotEndpoint) or endpoint.robot_field or endpoint.tag == "DH tables":

@@ -3,10 +3,10 @@
 FastAPI writes the OpenAPI document from the signature of an endpoint. Running the endpoint through FastAPI as well
 would cost several times the kinematics: its middleware, resolving dependencies, validating the response against its
 model (the tests do that instead). So a `DocumentedRoute` keeps the documentation and runs a handler; and `Application`
-finds operations on a robot, which are called thousands of times a second, before anything else.
+calls that of an operation, which clients call thousands of times a second, before anything else.
 """
 
-import re
+import asyncio
 from collections.abc import Awaitable, Callable
 from typing import Any
 
@@ -18,8 +18,6 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from gelenk.http.messages import problems
 from gelenk.http.messages.payloads import Bodies, BoundedRequest
-
-_OPERATION = re.compile(r"/v1/robots/(?P<robot>[^/]+)/(?P<operation>[a-z]+)")
 
 Handler = Callable[[BoundedRequest], Awaitable[Response]]
 
@@ -41,27 +39,28 @@ class DocumentedRoute(APIRoute):
             return
         request = BoundedRequest(scope, receive, send, self._max_body_bytes, scope["app"].bodies)
         try:
-            with request:
-                response = await self._handler(request)
+            response = await self._handler(request)
         except ClientDisconnect:
             return
         except Exception as error:
             response = problems.answer(request, error)
+        finally:
+            request.release()
         await response(scope, receive, send)
 
 
 class Application(FastAPI):
-    """FastAPI, with the operations on a robot dispatched first.
+    """FastAPI, with the operations dispatched first.
 
-    `operations` are the routes of POST /v1/robots/{robot}/{operation}. Any other request, also a wrong method or an
-    unknown operation, goes through FastAPI, and so do all requests if they are traced (`is_traced`). Requests arrive
-    at `entry`, which leads to `answer`.
+    `operations` are their routes by id; in their paths only the robot varies. Any other request, also a wrong method
+    or an unknown operation, goes through FastAPI, and so do all requests if they are traced (`is_traced`). Requests
+    arrive at `entry`, which finds the operation, checks that the caller may call it, and leads to `answer`.
     """
 
     def __init__(self, bodies: Bodies, is_traced: bool = False, **description: Any) -> None:
         super().__init__(**description)
         self.bodies, self._is_traced = bodies, is_traced
-        self.operations: dict[str, DocumentedRoute] = {}
+        self.operations: dict[str | None, DocumentedRoute] = {}
         self.entry: ASGIApp = self.answer
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -77,14 +76,13 @@ class Application(FastAPI):
             return
         if scope["type"] == "http" and scope["method"] == "HEAD":
             scope = {**scope, "method": "GET"}
-        if scope["type"] == "http" and scope["method"] == "POST" and not self._is_traced:
-            scope["root_path"] = self.root_path
-            match = _OPERATION.fullmatch(scope["path"].removeprefix(self.root_path))
-            route = self.operations.get(match["operation"]) if match else None
-            if match and route:
-                scope["app"], scope["path_params"] = self, {"robot": match["robot"]}
-                await route.handle(scope, receive, send)
-                return
+        operation, robot = scope.get("gelenk.operation", (None, None))
+        if (route := self.operations.get(operation)) and not self._is_traced:
+            scope["root_path"], scope["app"] = self.root_path, self
+            scope["path_params"] = {} if robot is None else {"robot": robot}
+            await route.handle(scope, receive, send)
+            return
+        await asyncio.sleep(0)  # From here on it is in a task, which what FastAPI uses asks for.
         await super().__call__(scope, receive, send)
 
 

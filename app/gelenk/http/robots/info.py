@@ -18,6 +18,7 @@ from gelenk.contract.robots import (
 from gelenk.robot.appearance import Solid, skeleton
 from gelenk.robot.description import Joint
 from gelenk.robot.notations import quaternions_xyzw_from_rotations
+from gelenk.store.index import ABOUT
 from gelenk.store.records import LoadedRobot
 
 
@@ -28,10 +29,13 @@ def info(loaded: LoadedRobot) -> RobotInfo:
     chain = robot.chain(None, None)
     return RobotInfo(
         name=record.name,
-        description=record.file.description,
+        **{field: getattr(record.file, field) for field in ABOUT},
         source=record.source,
         format=record.file.format,
         default_chain=ChainEnds(base_frame=chain.base_frame, tip_frame=chain.tip_frame),
+        payload=record.file.payload,
+        reach=record.file.reach,
+        controller=record.file.controller,
         chains=record.file.chains,
         root=description.root,
         joints=[_joint(joint) for joint in description.joints],

@@ -14,7 +14,7 @@ from starlette.responses import Response, StreamingResponse
 
 from gelenk.contract.resources import MESH_TYPES, SMALL_MESH
 from gelenk.errors import UnknownMesh
-from gelenk.http.encodings import accepts_gzip, is_known
+from gelenk.http.encodings import accepts, is_known
 from gelenk.http.messages.payloads import preferred_type
 from gelenk.http.workers.pool_client import PoolClient
 from gelenk.http.workers.task import Context, TaskRequest
@@ -83,7 +83,7 @@ def _file_response(request: Request, file: Path, path: str, offered: Sequence[st
         raise UnknownMesh(path) from None
     status = os.fstat(content.fileno())
     is_packed = file.suffix == ".gz"
-    is_sent_packed = is_packed and accepts_gzip(",".join(request.headers.getlist("Accept-Encoding")))
+    is_sent_packed = is_packed and accepts(",".join(request.headers.getlist("Accept-Encoding")), "gzip")
     stamp = (status.st_mtime_ns, status.st_ino, status.st_size, media_type, is_sent_packed)
     headers = {**_headers(offered), "ETag": f'"{hashlib.sha256(repr(stamp).encode()).hexdigest()[:24]}"'}
     if is_known(headers["ETag"], request.headers.get("If-None-Match", "")):

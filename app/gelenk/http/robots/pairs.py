@@ -9,7 +9,7 @@ from starlette.responses import Response
 from gelenk.collision.bodies import Body
 from gelenk.collision.robot_bodies import RobotBodies
 from gelenk.contract.collision_bodies import CollisionBodies, CollisionBody
-from gelenk.contract.collision_pairs import CollisionPairs, PairChoice, PairChoices, PairInfo
+from gelenk.contract.collision_pairs import PairChoice, PairChoices
 from gelenk.errors import InvalidField, quoted
 from gelenk.http.messages.openapi import RobotPath, UploadedRobotPath, documentation
 from gelenk.http.messages.payloads import JSON, BoundedRequest, JsonResponse, read_json
@@ -75,8 +75,7 @@ def _known(number: float) -> float | None:
 
 def _listed(context: Context, task_request: TaskRequest) -> Response:
     bodies = bodies_of(context.library.get(task_request.robot))
-    pairs = [PairInfo(a=pair.a, b=pair.b, active=pair.active, reason=pair.reason) for pair in bodies.pairs]
-    return JsonResponse(CollisionPairs(pairs=pairs, warnings=list(bodies.warnings)).model_dump(mode="json"))
+    return JsonResponse({"pairs": bodies.pairs, "warnings": bodies.warnings})
 
 
 def _chosen(context: Context, task_request: TaskRequest) -> Response:

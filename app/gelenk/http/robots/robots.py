@@ -6,31 +6,29 @@ from dataclasses import dataclass, replace
 from io import BytesIO
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Path, Query, Request, Response
-from starlette.datastructures import QueryParams, UploadFile
+from fastapi import APIRouter, Path, Request, Response
+from starlette.datastructures import UploadFile
 
-from gelenk.contract.common import FrameName
-from gelenk.contract.dh import Convention, SnapTolerance
-from gelenk.contract.dh_from_urdf import FromUrdfOptions
-from gelenk.contract.robots import ArchiveReplacement, NewArchive, NewRobot, RobotReplacement
-from gelenk.dh.derive.texts import COLUMNS, Column
+from gelenk.contract.robots import ArchiveReplacement, NewArchive, NewRobot, RobotReplacement, as_text
+from gelenk.dh.tables.convert import BASE_FRAME, TOOL_FRAME
 from gelenk.errors import InvalidArchive
 from gelenk.http.messages.openapi import RobotPath, UploadedRobotPath, documentation
-from gelenk.http.messages.payloads import JSON, MULTIPART, BoundedRequest, JsonResponse, read_json, read_query
+from gelenk.http.messages.payloads import JSON, MULTIPART, BoundedRequest, JsonResponse, read_json
 from gelenk.http.messages.problems import UnsupportedMediaType
 from gelenk.http.messages.routes import DocumentedRoute
+from gelenk.http.robots.exports import certified
 from gelenk.http.robots.info import info
 from gelenk.http.robots.meshes import SANDBOXED, mesh_answer
 from gelenk.http.workers.pool_client import PoolClient, owner_of
 from gelenk.http.workers.task import Context, TaskRequest, buffers
-from gelenk.language import Language, language as speaking
-from gelenk.operations.dh_from_urdf import table_answer
+from gelenk.kinematics.judge.tables import certify_table
+from gelenk.robot.formats.reading import as_urdf
+from gelenk.robot.formats.sources import Sources
+from gelenk.robot.urdf import write_urdf
 from gelenk.store.archive import unpacked
 from gelenk.store.folders import writing
 from gelenk.store.library import Library, RobotUpload
 
-_EXAMPLE_STEPS: dict[str, Any] = {"without": {"value": False}}
-_ORDER: dict[str, Any] = {"as usual": {"value": list(COLUMNS)}}
 _PIECE = 256 * 1024
 _LIST_SECONDS = 5.0
 """How long the list of robots is cached if nothing shows that it has changed, as after an edit by hand, [s]."""
@@ -82,7 +80,7 @@ def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
 
 
 def documented_routes(pool_client: PoolClient, max_body_bytes: int) -> list[DocumentedRoute]:
-    """Return the routes that add and replace robots, as JSON or as a zip in a form, and that of the DH table."""
+    """Return the routes that add and replace robots, as JSON or as a zip in a form."""
 
     async def add(request: BoundedRequest) -> Response:
         return await _receive(request, pool_client, None)
@@ -94,32 +92,7 @@ def documented_routes(pool_client: PoolClient, max_body_bytes: int) -> list[Docu
 
     def replace_robot(robot: UploadedRobotPath, content: RobotReplacement) -> Any: ...
 
-    def robot_table(
-        robot: RobotPath,
-        convention: Annotated[Convention, Query(openapi_examples={"modified": {"value": "modified"}})] = "standard",
-        base_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link0"}})] = None,
-        tip_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link8"}})] = None,
-        snap_tolerance: Annotated[SnapTolerance, Query(openapi_examples={"exact": {"value": 0.0}})] = 0.0,
-        steps: Annotated[
-            bool, Query(description="Whether to show how the frames are placed.", openapi_examples=_EXAMPLE_STEPS)
-        ] = False,
-        language: Annotated[
-            Language, Query(description="Of `steps`.", openapi_examples={"en": {"value": "en"}})
-        ] = "en",
-        column_order: Annotated[
-            list[Column] | None,
-            Query(description="Of the table in `steps`; a, alpha, d, theta if left out.", openapi_examples=_ORDER),
-        ] = None,
-    ) -> Any: ...
-
-    async def get_table(request: BoundedRequest) -> Response:
-        task_request = TaskRequest(
-            robot=request.path_params["robot"], query=request.scope["query_string"].decode("latin-1")
-        )
-        return await pool_client.answer(request, _robot_table, task_request)
-
     return [
-        DocumentedRoute(robot_table, get_table, max_body_bytes, **documentation("get_robot_dh")),
         DocumentedRoute(add_robot, add, max_body_bytes, **documentation("add_robot")),
         DocumentedRoute(replace_robot, replace, max_body_bytes, **documentation("replace_robot")),
     ]
@@ -165,16 +138,18 @@ class Keep:
         if self.form is None:
             return self._kept(context.library, replace(_from_json(task_request.body, self.name), owner=self.owner))
         uploads = context.library.uploads
-        with unpacked(BytesIO(task_request.body), root=uploads, urdf=self.form.file) as content:
+        with unpacked(BytesIO(task_request.body), root=uploads, wanted=self.form.file) as content:
+            read = as_urdf(content.model, content.path, content.sources, as_text(self.form.arguments), self.form.strict)
             upload = RobotUpload(
                 name=self.form.name if isinstance(self.form, NewArchive) else self.name or "",
                 format="urdf",
-                model=content.urdf,
+                model=read.urdf,
                 description=self.form.description,
                 default_chain=self.form.ends(),
                 meshes=content.meshes,
-                urdf_folder=content.urdf_folder,
+                urdf_folder=content.folder,
                 srdf=content.srdf,
+                notes=read.notes,
                 strict=self.form.strict,
                 owner=self.owner,
             )
@@ -194,8 +169,14 @@ def _from_json(body: bytes, name: str | None) -> RobotUpload:
     if robot.dh is not None:
         model = robot.dh.model_dump_json(exclude_none=True, indent=2).encode() + b"\n"
         return RobotUpload(name, "dh", model, robot.description, robot.default_chain)
-    urdf = (robot.urdf or "").encode("utf-8", "surrogatepass")
-    return RobotUpload(name, "urdf", urdf, robot.description, robot.default_chain, strict=robot.strict)
+    if robot.screws is not None:
+        urdf = write_urdf(robot.screws.described(name)).encode()
+        return RobotUpload(name, "urdf", urdf, robot.description, robot.default_chain)
+    text = (robot.urdf or "").encode("utf-8", "surrogatepass")
+    read = as_urdf(text, "", Sources(), as_text(robot.arguments), robot.strict)
+    return RobotUpload(
+        name, "urdf", read.urdf, robot.description, robot.default_chain, strict=robot.strict, notes=read.notes
+    )
 
 
 def _listed(context: Context, _: TaskRequest) -> Response:
@@ -211,11 +192,9 @@ def _robot_response(library: Library, name: str, status: int = 200, headers: dic
 
 
 def _urdf(context: Context, task_request: TaskRequest) -> Response:
-    return Response(context.library.get(task_request.robot).urdf, media_type="application/xml", headers=SANDBOXED)
-
-
-def _robot_table(context: Context, task_request: TaskRequest) -> Response:
-    options = read_query(FromUrdfOptions, QueryParams(task_request.query))
     loaded = context.library.get(task_request.robot)
-    with speaking(options.language):
-        return JsonResponse(table_answer(loaded.robot, options, loaded.warnings))
+    headers = dict(SANDBOXED)
+    if loaded.table is not None:
+        certificate = certify_table(loaded.robot, loaded.robot.chain(BASE_FRAME, TOOL_FRAME), loaded.table)
+        headers["Gelenk-Certificate"] = f"Of a DH table, {certified(certificate)}"
+    return Response(loaded.urdf, media_type="application/xml", headers=headers)

@@ -81,6 +81,10 @@ class PoolClient:
         """Run a task in a worker and return the body of its response; raise the same errors as `answer`."""
         return b"".join((await self._reply(request, task, task_request))[2])
 
+    def loaded(self, name: str) -> LoadedRobot | None:
+        """Return a robot that is in the memory of this process, and up to date."""
+        return self._library.loaded(name)
+
     async def resident(self, request: Request, name: str) -> LoadedRobot:
         """Load a robot into this process, for quick calls; if it was uploaded, a worker tries first: it may crash."""
         found = self._library.loaded(name)

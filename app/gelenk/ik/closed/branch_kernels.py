@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gelenk.ik.closed.elimination import make_space, pivoted
-from gelenk.ik.closed.subproblem_chains import MOST, Candidates, SubproblemPlan, compose, elbow_angle
+from gelenk.ik.closed.elimination import Scratch, make_space, pivoted
+from gelenk.ik.closed.subproblem_chains import GENERAL, MOST, Candidates, SubproblemPlan, compose, elbow_angle
 from gelenk.ik.search.iteration import (
     COUNT,
     FULL,
@@ -21,13 +21,23 @@ from gelenk.ik.search.iteration import (
     descend,
     linearise,
     read_lane,
-    set_target,
     squares,
     within,
     workspace,
-    wound,
 )
-from gelenk.kinematics.simd.lanes import LANES, bits, lanes, load, max_lanes, min_lanes, store, where
+from gelenk.kinematics.simd.lanes import (
+    LANES,
+    Lanes,
+    bits,
+    floor_lanes,
+    lanes,
+    load,
+    max_lanes,
+    min_lanes,
+    rint_lanes,
+    store,
+    where,
+)
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import FlatChain
 from gelenk.robot.compilation import compiled, inlined, unmanaged
@@ -155,7 +165,6 @@ def _branches(
         np.empty((8, 3)),
         np.empty((8, 3, 2)),
         np.empty((2, 8), np.int64),
-        make_space(),
         np.zeros(1, np.int64),
     )
     kept = _Kept(
@@ -167,11 +176,11 @@ def _branches(
         np.empty((DIRECTIONS + 1) * LANES),
         np.empty(DIRECTIONS, np.int64),
     )
-    work = workspace(flat, n)
+    work, space = workspace(flat, n), make_space(kind == GENERAL)
     qs, labels = np.empty((count * most, n)), np.empty((2, count * most), np.int64)
     firsts, doubtful = np.zeros(count + 1, np.int64), np.zeros(count, np.int64)
     table = qs, labels, firsts, doubtful
-    _solve_all(flat, plan, goal, limits, targets, seeds, elbow_angles, most, found, kept, work, table)
+    _solve_all(flat, plan, goal, limits, targets, seeds, elbow_angles, most, found, space, kept, work, table)
     return qs[: firsts[count]], labels[:, : firsts[count]], firsts, doubtful
 
 
@@ -217,6 +226,7 @@ def _solve_all(
     elbow_angles: Array,
     most: int,
     found: Candidates,
+    space: Scratch,
     kept: _Kept,
     work: Work,
     table: tuple[Array, Indices, Indices, Indices],
@@ -226,7 +236,7 @@ def _solve_all(
     for i in range(len(targets)):
         seed = seeds[i if len(seeds) > 1 else 0]
         elbow_angle = elbow_angles[i if len(elbow_angles) > 1 else 0]
-        count = _solve(flat, plan, goal, limits, targets[i], seed, elbow_angle, found, kept, work)
+        count = _solve(flat, plan, goal, limits, targets[i], seed, elbow_angle, found, space, kept, work)
         for k in range(min(count, most)):
             for j in range(n):
                 qs[total, j] = kept.qs[k, j]
@@ -235,7 +245,7 @@ def _solve_all(
         firsts[i + 1], doubtful[i] = total, found.doubtful[0]
 
 
-@unmanaged
+@inlined
 def _solve(
     flat: FlatChain,
     plan: SubproblemPlan,
@@ -245,6 +255,7 @@ def _solve(
     seed: Array,
     elbow_angle: float,
     found: Candidates,
+    space: Scratch,
     kept: _Kept,
     work: Work,
 ) -> int:
@@ -254,35 +265,39 @@ def _solve(
     for i in range(n):
         j = n - 1 - i if plan.backwards else i
         own[i] = flat.drives[j, 0] * seed[j] + flat.drives[j, 1]
-    candidates = compose(plan, target, own, elbow_angle, found)
+    candidates = compose(plan, target, own, elbow_angle, found, space)
+    for k in range(12):
+        store(work.state, k, lanes(target[k]))
     solutions = 0
     for first in range(0, candidates, LANES):
         for lane in range(LANES):
             row = min(first + lane, candidates - 1)
-            set_target(work, lane, target)
             for j in range(n):
                 i = n - 1 - j if plan.backwards else j
                 work.q[j * LANES + lane] = (found.values[row, i] - flat.drives[j, 1]) * flat.drives[j, 0]
         good = _polish(flat, goal, work)
         if n == DIRECTIONS and goal.kind == FULL:
             good = _refine(flat, goal, work, kept)
+        good &= _wound(flat, limits, seed, work)
         for lane in range(min(LANES, candidates - first)):
             if (good >> lane) & 1:
-                read_lane(work.previous, lane, own)
-                if _wound(flat, limits, seed, own):
-                    error = work.state[_POSITION * LANES + lane] + work.state[_ORIENTATION * LANES + lane]
-                    kept.errors[MOST], kept.labels[0, MOST] = error, found.codes[first + lane]
-                    kept.labels[1, MOST] = _unmoved(flat, plan, found, work, first + lane, lane)
-                    solutions = _insert(kept, solutions, flat, seed)
+                read_lane(work.q, lane, own)
+                error = work.state[_POSITION * LANES + lane] + work.state[_ORIENTATION * LANES + lane]
+                kept.errors[MOST], kept.labels[0, MOST] = error, found.codes[first + lane]
+                kept.labels[1, MOST] = _unmoved(flat, plan, found, work, first + lane, lane)
+                solutions = _insert(kept, solutions, flat, seed)
     return _without_near_misses(kept, solutions)
 
 
-@unmanaged
+@inlined
 def _polish(flat: FlatChain, goal: Goal, work: Work) -> int:
     """Drive the lanes to rounding without ever raising an error; `previous` holds the results. Return `_good`."""
     least, stalled, damping = lanes(np.inf), lanes(0.0), lanes(_DAMPING)
     # With fewer joints than directions JJᵀ is singular everywhere and needs damping.
     floor = _LEAST_DAMPING if len(work.q) >= 6 * LANES and goal.kind == FULL else _DAMPING
+    # What an earlier target left there would be taken for errors that are not numbers.
+    store(work.state, _POSITION, least)
+    store(work.state, _ORIENTATION, least)
     for _ in range(_ROUNDS):
         e = linearise(flat, goal, work)
         position, orientation = squares(e)
@@ -301,7 +316,7 @@ def _polish(flat: FlatChain, goal: Goal, work: Work) -> int:
     return _good(goal, work)
 
 
-@unmanaged
+@inlined
 def _refine(flat: FlatChain, goal: Goal, work: Work, kept: _Kept) -> int:
     """Apply Newton's method with J itself to the lanes that are not at rounding yet; return `_good`.
 
@@ -391,25 +406,36 @@ def _eliminate(A: Array, order: Indices, least: float) -> None:
         A[order[j], n] = A[j, 0]
 
 
-@unmanaged
-def _wound(flat: FlatChain, limits: Array, seed: Array, q: Array) -> bool:
-    """Turn joints by full turns into their limits, as near to the seed as possible; return whether all fit."""
-    inside = True
-    for j in range(len(q)):
+@inlined
+def _wound(flat: FlatChain, limits: Array, seed: Array, work: Work) -> int:
+    """Put all lanes into `q`, by full turns within the limits and near the seed; return which fit, bit by bit."""
+    inside = lanes(0.0) <= 0.0
+    for j in range(len(seed)):
         lower, upper = limits[0, j], limits[1, j]
-        x = q[j]
+        x = load(work.previous, j)
         if flat.joints[j, 0] == 0:
-            x = wound(x, seed[j], lower, upper)
-        inside &= lower - ROUNDING <= x <= upper + ROUNDING
-        q[j] = min(max(x, lower), upper)
-    return inside
+            x = _wound_joint(x, seed[j], lower, upper)
+        inside = inside & (x >= lower - ROUNDING) & (x <= upper + ROUNDING)
+        store(work.q, j, min_lanes(max_lanes(x, lower), upper))
+    fits: int = bits(inside)
+    return fits
 
 
-@unmanaged
+@inlined
+def _wound_joint(x: Lanes, seed: float, lower: float, upper: float) -> Lanes:
+    """Turn an angle as `wound` does, in all lanes."""
+    x = x + _TURN * rint_lanes((seed - x) / _TURN)
+    # ⌈a⌉ is -⌊-a⌋.
+    down = _TURN * floor_lanes(-(x - upper - ROUNDING) / _TURN)
+    up = _TURN * floor_lanes(-(lower - x - ROUNDING) / _TURN)
+    return where(x > upper + ROUNDING, x + down, where(x < lower - ROUNDING, x - up, x))
+
+
+@inlined
 def _unmoved(flat: FlatChain, plan: SubproblemPlan, found: Candidates, work: Work, row: int, lane: int) -> int:
     """Bits of the variables whose joints are free in a candidate and have not been moved by polishing."""
     n, mask = found.values.shape[1], 0
-    for j in range(n):
+    for j in range(n if found.free[row] else 0):
         i = n - 1 - j if plan.backwards else j
         reached = flat.drives[j, 0] * work.previous[j * LANES + lane] + flat.drives[j, 1]
         if (found.free[row] >> i) & 1 and not abs(reached - found.values[row, i]) > _MOVED:
@@ -417,7 +443,7 @@ def _unmoved(flat: FlatChain, plan: SubproblemPlan, found: Candidates, work: Wor
     return mask
 
 
-@unmanaged
+@inlined
 def _insert(kept: _Kept, count: int, flat: FlatChain, seed: Array) -> int:
     """Insert the spare row in the sorted solutions unless it is a duplicate; return their number."""
     own = kept.qs[MOST]

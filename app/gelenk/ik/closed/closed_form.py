@@ -54,6 +54,7 @@ _NAMING = 64
 _GENERAL_TESTS, _GENERAL_MUST_PASS = 500, 498
 _FOUND_AGAIN = 1e-6
 _LINES = 16
+_NO_ANGLE = np.zeros(1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,8 +93,8 @@ class ClosedForm:
         chain = self.chain
         goal = make_goal(chain, self.task, tolerances, False, 1)
         if elbow_angles is None:
-            elbow_angles = self.elbow_angles(seeds) if self.has_free_elbow else 0.0
-        angles = np.atleast_1d(np.asarray(elbow_angles, dtype=float))
+            elbow_angles = self.elbow_angles(seeds) if self.has_free_elbow else _NO_ANGLE
+        angles = np.atleast_1d(np.asarray(elbow_angles, dtype=float)) if self.has_free_elbow else _NO_ANGLE
         rows = _in_reach_of(self, target_rows(targets))
         limits = limits_of(chain, respect_limits)
         return branches(chain.flat, self.plan, goal, limits, rows, np.ascontiguousarray(seeds), angles, most)

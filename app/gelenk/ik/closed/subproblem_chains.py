@@ -124,7 +124,6 @@ class Candidates(NamedTuple):
     first: Array
     turns: Array
     marks: Indices
-    space: Scratch
     doubtful: Indices
 
 
@@ -133,10 +132,13 @@ _AXIS, _POINT, _SQUARE, _LEVEL, _ALONG, _ACROSS, _SOLVE, _CENTRE, _LEVER = 0, 3,
 
 
 @unmanaged
-def compose(plan: SubproblemPlan, target: Array, seed: Array, elbow_angle: float, found: Candidates) -> int:
+def compose(
+    plan: SubproblemPlan, target: Array, seed: Array, elbow_angle: float, found: Candidates, space: Scratch
+) -> int:
     """Compute the candidates of one target, T_base_tip as rotation row by row, then position; return their number.
 
-    Free joints keep the values of the seed, which is in solving order. `ELBOW` alone uses the angle, [rad].
+    Free joints keep the values of the seed, which is in solving order. `ELBOW` alone uses the angle, [rad], and
+    `GENERAL` alone the space.
     """
     M = _displacement(plan, target)
     found.doubtful[0] = 0
@@ -145,7 +147,7 @@ def compose(plan: SubproblemPlan, target: Array, seed: Array, elbow_angle: float
     if plan.kind == ELBOW:
         return _elbow(plan, M, seed, elbow_angle, found)
     if plan.kind == GENERAL:
-        return _general(plan, M, found)
+        return _general(plan, M, found, space)
     return _decoupled(plan, M, seed, found)
 
 
@@ -806,9 +808,9 @@ def _shoulder_turn(h1: Vector, line: Vector, at_zero: Vector, elbow: Vector, ang
 
 
 @unmanaged
-def _general(plan: SubproblemPlan, M: Motion, found: Candidates) -> int:
+def _general(plan: SubproblemPlan, M: Motion, found: Candidates, space: Scratch) -> int:
     """Solve joint 3 by elimination, then 4 and 5, then 1 and 2, then 6."""
-    L, axes, space = plan.lines, plan.axes, found.space
+    L, axes = plan.lines, plan.axes
     size, origin, square = L[_LEVEL, 0], row(L, _SQUARE + 1), row(L, _SQUARE)
     points = L[:6]
     p = scaled(size, minus(_displaced(M, row(plan.points, 5)), origin))

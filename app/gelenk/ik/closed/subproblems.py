@@ -183,6 +183,7 @@ def roots_of_quartic(a: float, b: float, c: float, d: float, e: float, reach: fl
 
     Between neighbouring roots of its derivative a polynomial has at most one root. So the roots of the second
     derivative, a quadratic, bracket those of the first, and these bracket those of the quartic, for Newton's method.
+    Neighbouring brackets share the value between them: where it is rounding, its sign must be the same for both.
     If `reach` is infinite, the bound is Cauchy's, which needs a large a. The `roots`, shape (8,), are in ascending
     order; return their number.
     """
@@ -192,29 +193,31 @@ def roots_of_quartic(a: float, b: float, c: float, d: float, e: float, reach: fl
     cubic = (0.0, 4.0 * a, 3.0 * b, 2.0 * c, d)
     stations = (-reach, min(max(middle - half, -reach), reach), min(max(middle + half, -reach), reach), reach)
     turning = (reach, reach, reach)
-    count = 0
+    count, at_lower = 0, _polynomial(cubic, -reach)
     for k in range(3):
-        x, crosses = _root_between(cubic, stations[k], stations[k + 1])
+        at_upper = _polynomial(cubic, stations[k + 1])
+        x, crosses = _root_between(cubic, stations[k], stations[k + 1], at_lower, at_upper)
+        at_lower = at_upper
         if crosses:
             turning = (x, turning[1], turning[2]) if count == 0 else (
                 (turning[0], x, turning[2]) if count == 1 else (turning[0], turning[1], x)
             )  # fmt: skip
             count += 1
     quartic = (a, b, c, d, e)
-    found, lower = 0, -reach
+    found, lower, at_lower, touches = 0, -reach, _polynomial(quartic, -reach), False
     for k in range(count + 1):
         upper = reach if k == count else turning[k]
-        x, crosses = _root_between(quartic, lower, upper)
+        at_upper = _polynomial(quartic, upper)
+        x, crosses = _root_between(quartic, lower, upper, at_lower, at_upper)
+        if touches and not crosses:
+            # With no root on either side two meet here, perhaps but for rounding.
+            roots[found] = lower
+            found += 1
         if crosses:
             roots[found] = x
             found += 1
-        elif k < count and _nearly_zero(quartic, upper):
-            # Unless the next bracket has a root, two roots meet here, perhaps but for rounding.
-            following = reach if k + 1 == count else turning[k + 1]
-            if not _root_between(quartic, upper, following)[1]:
-                roots[found] = upper
-                found += 1
-        lower = upper
+        touches = not crosses and _nearly_zero(quartic, upper, at_upper)
+        lower, at_lower = upper, at_upper
     return found
 
 
@@ -224,16 +227,17 @@ def _polynomial(p: tuple[float, float, float, float, float], x: float) -> float:
 
 
 @inlined
-def _nearly_zero(p: tuple[float, float, float, float, float], x: float) -> bool:
+def _nearly_zero(p: tuple[float, float, float, float, float], x: float, at_x: float) -> bool:
     y = abs(x)
     scale = (((abs(p[0]) * y + abs(p[1])) * y + abs(p[2])) * y + abs(p[3])) * y + abs(p[4])
-    return abs(_polynomial(p, x)) <= 0.01 * BEYOND * scale
+    return abs(at_x) <= 0.01 * BEYOND * scale
 
 
 @unmanaged
-def _root_between(p: tuple[float, float, float, float, float], lower: float, upper: float) -> tuple[float, bool]:
-    """Find the root of a polynomial between two points; the flag is False if its signs there are equal."""
-    at_lower, at_upper = _polynomial(p, lower), _polynomial(p, upper)
+def _root_between(
+    p: tuple[float, float, float, float, float], lower: float, upper: float, at_lower: float, at_upper: float
+) -> tuple[float, bool]:
+    """Find the root of a polynomial between two points; the flag is False if its values there have equal signs."""
     if at_lower == 0.0:
         return lower, upper > lower
     if (at_lower < 0.0) == (at_upper < 0.0) or upper <= lower:

@@ -34,6 +34,8 @@ from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import FlatChain
 from gelenk.robot.compilation import compiled, inlined, unmanaged
 
+_MOST_SWEPT = 4 * LANES
+"""Starts of a target in a lane of its own while others wait for lanes; a race would repeat those that failed."""
 _STAGNATION = 6
 """Iterations without halving of the squared error after which a start is given up."""
 LONGEST = 40
@@ -61,34 +63,21 @@ _POSITION, _ORIENTATION, _START_DAMPING = SINCE, COUNT, SINCE
 """State rows reused by `_improve` for squared errors, and before that for the initial damping."""
 
 
-def search(
-    flat: FlatChain, goal: Goal, targets: Array, seeds: Array, *, all_or_none: bool = False
-) -> tuple[Array, Indices, Indices, Indices]:
+def search(flat: FlatChain, goal: Goal, targets: Array, seeds: Array) -> tuple[Array, Indices, Indices, Indices]:
     """Solve each target by its first start that converges.
 
     Args:
         targets: Rotation row by row, then position; shape (N, 12).
         seeds: One configuration for all targets or one each; shape (1 or N, n).
-        all_or_none: Whether to give up at the first unsolved target, without a search for the nearest configuration.
 
     Returns:
         Solutions, or the nearest configurations found, shape (N, n); the start that converged or -1, shape (N,); its
         iterations, shape (N,); and k if the seed was followed closely with initial damping 10⁻ᵏ, else -1, shape (N,).
     """
     # Passing a tuple to a compiled function costs much more than passing its parts.
-    arguments: tuple[Any, ...] = (*flat, *goal, targets, seeds, all_or_none)
+    arguments: tuple[Any, ...] = (*flat, *goal, targets, seeds)
     qs, outcomes = _search(*arguments)
     return qs, outcomes[0], outcomes[1], outcomes[2]
-
-
-def gather(flat: FlatChain, goal: Goal, target: Array, seed: Array) -> Array:
-    """Return the configurations to which starts of one target, shape (12,), converge, in that order; shape (k, n).
-
-    The seed is the first start; for the others see `search`.
-    """
-    arguments: tuple[Any, ...] = (*flat, *goal, target, seed)
-    found: Array = _gather(*arguments)
-    return found
 
 
 @compiled
@@ -107,38 +96,34 @@ def _search(
     random_seed: int,
     targets: Array,
     seeds: Array,
-    all_or_none: bool,
 ) -> tuple[Array, Indices]:
     flat = FlatChain(placements, joints, drives)
     goal = Goal(bounds, weights, kind, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
     count, n = len(targets), seeds.shape[1]
     qs, outcomes = np.empty((count, n)), np.empty((3, count), np.int64)
-    work = workspace(flat, n)
-    _search_all(flat, goal, targets, seeds, all_or_none, work, qs, outcomes)
+    _search_all(flat, goal, targets, seeds, False, workspace(flat, n), qs, outcomes)
     return qs, outcomes
 
 
 @compiled
-def _gather(
-    placements: Array,
-    joints: Indices,
-    drives: Array,
-    bounds: Array,
-    weights: Array,
-    kind: int,
-    axis: int,
-    position_tolerance: float,
-    chord_tolerance: float,
-    slack: float,
-    starts: int,
-    random_seed: int,
-    target: Array,
-    seed: Array,
-) -> Array:
-    flat = FlatChain(placements, joints, drives)
-    goal = Goal(bounds, weights, kind, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
-    found = np.empty((starts, len(seed)))
-    return found[: _gather_all(flat, goal, target, seed, workspace(flat, len(seed)), found)]
+def search_few(
+    flat: FlatChain, goal: Goal, positions: Array, rotations: Array, seeds: Array, qs: Array, outcomes: Indices
+) -> bool:
+    """Fill in the results of `search`, (N, n) and (3, N), if every target is solved; return whether they are.
+
+    The targets are poses; for an unsolved one no nearest configuration is looked for. For compiled callers.
+    """
+    targets = np.empty((len(positions), 12))
+    for i in range(len(positions)):
+        for j in range(3):
+            for k in range(3):
+                targets[i, 3 * j + k] = rotations[i, j, k]
+            targets[i, 9 + j] = positions[i, j]
+    _search_all(flat, goal, targets, seeds, True, workspace(flat, seeds.shape[1]), qs, outcomes)
+    solved = True
+    for i in range(len(targets)):
+        solved &= outcomes[0, i] >= 0
+    return solved
 
 
 @unmanaged
@@ -167,35 +152,10 @@ def _search_all(
 
 
 @unmanaged
-def _gather_all(flat: FlatChain, goal: Goal, target: Array, seed: Array, work: Work, found: Array) -> int:
-    count = 0
-    starts = work.starts
-    for lane in range(LANES):
-        starts[lane] = lane
-        set_target(work, lane, target)
-        _set_start(goal, work, lane, seed, lane)
-    following = LANES
-    while starts[_first(starts)] < goal.starts:
-        ended = _iterate(flat, goal, work)
-        if ended == 0:
-            continue
-        for lane in range(LANES):
-            if starts[lane] < goal.starts and _has(ended, lane):
-                if _has(ended, lane + LANES):
-                    read_lane(work.previous, lane, found[count])
-                    count += 1
-                starts[lane] = following
-                _set_start(goal, work, lane, seed, following)
-                following += 1
-    return count
-
-
-@unmanaged
 def _sweep(
     flat: FlatChain, goal: Goal, targets: Array, seeds: Array, work: Work, qs: Array, winners: Indices, its: Indices
 ) -> None:
-    """Solve one target per lane from at most `LANES` starts; leave unsolved targets and jumps to a race."""
-    most = min(goal.starts, LANES)
+    """Solve one target per lane, from few starts at the end; leave unsolved targets and jumps to a race."""
     count = len(targets)
     owners, starts = work.owners, work.starts
     following = 0
@@ -220,7 +180,7 @@ def _sweep(
                 if not _has_jumped(work, lane, seed, qs[owner]):
                     winners[owner] = starts[lane]
                     its[owner] = int(work.state[COUNT * LANES + lane])
-            elif starts[lane] + 1 < most:
+            elif starts[lane] + 1 < min(goal.starts, _MOST_SWEPT if following < count else LANES):
                 starts[lane] += 1
                 _set_start(goal, work, lane, seed, starts[lane])
                 continue

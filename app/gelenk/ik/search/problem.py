@@ -1,5 +1,6 @@
 """A problem of inverse kinematics: targets for a chain, and how they are to be solved."""
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -98,6 +99,7 @@ class TargetProblem:
         targets: Desired T_base_tip; N of them.
         seeds: One configuration for all targets or one each; shape (1 or N, n), [rad or m].
         deadline: When to stop, on `gelenk.robot.compilation.clock`, [s]; None for no limit.
+        is_draft: Whether the answer is one stage of another, which is compared with Pinocchio's own poses at its end.
     """
 
     robot: "RobotModel"
@@ -106,6 +108,7 @@ class TargetProblem:
     seeds: Array
     options: Options
     deadline: float | None = None
+    is_draft: bool = False
 
     def __len__(self) -> int:
         return len(self.targets)
@@ -142,11 +145,12 @@ class TargetProblem:
 
     def too_far(self) -> Flags:
         """Flag the targets beyond reach by distance alone; shape (N,)."""
-        if self.reach is None:
+        reach = self.reach
+        if reach is None:
             return np.zeros(len(self), dtype=bool)
         # The orientation tolerance lets the wrist move, and the sums of lengths are rounded.
-        room = self.tolerances[0] + self.tolerances[1] * float(np.linalg.norm(self.reach.offset)) + 1e-9
-        return self.reach.excess(self.targets) > room
+        room = self.tolerances[0] + self.tolerances[1] * math.hypot(*reach.offset) + 1e-9
+        return reach.excess(self.targets) > room
 
     def goal(self, starts: int, slack: float = 0.0) -> Goal:
         """Return the input of the kernels for a number of starts; for the slack see `Goal`."""
@@ -167,7 +171,7 @@ class TargetProblem:
         """Return the problem for some of the targets only."""
         targets = Poses(self.targets.positions[rows], self.targets.rotations[rows])
         seeds = self.seeds[rows] if len(self.seeds) > 1 else self.seeds
-        return TargetProblem(self.robot, self.chain, targets, seeds, self.options, self.deadline)
+        return TargetProblem(self.robot, self.chain, targets, seeds, self.options, self.deadline, self.is_draft)
 
     def linearised(self, i: int, qs: Array) -> tuple[Array, Array]:
         """Errors of configurations to one target, shape (N, m), and their Jacobians (N, m, n), see `linearise`."""

@@ -40,8 +40,9 @@ class Reach:
 
     def distances(self, targets: Poses) -> Array:
         """Distance of each target's measured point from the center; shape (N,), [m]."""
-        points = targets.positions + targets.rotations @ self.offset
-        distances: Array = np.sqrt(np.square((points - self.center) * self.weights).sum(axis=1))
+        # One product of a matrix with a vector takes a fraction of the time of one for each target.
+        offsets = (targets.rotations.reshape(-1, 3) @ self.offset).reshape(-1, 3)
+        distances: Array = np.sqrt(np.square(targets.positions + offsets - self.center) @ self.weights)
         return distances
 
     def describe(self, target: Poses) -> str:

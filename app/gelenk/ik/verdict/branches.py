@@ -6,10 +6,10 @@ from itertools import product
 
 import numpy as np
 
-from gelenk.ik.search import kernels
 from gelenk.ik.search.bounds import free_variables, make_goal, target_rows, whole_turns_removed
 from gelenk.ik.search.null_space import settle
 from gelenk.ik.search.problem import Objective, TargetProblem
+from gelenk.ik.search.restarts import solutions_from
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
@@ -105,7 +105,7 @@ def _converged(problem: TargetProblem, i: int) -> Array:
             tolerances = min(most, options.position_tolerance), min(most, options.orientation_tolerance)
             starts = STARTS // len(choices)
             goal = make_goal(chain, problem.task, tolerances, limited, starts, options.random_seed + limited)
-            qs = kernels.gather(chain.flat, goal, target_rows(problem.target(i))[0], seed)
+            qs, _ = solutions_from(chain.flat, goal, target_rows(problem.target(i)), seed[None])
             if len(qs):
                 found.append(qs)
                 break

@@ -6,11 +6,14 @@ from typing import Any
 import numpy as np
 
 from gelenk.ik.search.problem import TargetProblem
+from gelenk.ik.search.task import task_errors
 from gelenk.ik.verdict.fixed import widened
 from gelenk.ik.verdict.result import InverseKinematics, firsts_of
-from gelenk.kinematics.judge.judge import recomputed_poses
+from gelenk.kinematics.judge.judge import agreed_pose, recomputed_poses, sampled_rows, testimony
+from gelenk.kinematics.judge.placements import relative_poses
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.compilation import compiled
+from gelenk.robot.notations import pose_errors
 
 _WITHIN = 1e-9
 """Allowance for rounding at a joint limit, [rad or m]."""
@@ -23,11 +26,29 @@ def judged(problem: TargetProblem, qs: Array, claimed: Flags | None = None) -> t
         qs: Configurations, one per target; shape (N, n), [rad or m].
         claimed: Which of them the solver claims as solutions, default all; shape (N,).
     """
-    chain = problem.chain
-    whole, full = widened(chain, qs)
-    errors = problem.task.errors(problem.targets, recomputed_poses(problem.robot, whole, full))
-    claims = np.ones(len(qs), dtype=np.bool_) if claimed is None else claimed
-    return accepted(qs, claims, errors, *problem.tolerances, problem.limits), errors[0], errors[1]
+    task = problem.task
+    # As for all others: a kernel would be compiled for a choice of columns.
+    goals, goal_Rs, qs = map(np.ascontiguousarray, (problem.targets.positions, problem.targets.rotations, qs))
+    whole, full = widened(problem.chain, qs)
+    good, errors = np.empty(len(qs), np.bool_), np.empty((2, len(qs)))
+    arguments: tuple[Any, ...] = (
+        *testimony(problem.robot, whole, full, is_draft=problem.is_draft),
+        *(task.weights, task.kind, task.axis, goals, goal_Rs),
+        *(*problem.tolerances, problem.limits, qs, errors, good),
+    )
+    agreed_pose(*accept(*arguments))
+    return good if claimed is None else good & claimed, errors[0], errors[1]
+
+
+def certify(problem: TargetProblem, answer: InverseKinematics) -> None:
+    """Compare an answer made of drafts with Pinocchio's own poses: all of a few, a sample of many.
+
+    Raises CertificationFailed.
+    """
+    qs = answer.qs
+    if answer.failures:
+        qs = np.vstack((qs, *(failure.nearest for failure in answer.failures.values())))
+    recomputed_poses(problem.robot, *widened(problem.chain, qs[sampled_rows(len(qs))]))
 
 
 def assembled(
@@ -63,18 +84,34 @@ def assembled(
 
 
 @compiled
-def accepted(
-    qs: Array,
-    claimed: Flags,
-    errors: Array,
+def accept(
+    base: Array,
+    tip: Array,
+    full_qs: Array,
+    rows: Indices,
+    own_positions: Array,
+    own_Rs: Array,
+    weights: Array,
+    kind: int,
+    axis: int,
+    goals: Array,
+    goal_Rs: Array,
     position_tolerance: float,
     orientation_tolerance: float,
     limits: Array,
-) -> Flags:
-    """Check which of the claimed solutions are within the tolerances and the limits; shape (N,)."""
-    good = claimed.copy()
+    qs: Array,
+    errors: Array,
+    good: Flags,
+) -> tuple[float, float, float]:
+    """Recompute the poses of a `Testimony`, and return the `pose_errors` of those that Pinocchio has itself.
+
+    Fill in the `task_errors`, shape (2, N), and which of the configurations, (N, n), are within the tolerances and the
+    limits, (N,). All in one call, because each one from Python takes longer than its arithmetic.
+    """
+    positions, Rs = relative_poses(base, tip, full_qs)
+    errors[:] = task_errors(weights, kind, axis, goals, goal_Rs, positions, Rs)
     for i in range(len(qs)):
-        good[i] &= errors[0, i] <= position_tolerance and errors[1, i] <= orientation_tolerance
+        good[i] = errors[0, i] <= position_tolerance and errors[1, i] <= orientation_tolerance
         for j in range(qs.shape[1]):
             good[i] &= limits[0, j] - _WITHIN <= qs[i, j] <= limits[1, j] + _WITHIN
-    return good
+    return pose_errors(positions[rows], Rs[rows], own_positions, own_Rs)

@@ -1,6 +1,7 @@
 """Result types of inverse kinematics."""
 
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -84,6 +85,16 @@ class InverseKinematics:
         return np.repeat(np.arange(len(self)), np.diff(self.firsts))
 
     @property
+    def verdicts(self) -> dict[str, int]:
+        """Number of targets with each verdict."""
+        found: dict[str, int] = {}
+        if solved := len(self) - len(self.failures):
+            found["solved"] = solved
+        for failure in self.failures.values():
+            found[failure.status] = found.get(failure.status, 0) + 1
+        return found
+
+    @property
     def statuses(self) -> list[Status]:
         """Verdict on each target; N of them."""
         statuses: list[Status] = ["solved"] * len(self)
@@ -113,6 +124,15 @@ class InverseKinematics:
 
 COLUMNS = ("qs", "position_errors", "orientation_errors", "iterations", "restarts", "codes", "free")
 """The fields of `InverseKinematics` with a row for each solution."""
+
+
+@lru_cache(maxsize=16)
+def by_search(count: int) -> tuple[Indices, Indices, Indices]:
+    """Return the codes, bit masks and first rows of one solution by search for each of a few targets; read-only."""
+    columns = np.full(count, -1), np.zeros(count, dtype=np.int64), np.arange(count + 1)
+    for column in columns:
+        column.flags.writeable = False
+    return columns
 
 
 def firsts_of(owners: Indices, count: int) -> Indices:

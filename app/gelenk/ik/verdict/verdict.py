@@ -3,10 +3,10 @@
 import numpy as np
 
 from gelenk.errors import counted, quoted
-from gelenk.ik.search import kernels
 from gelenk.ik.search.bounds import make_goal, target_rows
 from gelenk.ik.search.descent import blocked
 from gelenk.ik.search.problem import TargetProblem
+from gelenk.ik.search.restarts import solutions_from
 from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS, Found
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import DIRECTIONS, BlockingJoint, IterationPath, Status, StopReason
@@ -206,7 +206,7 @@ def solved_without_limits(problem: TargetProblem, i: int) -> Array | None:
     """Search for solutions without limits and return the one that exceeds them least, if any; shape (n,)."""
     chain, seed = problem.chain, problem.seed(i)
     goal = make_goal(chain, problem.task, problem.tolerances, False, _RELAXED_STARTS, problem.options.random_seed)
-    qs = kernels.gather(chain.flat, goal, target_rows(problem.target(i))[0], seed)
+    qs, _ = solutions_from(chain.flat, goal, target_rows(problem.target(i)), seed[None])
     if len(qs) == 0:
         return None
     qs = wound_near(chain, qs, seed, chain.lower, chain.upper)

@@ -5,19 +5,22 @@ Kernels and Pinocchio share only the checked description. A result that differs 
 
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
 
 from gelenk.errors import CertificationFailed
-from gelenk.kinematics.judge.placements import expanded, relative_poses, walk_to
+from gelenk.kinematics.judge.placements import expand, relative_poses, walk_to
 from gelenk.kinematics.judge.words import JacobianCertificate, PoseCertificate, Reference, View
-from gelenk.robot.arrays import Array
+from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.notations import pose_errors
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 
+_KEPT = 64
+"""Frames whose place in a workspace is remembered; each keeps its robot."""
 MAX_SAMPLES = 16
 """Number of configurations that are recomputed in a batch; a smaller batch is recomputed in full."""
 TOLERANCE = 1e-9
@@ -66,14 +69,27 @@ def certify_poses(
     The configurations, shape (N, n), are those of the chain in whose base the poses are expressed.
     """
     rows = sampled_rows(len(qs), seed)
-    worst = Differences(max_position_error=0.0, max_orientation_error=0.0)
+    return _compared(robot, chain, _expanded(robot, chain, _taken(qs, rows)), frames, rows, seed)
+
+
+def _compared(
+    robot: RobotModel, chain: Chain, full_qs: Array, frames: Mapping[str, Poses], rows: Sequence[int], seed: int = 0
+) -> PoseCertificate:
+    """Compare the given rows of the poses with Pinocchio's at its configurations, shape (number of rows, nq)."""
+    position_error = orientation_error = 0.0
     for name, poses in frames.items():
-        ours = poses if len(rows) == len(qs) else Poses(poses.positions[rows], poses.rotations[rows])
-        judge = pinocchio_poses(robot, chain, name, qs, rows)
-        distance, angle, extent = pose_errors(ours.positions, ours.rotations, judge.positions, judge.rotations)
-        worst.add("max_position_error", "a position", distance, extent)
-        worst.add("max_orientation_error", "an orientation", angle, 1.0)
-    return PoseCertificate(samples=len(rows), seed=seed, **worst)
+        ours = poses if len(rows) == len(poses) else Poses(poses.positions[rows], poses.rotations[rows])
+        judge = poses_at(robot, chain, name, full_qs)
+        distance, angle = agreed_pose(*pose_errors(ours.positions, ours.rotations, judge.positions, judge.rotations))
+        position_error, orientation_error = max(position_error, distance), max(orientation_error, angle)
+    return PoseCertificate(len(rows), position_error, orientation_error, seed)
+
+
+def agreed_pose(distance: float, angle: float, extent: float) -> tuple[float, float]:
+    """Return distance [m] and angle [rad] of `pose_errors`; raises as `agreed` does."""
+    if distance <= TOLERANCE and angle <= TOLERANCE:  # as nearly always
+        return distance, angle
+    return agreed("a position", distance, extent), agreed("an orientation", angle, 1.0)
 
 
 def certify_jacobians(
@@ -109,6 +125,10 @@ def certify_jacobians(
             match view:
                 case "zyz" | "rpy":
                     error = np.vstack((value[:3], _angular_velocities(view, T_base_tip) @ value[3:])) - J
+                case "space_screws":
+                    error = np.roll(T_base_tip.toActionMatrix() @ local, 3, axis=0) - value
+                case "body_screws":
+                    error = np.roll(local, 3, axis=0) - value
                 case _:
                     error = from_tip(T_base_tip, view).toActionMatrix() @ local - value
             worst.add("max_error", "the Jacobian", error, largest(value))
@@ -123,40 +143,91 @@ def certify_jacobians(
     )
 
 
+class Testimony(NamedTuple):
+    """What Pinocchio has to say of N configurations of a chain.
+
+    Attributes:
+        base, tip: The walks through its model to both ends, see `walk_to`.
+        full_qs: Its configurations; shape (N, nq).
+        rows: Of which of them its own poses follow: all of a few, a sample of many; shape (K,).
+        positions, rotations: Its T_base_tip there; shape (K, 3), [m], and (K, 3, 3).
+    """
+
+    base: Array
+    tip: Array
+    full_qs: Array
+    rows: Indices
+    positions: Array
+    rotations: Array
+
+
+def testimony(robot: RobotModel, chain: Chain, qs: Array, *, is_draft: bool = False) -> Testimony:
+    """Return what Pinocchio has to say of configurations (N, n); without poses of its own if they are a draft."""
+    base, tip, full_qs = walk_to(robot, chain.base_frame), walk_to(robot, chain.tip_frame), _expanded(robot, chain, qs)
+    rows = sample(0 if is_draft else len(qs))
+    own = poses_at(robot, chain, chain.tip_frame, _taken(full_qs, rows))
+    return Testimony(base, tip, full_qs, rows, own.positions, own.rotations)
+
+
+@lru_cache
+def sample(count: int) -> Indices:
+    """Return the `sampled_rows` of a batch as an array."""
+    return np.array(sampled_rows(count), dtype=np.int64)
+
+
 def recomputed_poses(robot: RobotModel, chain: Chain, qs: Array) -> Poses:
     """Compute T_base_tip over the placements of Pinocchio's model; shape (N, n) → N poses.
 
     Pinocchio's own poses must agree: all of a few, a sample of many. Raises CertificationFailed.
     """
-    walks = walk_to(robot, chain.base_frame), walk_to(robot, chain.tip_frame)
-    found = Poses(*relative_poses(*walks, _expanded(robot, chain, qs)))
-    certify_poses(robot, chain, qs, {chain.tip_frame: found})
-    return found
+    base, tip, full_qs, rows, *own = testimony(robot, chain, qs)
+    positions, rotations = relative_poses(base, tip, full_qs)
+    agreed_pose(*pose_errors(positions[rows], rotations[rows], *own))
+    return Poses(positions, rotations)
 
 
 def pinocchio_poses(robot: RobotModel, chain: Chain, frame: str, qs: Array, rows: Sequence[int]) -> Poses:
     """Compute T_base_frame through Pinocchio at the configurations with the given row numbers."""
-    model, data, tip = robot.model, robot.data, robot.frame_id(frame)
+    return poses_at(robot, chain, frame, _expanded(robot, chain, _taken(qs, rows)))
+
+
+def _taken(qs: Array, rows: Sequence[int] | Indices) -> Array:
+    return qs if len(rows) == len(qs) else qs[rows]
+
+
+def poses_at(robot: RobotModel, chain: Chain, frame: str, full_qs: Array) -> Poses:
+    """Compute T_base_frame through Pinocchio at its configurations, shape (N, nq)."""
+    model, data = robot.model, robot.data
+    tip, position, rotation = _placement(robot, frame)
     base = None if chain.base_frame == robot.description.root else robot.frame_id(chain.base_frame)
-    full_qs = _expanded(robot, chain, qs if len(rows) == len(qs) else qs[rows])
-    positions, rotations = np.empty((len(rows), 3)), np.empty((len(rows), 3, 3))
+    positions, rotations = np.empty((len(full_qs), 3)), np.empty((len(full_qs), 3, 3))
     with robot.lock:
-        # The arrays of a frame's placement are views of the workspace, and change with it.
-        placement = data.oMf[tip]
-        position, rotation = placement.translation, placement.rotation
-        for k in range(len(rows)):
-            pin.forwardKinematics(model, data, full_qs[k])
+        for k, full_q in enumerate(full_qs):
+            pin.forwardKinematics(model, data, full_q)
             pin.updateFramePlacement(model, data, tip)
             if base is not None:
-                T_base_frame = pin.updateFramePlacement(model, data, base).actInv(placement)
+                T_base_frame = pin.updateFramePlacement(model, data, base).actInv(data.oMf[tip])
                 position, rotation = T_base_frame.translation, T_base_frame.rotation
             positions[k], rotations[k] = position, rotation
     return Poses(positions, rotations)
 
 
+@lru_cache(_KEPT)
+def _placement(robot: RobotModel, frame: str) -> tuple[int, Array, Array]:
+    """Return Pinocchio's index of a frame, its position (3,) and rotation (3, 3); raises UnknownFrame.
+
+    The arrays are views of the robot's workspace and change with it: making them takes as long as computing the pose.
+    """
+    index = robot.frame_id(frame)
+    placement = robot.data.oMf[index]
+    return index, placement.translation, placement.rotation
+
+
 def _expanded(robot: RobotModel, chain: Chain, qs: Array) -> Array:
     expansion = robot.expansion(chain)
-    return expanded(expansion.offset, expansion.matrix, np.ascontiguousarray(qs))
+    full_qs = np.empty((len(qs), len(expansion.offset)))
+    expand(expansion.offset, expansion.matrix, np.ascontiguousarray(qs), full_qs)
+    return full_qs
 
 
 def pinocchio_jacobian(robot: RobotModel, chain: Chain, q: Array, reference: Reference) -> Array:

@@ -43,19 +43,18 @@ def walk_to(robot: RobotModel, frame: str) -> Array:
 
 
 @compiled
-def expanded(offset: Array, matrix: Array, qs: Array) -> Array:
-    """Map configurations of a chain, (N, n), to Pinocchio's: offset + matrix q; shape (N, nq).
+def expand(offset: Array, matrix: Array, qs: Array, full_qs: Array) -> None:
+    """Map configurations of a chain, (N, n), to Pinocchio's, offset + matrix q, into `full_qs`; shape (N, nq).
 
-    For a few numbers NumPy takes longer to prepare a product of matrices than to compute it.
+    For a few numbers NumPy takes longer to prepare a product of matrices than to compute it, and to return an array
+    takes a compiled function longer than to fill one.
     """
-    full_qs = np.empty((len(qs), len(offset)))
     for i in range(len(qs)):
         for j in range(len(offset)):
             value = offset[j]
             for k in range(qs.shape[1]):
                 value += matrix[j, k] * qs[i, k]
             full_qs[i, j] = value
-    return full_qs
 
 
 @compiled

@@ -1,9 +1,10 @@
-"""Check of DH tables: the product of a table's own transforms against Pinocchio's poses."""
+"""Check of DH tables and screws: the product of their own transforms against Pinocchio's poses."""
 
 import numpy as np
 
 from gelenk.dh.tables.convert import BASE_FRAME, TOOL_FRAME, describe_dh
-from gelenk.kinematics.judge.judge import agreed, largest, pinocchio_poses
+from gelenk.dh.tables.screws import ScrewTable
+from gelenk.kinematics.judge.judge import Differences, agreed, largest, pinocchio_poses
 from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -45,6 +46,23 @@ def certify_conversion(table: DhTable, other: DhTable, seed: int = 0) -> PoseCer
         for robot, chain in zip(robots, chains, strict=True)
     )
     return _certificate(ours, judge, table, True, seed)
+
+
+def certify_screws(robot: RobotModel, chain: Chain, screws: ScrewTable, seed: int = 0) -> PoseCertificate:
+    """Compare both products of exponentials with Pinocchio's poses of a chain; raises if one differs beyond rounding.
+
+    The configurations are those of a table, and the variables those of the chain.
+    """
+    qs = table_configurations(chain, TABLE_SAMPLES, seed)
+    judge = pinocchio_poses(robot, chain, chain.tip_frame, qs, range(len(qs)))
+    worst = Differences(max_position_error=0.0, max_orientation_error=0.0)
+    for Ts in (screws.poses(qs), screws.poses(qs, in_body=True)):
+        positions, rotations = np.ascontiguousarray(Ts[:, :3, 3]), np.ascontiguousarray(Ts[:, :3, :3])
+        distance, angle, extent = pose_errors(positions, rotations, judge.positions, judge.rotations)
+        scale = max(extent, largest(screws.space[:, 3:]), largest(screws.body[:, 3:]))
+        worst.add("max_position_error", "a position", distance, scale)
+        worst.add("max_orientation_error", "an orientation", angle, 1.0 + len(screws.space))
+    return PoseCertificate(samples=len(judge), seed=seed, **worst)
 
 
 def table_configurations(chain: Chain, count: int, seed: int = 0) -> Array:

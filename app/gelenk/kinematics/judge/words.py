@@ -8,7 +8,9 @@ from gelenk.robot.result import Result
 
 Reference: TypeAlias = Literal["local_world_aligned", "local", "world"]
 """Axes and point of a motion of the tip: the base's axes at the tip, the tip's, or the base's at its own origin."""
-View: TypeAlias = Reference | Literal["zyz", "rpy"]
+Screws: TypeAlias = Literal["space_screws", "body_screws"]
+"""The Jacobians of the product of exponentials: those of `world` and `local` with the angular rows first."""
+View: TypeAlias = Reference | Screws | Literal["zyz", "rpy"]
 """Reference frame of a Jacobian, or the Euler angles whose rates its angular rows give."""
 
 Term: TypeAlias = Literal["mass_matrix", "coriolis_matrix", "coriolis_torques", "gravity_torques", "energies"]

@@ -5,13 +5,13 @@ from these two by the product rule. J̇ = Σ_j ∂J/∂q_j q̇_j throughout.
 """
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
 from gelenk.errors import RepresentationSingularity
 from gelenk.kinematics.judge.judge import certify_jacobians
-from gelenk.kinematics.judge.words import JacobianCertificate, Reference, View
+from gelenk.kinematics.judge.words import JacobianCertificate, Reference, Screws, View
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
@@ -52,7 +52,7 @@ def jacobians(
     chain: Chain,
     qs: Array,
     *,
-    reference: Reference = "local_world_aligned",
+    reference: Reference | Screws = "local_world_aligned",
     representation: Representation = "geometric",
     derivatives: bool = False,
 ) -> Jacobians:
@@ -62,6 +62,7 @@ def jacobians(
         qs: Configurations in the chain's order; shape (N, n), [rad or m].
         reference: `local_world_aligned`: base axes, at the tip (the course's). `local`: tip axes, at the tip.
             `world`: base axes, at the point of the tip's body that coincides with the base origin (the spatial twist).
+            `space_screws`, `body_screws`: `world` and `local` with the angular rows first [LynchPark2017, ch. 5].
         representation: `geometric`: angular rows give ω. `zyz`, `rpy`: they give the rates of these angles, which
             are the same in every reference frame; the linear rows are those of `local_world_aligned`.
         derivatives: Whether to compute the Hessians too.
@@ -103,11 +104,16 @@ def condition_numbers(sigmas: Array, counts: Indices) -> list[float | None]:
     ]
 
 
-def in_reference(poses: Poses, Js: Array, Hs: Array | None, reference: Reference) -> tuple[Array, Array | None]:
+def in_reference(
+    poses: Poses, Js: Array, Hs: Array | None, reference: Reference | Screws
+) -> tuple[Array, Array | None]:
     """Express geometric Jacobians in the base's axes at the tip, and their derivatives, in a reference of `jacobians`.
 
     The shapes are (N, 6, n) and (N, 6, n, n); derivatives are None if not requested.
     """
+    if reference in get_args(Screws):
+        J, H = in_reference(poses, Js, Hs, "world" if reference == "space_screws" else "local")
+        return np.roll(J, 3, axis=1), None if H is None else np.roll(H, 3, axis=1)
     if reference == "local":
         return _in_tip_axes(poses, Js, Hs)
     return _at_base_origin(poses, Js, Hs) if reference == "world" else (Js, Hs)

@@ -8,6 +8,7 @@ the poses of some samples. The result passes, or gives the reasons why not.
 import math
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass, replace
+from operator import sub
 from typing import Any, Literal, TypeVar
 
 import numpy as np
@@ -19,8 +20,9 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.demands import Demands
+from gelenk.trajectory.audit.examine import examined
 from gelenk.trajectory.audit.joints import JointFigures, joint_figures
-from gelenk.trajectory.audit.pieces import Pieces, joint_ends, pieces_of
+from gelenk.trajectory.audit.pieces import Pieces, are_pieces, pieces_of
 from gelenk.trajectory.audit.result import (
     Audit,
     Continuity,
@@ -32,7 +34,7 @@ from gelenk.trajectory.audit.result import (
     SmallestSingularValue,
     TipPeaks,
 )
-from gelenk.trajectory.audit.tip import Largest, path_peaks, poses_at, smallest_singular_value, tip_peaks
+from gelenk.trajectory.audit.tip import Largest, largest_rates, path_peaks, tip_peaks
 from gelenk.trajectory.audit.torques import torque_peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
@@ -52,17 +54,16 @@ def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands:
         CertificationFailed: Pinocchio's poses differ, or the motion is invalid: a number is not finite, or a piece
             has no duration.
     """
-    if not (np.isfinite(motion.coefficients).all() and (motion.breaks[1:] > motion.breaks[:-1]).all()):
+    if not are_pieces(np.ascontiguousarray(motion.breaks), np.ascontiguousarray(motion.coefficients)):
         raise CertificationFailed("the motion", math.nan, 0.0)
-    examination = _Examination(pieces_of(motion), chain, demands, [])
-    joints = joint_figures(examination.pieces)
-    values, times = joints.extremes.tolist(), joints.times.tolist()
+    found = examined(chain, motion, demands.task, MAX_SAMPLES)
+    examination = _Examination(found.pieces, chain, demands, [])
+    values, times = found.joints.extremes.tolist(), found.joints.times.tolist()
     peaks = examination.joint_peaks(values[2:], times[2:])
-    tip, deviations = examination.tip()
-    qs, poses = poses_at(examination.pieces, chain, MAX_SAMPLES)
-    continuity = examination.continuity(peaks, joints)
+    tip, deviations = examination.tip(largest_rates(found.tip, found.tip_times))
+    continuity = examination.continuity(peaks, found.joints)
     margin = examination.margin(values, times)
-    ends = examination.ends(peaks)
+    ends = examination.ends(peaks, found.ends)
     torque = examination.torque()
     return Audit(
         not examination.reasons,
@@ -72,12 +73,12 @@ def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands:
         deviations.get("position"),
         deviations.get("orientation"),
         continuity,
-        smallest_singular_value(examination.pieces, chain, demands.task) if len(chain) else None,
+        SmallestSingularValue(found.sigma, found.sigma_time) if len(chain) else None,
         margin,
         ends,
         tip,
         torque,
-        certify_poses(robot, chain, qs, {chain.tip_frame: poses}),
+        certify_poses(robot, chain, found.qs, {chain.tip_frame: found.poses}),
         demands.way_error,
         tuple(examination.reasons),
     )
@@ -174,10 +175,11 @@ class _Examination:
     ) -> Peak:
         """Return the peak nearest to its limit of those of all joints, and check it."""
         check, names = _RATES[order - 1], self.chain.joint_names
-        peak = enforced = _worst(values, times, names, limits)
+        peak = _worst(values, times, names, limits)
+        enforced: Peak | None = peak
         if check == "jerk" and not self.demands.keeps_jerk:
-            enforced = _worst(values, times, names, stated_jerk)
-        if enforced.ratio is not None and not enforced.ratio <= 1.0 + self.demands.tolerance:
+            enforced = None if stated_jerk is None else _worst(values, times, names, stated_jerk)
+        if enforced and enforced.ratio is not None and not enforced.ratio <= 1.0 + self.demands.tolerance:
             detail = f"{check} is {enforced.ratio:.6g} times the limit"
             self.reasons.append(Reason(check, detail, enforced.joint, enforced.time))
         return peak
@@ -218,17 +220,17 @@ class _Examination:
             self.reasons.append(Reason("joint_limit", detail, margin.joint, margin.time))
         return margin
 
-    def ends(self, peaks: dict[str, Peak]) -> dict[str, float]:
+    def ends(self, peaks: dict[str, Peak], at_ends: Array) -> dict[str, float]:
         pieces, names, demands = self.pieces, self.chain.joint_names, self.demands
         errors: dict[str, float] = {}
         rest = [[0.0] * len(names)]
-        for i, (end, found) in enumerate(zip(("start", "end"), joint_ends(pieces).tolist(), strict=True)):
+        for i, end in enumerate(("start", "end") if names else ()):
             rates = rest if demands.end_rates is None else demands.end_rates[i].tolist()
             position = None if demands.ends is None else demands.ends[i].tolist()
-            for quantity, values, wanted in zip(DERIVATIVES, found, (position, *rates), strict=False):
-                if wanted is None or not names:
+            for quantity, values, wanted in zip(DERIVATIVES, at_ends[i].tolist(), (position, *rates), strict=False):
+                if wanted is None:
                     continue
-                off = [abs(value - one) for value, one in zip(values, wanted, strict=True)]
+                off = list(map(abs, map(sub, values, wanted)))
                 joint = _worst_index(off)
                 errors[f"{end}_{quantity}"] = error = off[joint]
                 if not error <= demands.tolerance * _scale(peaks, quantity):
@@ -252,13 +254,12 @@ class _Examination:
             self.reasons.append(Reason("torque", detail, peak.joint, peak.time))
         return peak
 
-    def tip(self) -> tuple[TipPeaks, dict[str, Peak]]:
-        """Find the peaks of the tip, and its deviations from the path by quantity; none without a path."""
+    def tip(self, largest: dict[str, Largest]) -> tuple[TipPeaks, dict[str, Peak]]:
+        """Check the peaks of the tip, and find its deviations from the path by quantity; none without a path."""
         demands = self.demands
         limits = {name: getattr(demands.tip, name) for name in _TIP_UNITS}
         limits |= {"position": demands.path_tolerance, "orientation": demands.orientation_tolerance}
         peaks: dict[str, Peak] = {}
-        largest = tip_peaks(self.pieces, self.chain)
         if demands.path is not None:
             largest |= path_peaks(self.pieces, self.chain, demands.path, demands.task)
         for quantity, found in largest.items():
@@ -292,7 +293,7 @@ class _Examination:
 def _worst(values: list[float], times: list[float], names: tuple[str, ...], bounds: Array | None) -> Peak:
     """Return the joint nearest to its limit, or the largest value if none is limited."""
     limits = [math.inf] if bounds is None else bounds.tolist()
-    limited = any(map(math.isfinite, limits))
+    limited = min(limits) < math.inf
     ratios = list(map(_ratio, values, limits)) if limited else list(map(abs, values))
     joint = _worst_index(ratios)
     return Peak(ratios[joint] if limited else None, values[joint], names[joint], times[joint])

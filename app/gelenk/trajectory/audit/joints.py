@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from gelenk.kinematics.simd.lanes import LANES, Lanes, load, max_lanes, min_lanes, store
+from gelenk.kinematics.simd.lanes import LANES, Lanes, bits, lanes, load, max_lanes, min_lanes, store
 from gelenk.robot.arrays import Array
 from gelenk.robot.compilation import compiled, inlined, unmanaged
 from gelenk.trajectory.audit.pieces import Pieces, by_tau, factor_of, value_at
@@ -52,8 +52,9 @@ def joint_figures(pieces: Pieces) -> JointFigures:
     found = JointFigures(extremes[0], extremes[1], jumps[0], jumps[1])
     for row in range(_EXTREMES):
         order, signs = max(row - 1, 0), (1.0 if row else -1.0, -1.0 if row != 1 else 1.0)
+        nodes, factor = _nodes(max(pieces.scaled.shape[1] - 1 - order, 0))
         for joint in range(n):
-            piece, tau = _largest(pieces, ranges[order, joint], order, joint, signs)
+            piece, tau = _largest(pieces, ranges[order, joint], order, joint, signs, nodes, factor)
             value = value_at(pieces, piece, joint, tau, order)
             found.extremes[row, joint] = -value if row == 0 else value
             found.times[row, joint] = pieces.starts[piece] + tau * pieces.widths[piece]
@@ -78,7 +79,8 @@ def _ranges(pieces: Pieces) -> Array:
     """Return start, end, lower and upper bound of each derivative in each piece; shape (4, n, 4, ≥ M)."""
     count, size, n = pieces.scaled.shape
     blocks = (count + LANES - 1) // LANES
-    ranges = np.zeros((_ORDERS, n, 4, blocks * LANES))
+    ranges = np.empty((_ORDERS, n, 4, blocks * LANES))
+    ranges[size:] = 0.0
     block, rows = np.empty((size * n + _ORDERS) * LANES), np.empty(size * LANES)
     factors = np.array([[_bernstein_factor(size, k, order) for k in range(size)] for order in range(_ORDERS)])
     rows_of_ranges = ranges.ravel()
@@ -115,7 +117,7 @@ def _bernstein_factor(size: int, k: int, order: int) -> float:
     return factor_of(k, order) / binomial
 
 
-@unmanaged
+@inlined
 def _range(block: Array, size: int, n: int, order: int, joint: int, factors: Array, rows: Array) -> _Range:
     """Return start, end, and the least and largest Bernstein coefficient of a derivative in eight pieces."""
     d, scale = size - 1 - order, load(block, size * n + order)
@@ -137,28 +139,76 @@ def _size(value: float, signs: tuple[float, float]) -> float:
 
 
 @compiled
-def _largest(pieces: Pieces, of_pieces: Array, order: int, joint: int, signs: tuple[float, float]) -> tuple[int, float]:
-    """Return the piece and τ at which a derivative of a joint is largest, with either sign."""
-    best, least, where, at = -np.inf, -np.inf, 0, 0.0
-    for piece in range(len(pieces.widths)):
-        for side in (_START, _END):
-            size = _size(of_pieces[side, piece], signs)
-            if size > least:
-                best, least, where, at = size, size + _ROUNDING * abs(size), piece, float(side)
+def _largest(
+    pieces: Pieces,
+    of_pieces: Array,
+    order: int,
+    joint: int,
+    signs: tuple[float, float],
+    nodes: Array,
+    factor: float,
+) -> tuple[int, float]:
+    """Return the piece and τ at which a derivative of a joint is largest, with either sign, by what `_nodes` gives."""
+    rows, blocks, eight = of_pieces.ravel(), of_pieces.shape[1] // LANES, np.empty(LANES)
+    most = _most(rows, 2 * blocks, signs, eight)
+    where, at, best = _largest_end(of_pieces, rows, most - _ROUNDING * abs(most), len(pieces.widths), signs)
     if pieces.scaled.shape[1] <= order + 2:
         return where, at  # At degree 0 or 1 the extremes are at the ends.
-    nodes, factor = _nodes(pieces.scaled.shape[1] - 1 - order)
     samples, least = np.empty(len(nodes)), best + _SAME * abs(best)
-    for piece in range(len(pieces.widths)):
-        if max(_size(of_pieces[_LOW, piece], signs), _size(of_pieces[_HIGH, piece], signs)) <= least:
+    for b in range(blocks):
+        if not _may_reach(rows, _LOW * blocks + b, _HIGH * blocks + b, signs, least):
             continue
-        _sample(pieces, piece, joint, order, nodes, samples)
-        low, high = samples.min(), samples.max()
-        if _size(0.5 * (low + high), signs) + 0.5 * factor * (high - low) > least:
-            tau, size = _highest(pieces, piece, joint, order, signs, nodes, samples)
-            if size > best + _ROUNDING * abs(best):
-                best, least, where, at = size, size + _SAME * abs(size), piece, tau
+        for piece in range(b * LANES, min((b + 1) * LANES, len(pieces.widths))):
+            if max(_size(of_pieces[_LOW, piece], signs), _size(of_pieces[_HIGH, piece], signs)) <= least:
+                continue
+            _sample(pieces, piece, joint, order, nodes, samples)
+            low, high = samples.min(), samples.max()
+            if _size(0.5 * (low + high), signs) + 0.5 * factor * (high - low) > least:
+                tau, size = _highest(pieces, piece, joint, order, signs, nodes, samples)
+                if size > best + _ROUNDING * abs(best):
+                    best, least, where, at = size, size + _SAME * abs(size), piece, tau
     return where, at
+
+
+@unmanaged
+def _most(rows: Array, count: int, signs: tuple[float, float], eight: Array) -> float:
+    """Return the largest size in the first rows of eight numbers."""
+    best = lanes(-np.inf)
+    for k in range(count):
+        best = max_lanes(_sizes(load(rows, k), signs), best)
+    store(eight, 0, best)
+    most: float = eight[0]
+    for lane in range(1, LANES):
+        most = max(most, eight[lane])
+    return most
+
+
+@inlined
+def _largest_end(
+    of_pieces: Array, rows: Array, least: float, count: int, signs: tuple[float, float]
+) -> tuple[int, float, float]:
+    """Return the first piece and τ of an end whose size is at least this, and that size."""
+    blocks = of_pieces.shape[1] // LANES
+    for b in range(blocks):
+        if _may_reach(rows, _START * blocks + b, _END * blocks + b, signs, least):
+            for piece in range(b * LANES, min((b + 1) * LANES, count)):
+                for side in (_START, _END):
+                    size = _size(of_pieces[side, piece], signs)
+                    if size >= least:
+                        return piece, float(side), size
+    return 0, 0.0, -np.inf
+
+
+@inlined
+def _may_reach(rows: Array, low: int, high: int, signs: tuple[float, float], least: float) -> bool:
+    """Check whether one of eight pieces may hold a value of this size, by two rows of bounds."""
+    found: bool = bits(max_lanes(_sizes(load(rows, low), signs), _sizes(load(rows, high), signs)) >= least) != 0
+    return found
+
+
+@inlined
+def _sizes(values: Lanes, signs: tuple[float, float]) -> Lanes:
+    return max_lanes(signs[0] * values, signs[1] * values)
 
 
 @compiled

@@ -39,12 +39,18 @@ Triple: TypeAlias = tuple[Lanes, Lanes, Lanes]
 @compiled
 def tip_rates(flat: FlatChain, pieces: Pieces, piece: Indices, tau: Array) -> Array:
     """Compute ‖ṗ‖, ‖ω‖, ‖p̈‖, ‖ω̇‖ of the tip at τ of the given pieces; (N,) each → (N, 4), [m/s, rad/s, …]."""
-    n = pieces.scaled.shape[2]
+    _, size, n = pieces.scaled.shape
     rates, work, norms = np.empty((len(tau), 4)), np.zeros(3 * max(n, 1) * LANES), np.empty(4 * LANES)
+    rows, per_width, places = np.empty(size * n * LANES), np.empty(LANES), np.empty(LANES)
+    held, last = np.full(LANES, -1), len(tau) - 1
     for first in range(0, len(tau), LANES):
         for lane in range(LANES):
-            i = min(first + lane, len(tau) - 1)
-            _gather(pieces, piece[i], tau[i], lane, work)
+            i = min(first + lane, last)
+            places[lane] = tau[i]
+            if held[lane] != piece[i]:
+                held[lane], per_width[lane] = piece[i], 1.0 / pieces.widths[piece[i]]
+                _gather(pieces, piece[i], lane, rows)
+        _store_states(rows, size, n, load(places, 0), load(per_width, 0), work)
         _store_norms(flat, n, work, norms)
         for lane in range(min(LANES, len(tau) - first)):
             for k in range(4):
@@ -53,19 +59,26 @@ def tip_rates(flat: FlatChain, pieces: Pieces, piece: Indices, tau: Array) -> Ar
 
 
 @inlined
-def _gather(pieces: Pieces, piece: int, tau: float, lane: int, work: Array) -> None:
-    """Write position, velocity and acceleration of each variable into a lane of three rows each."""
-    scaled, per_width = pieces.scaled[piece], 1.0 / pieces.widths[piece]
-    size, n = scaled.shape
+def _gather(pieces: Pieces, piece: int, lane: int, rows: Array) -> None:
+    """Write the coefficients of a piece into a lane, row k n + j for the power k of variable j."""
+    _, size, n = pieces.scaled.shape
+    for k in range(size):
+        for j in range(n):
+            rows[(k * n + j) * LANES + lane] = pieces.scaled[piece, k, j]
+
+
+@unmanaged
+def _store_states(rows: Array, size: int, n: int, tau: Lanes, per_width: Lanes, work: Array) -> None:
+    """Store position, velocity and acceleration of each variable, three times n rows."""
     for j in range(n):
-        value, first, second = scaled[size - 1, j], 0.0, 0.0
+        value, first, second = load(rows, (size - 1) * n + j), lanes(0.0), lanes(0.0)
         for k in range(size - 2, -1, -1):
             second = second * tau + first
             first = first * tau + value
-            value = value * tau + scaled[k, j]
-        work[j * LANES + lane] = value
-        work[(n + j) * LANES + lane] = first * per_width
-        work[(2 * n + j) * LANES + lane] = 2.0 * second * per_width * per_width
+            value = value * tau + load(rows, k * n + j)
+        store(work, j, value)
+        store(work, n + j, per_width * first)
+        store(work, 2 * n + j, (2.0 * per_width * per_width) * second)
 
 
 @unmanaged

@@ -10,6 +10,7 @@ from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _PLACES = 16
 """Least number of steps by which the travel of a whole motion is measured."""
+_NO_TRAVEL = 1e-300
 
 
 class Pieces(NamedTuple):
@@ -37,11 +38,23 @@ class Pieces(NamedTuple):
 
 def pieces_of(motion: PiecewisePolynomial) -> Pieces:
     """The pieces of a motion."""
-    return _scaled(np.ascontiguousarray(motion.breaks), np.ascontiguousarray(motion.coefficients))
+    return scaled_pieces(np.ascontiguousarray(motion.breaks), np.ascontiguousarray(motion.coefficients))
 
 
 @compiled
-def _scaled(breaks: Array, coefficients: Array) -> Pieces:
+def are_pieces(breaks: Array, coefficients: Array) -> bool:
+    """Check whether all numbers are finite, and each piece takes time."""
+    wrong, numbers = 0, coefficients.ravel()
+    for i in range(len(numbers)):  # all of them: without leaving the loop, eight at a time
+        wrong += not abs(numbers[i]) < np.inf
+    for i in range(len(breaks) - 1):
+        wrong += not breaks[i + 1] - breaks[i] > 0.0
+    return wrong == 0 and bool(np.isfinite(breaks).all())
+
+
+@compiled
+def scaled_pieces(breaks: Array, coefficients: Array) -> Pieces:
+    """Return the pieces of polynomials in time; shape (M + 1,) and (M, degree + 1, n)."""
     starts, widths, scaled = breaks[:-1].copy(), np.diff(breaks), coefficients.copy()
     for piece in range(len(widths)):
         power = 1.0
@@ -90,9 +103,11 @@ def values_at(pieces: Pieces, piece: Indices, tau: Array, order: int) -> Array:
 @compiled
 def positions_at(pieces: Pieces, times: Array) -> Array:
     """Evaluate positions at times of shape (N,), [s]; shape (N, n)."""
-    found, last = np.empty((len(times), pieces.scaled.shape[2])), len(pieces.starts) - 1
+    found, last, piece = np.empty((len(times), pieces.scaled.shape[2])), len(pieces.starts) - 1, 0
     for i in range(len(times)):
-        piece = min(max(np.searchsorted(pieces.starts, times[i], side="right") - 1, 0), last)
+        # Most are in the same piece as the one before.
+        if times[i] < pieces.starts[piece] or (piece < last and times[i] >= pieces.starts[piece + 1]):
+            piece = min(max(np.searchsorted(pieces.starts, times[i], side="right") - 1, 0), last)
         tau = (times[i] - pieces.starts[piece]) / pieces.widths[piece]
         for joint in range(found.shape[1]):
             found[i, joint] = by_tau(pieces, piece, joint, tau, 0)
@@ -132,13 +147,39 @@ def joint_ends(pieces: Pieces) -> Array:
 
 
 @compiled
-def travel(pieces: Pieces) -> float:
-    """Return how far all joints go together, at least, [rad or m]: from piece to piece, or places between in few."""
-    steps, total = max(1, _PLACES // len(pieces.widths)), 0.0
-    for piece in range(len(pieces.widths)):
+def travels(pieces: Pieces) -> Array:
+    """Return how far all joints go together in each piece, at least, [rad or m]; shape (M,).
+
+    In few pieces, places between count too.
+    """
+    steps, found = max(1, _PLACES // len(pieces.widths)), np.zeros(len(pieces.widths))
+    for piece in range(len(found)):
         for joint in range(pieces.scaled.shape[2]):
             before = pieces.scaled[piece, 0, joint]
             for k in range(1, steps + 1):
                 here = by_tau(pieces, piece, joint, k / steps, 0)
-                total, before = total + abs(here - before), here
-    return total
+                found[piece], before = found[piece] + abs(here - before), here
+    return found
+
+
+@compiled
+def enough(travel: Array, least: int, each: float, most: int) -> int:
+    """Return how many samples show every wave: the more, the further all joints turn together, as `travels` says."""
+    return int(min(least + each * travel.sum(), most))
+
+
+@compiled
+def spread_times(pieces: Pieces, travel: Array, count: int) -> Array:
+    """Return `count` + 1 times from the start to the end, [s], spread over time and over the joints' travel alike."""
+    shares, whole = np.empty(len(travel)), pieces.widths.sum()
+    total = max(travel.sum(), _NO_TRAVEL)
+    for piece in range(len(shares)):
+        shares[piece] = 0.5 * (travel[piece] / total + pieces.widths[piece] / whole)
+    times, step, piece, before = np.empty(count + 1), shares.sum() / count, 0, 0.0
+    for k in range(count):
+        while piece + 1 < len(shares) and before + shares[piece] <= k * step:
+            before, piece = before + shares[piece], piece + 1
+        tau = min((k * step - before) / shares[piece], 1.0)
+        times[k] = pieces.starts[piece] + tau * pieces.widths[piece]
+    times[count] = pieces.starts[-1] + pieces.widths[-1]
+    return times

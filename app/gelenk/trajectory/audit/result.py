@@ -190,7 +190,8 @@ class Audit(Result):
     A ratio is relative to the limit in force at the time.
 
     Attributes:
-        passed: Whether the motion keeps every limit and tolerance; one that does not is not sent.
+        passed: Whether the motion keeps every limit and tolerance. One that does not is not sent, unless all that is
+            wrong is that its start is too near to something: then that start is all of the motion.
         velocity: Of the joint nearest to its limit; null without joints.
         jerk: Of the pieces: where the acceleration jumps it is infinite, as `continuity` reports. Its limits are kept
             by `quintic`, `septic` and `jerk_limited`; another law is only compared with them, and `notes` of its

@@ -1,7 +1,7 @@
 """Motion of the tip while the joints move: speeds, accelerations, path deviations and nearness to a singularity.
 
-All quantities are sampled at both ends of each piece and between, the more densely the further the joints travel, and
-refined where parabolas through the samples reach higher.
+All quantities are sampled, the more densely the further the joints travel, and refined where parabolas through the
+samples reach higher. Those that may jump are sampled at both ends of each piece and between.
 """
 
 from collections.abc import Callable
@@ -19,7 +19,7 @@ from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.deviations import deviations
 from gelenk.trajectory.audit.kernels import smallest_singular_values, tip_rates
 from gelenk.trajectory.audit.peaks import ROUNDS, highest, narrowed, promising, tried, triples
-from gelenk.trajectory.audit.pieces import Pieces, even_positions, positions_at, rate_bounds, travel, values_at
+from gelenk.trajectory.audit.pieces import Pieces, enough, positions_at, rate_bounds, spread_times, travels, values_at
 from gelenk.trajectory.audit.result import SmallestSingularValue
 
 PathOfTime: TypeAlias = Callable[[Array], Poses]
@@ -27,9 +27,8 @@ PathOfTime: TypeAlias = Callable[[Array], Poses]
 
 MIN_SAMPLES = 1500
 """Samples of the whole motion along a path or within torques; more if there are many pieces."""
-_RATE_SAMPLES, _SIGMA_SAMPLES = (200, 40.0), (60, 15.0)
-"""Samples in which the tip's rates and σ are examined: of any motion, and for each radian that all joints travel."""
-_MOST_SAMPLES = 20_000
+_RATE_SAMPLES, _SIGMA_SAMPLES = (100, 20.0, 20_000), (60, 10.0, 20_000)
+"""Samples of the tip's rates and of σ: of any motion, for each radian that all joints travel together, and at most."""
 _ROUNDING = 1e-12
 """Rounding of path deviations, [m] and [rad], and of the tip's rates, in fractions of the joints' rates."""
 _THREE = np.array([-1, 0, 1])
@@ -46,12 +45,12 @@ class Largest:
 
 
 @compiled
-def grid(pieces: Pieces, least: int, intervals: int) -> tuple[Indices, Array, Indices]:
-    """Sample each piece evenly, ends included: at least `least` samples in all, and `intervals` intervals per piece.
+def grid(pieces: Pieces, least: int) -> tuple[Indices, Array, Indices]:
+    """Sample each piece evenly, both ends and the middle included: at least `least` samples in all.
 
     Returns the piece and τ of each sample, (N,) each, and which samples have neighbours on both sides in their piece.
     """
-    counts = np.maximum(np.ceil(pieces.widths * (least / pieces.widths.sum())), intervals).astype(np.int64) + 1
+    counts = np.maximum(np.ceil(pieces.widths * (least / pieces.widths.sum())), 2).astype(np.int64) + 1
     size, i, k = counts.sum(), 0, 0
     piece, tau, inner = np.empty(size, np.int64), np.empty(size), np.empty(size - 2 * len(counts), np.int64)
     for p in range(len(counts)):
@@ -66,21 +65,41 @@ def grid(pieces: Pieces, least: int, intervals: int) -> tuple[Indices, Array, In
 
 def tip_peaks(pieces: Pieces, chain: Chain) -> dict[str, Largest]:
     """Find the largest value of each of `RATES`, [m/s, rad/s, m/s², rad/s²]."""
-    values, times = rate_peaks(chain.flat, pieces, _enough(pieces, *_RATE_SAMPLES))
+    return largest_rates(*found_rate_peaks(chain.flat, pieces))
+
+
+def largest_rates(values: Array, times: Array) -> dict[str, Largest]:
+    """Return values and times of `RATES`, shape (4,) each, by name."""
     return {name: Largest(*found) for name, *found in zip(RATES, values.tolist(), times.tolist(), strict=True)}
 
 
-def _enough(pieces: Pieces, least: int, each: float) -> int:
-    """Return how many samples show every wave: the more, the further all joints turn together."""
-    return int(min(least + each * travel(pieces), _MOST_SAMPLES))
+@compiled
+def found_rate_peaks(flat: FlatChain, pieces: Pieces) -> tuple[Array, Array]:
+    """Return what `rate_peaks` does, with enough samples."""
+    velocity, acceleration = rate_bounds(pieces)
+    found: tuple[Array, Array] = rate_peaks(flat, pieces, rate_samples(travels(pieces)), velocity, acceleration)
+    return found
 
 
 @compiled
-def rate_peaks(flat: FlatChain, pieces: Pieces, least: int) -> tuple[Array, Array]:
-    """Return the largest value of each of `RATES` and its time, [s]; shape (4,) each."""
-    piece, tau, inner = grid(pieces, least, 2)
-    rates = tip_rates(flat, pieces, piece, tau)
-    rows, columns, tops, exact = promising(tau, rates, inner, _rounding(pieces))
+def rate_samples(travel: Array) -> int:
+    """Return how many samples of the tip's rates are enough for what `travels` returns."""
+    return enough(travel, *_RATE_SAMPLES)
+
+
+@compiled
+def rate_peaks(
+    flat: FlatChain, pieces: Pieces, least: int, velocity: float, acceleration: float
+) -> tuple[Array, Array]:
+    """Return the largest value of each of `RATES` and its time, [s], by at least some samples; shape (4,) each.
+
+    No joint is faster than `velocity`, or accelerates more than `acceleration`.
+    """
+    piece, tau, inner = grid(pieces, least)
+    rates, later = tip_rates(flat, pieces, piece, tau), max(acceleration, velocity**2)
+    # Of a tip that hardly moves while the joints do.
+    rounding = _ROUNDING * np.array([velocity, velocity, later, later])
+    rows, columns, tops, exact = promising(tau, rates, inner, rounding)
     places, values, best, where = triples(tau, rates, rows, columns)
     for k in range(ROUNDS if len(rows) else 0):
         at = tried(places, values)
@@ -113,7 +132,7 @@ def path_peaks(pieces: Pieces, chain: Chain, path: PathOfTime, task: Task = FULL
         goals = np.ascontiguousarray(wanted.positions), np.ascontiguousarray(wanted.rotations)
         return _off_path(chain.flat, pieces, piece, tau, *goals)
 
-    piece, tau, inner = grid(pieces, MIN_SAMPLES, 2)
+    piece, tau, inner = grid(pieces, MIN_SAMPLES)
     found = between(tau, piece, inner, off, np.full(2, _ROUNDING))
     return {
         name: Largest(value, float(pieces.starts[piece[row]] + at * pieces.widths[piece[row]]))
@@ -134,22 +153,34 @@ def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE
 
     It is the last of min(m, n), with m rows.
     """
-    # The task's rotations are about the tip's axes.
-    value, time = least_singular_value(
-        chain.flat, pieces, np.flatnonzero(task.weights), task != FULL_POSE, _enough(pieces, *_SIGMA_SAMPLES)
-    )
-    return SmallestSingularValue(value, time)
+    return SmallestSingularValue(*found_singular_value(chain.flat, pieces, *counted_rows(task)))
+
+
+def counted_rows(task: Task) -> tuple[Indices, bool]:
+    """Return the rows of the Jacobian that count in a task, and whether its rotations are about the tip's axes."""
+    return np.flatnonzero(task.weights), task != FULL_POSE
+
+
+@compiled
+def found_singular_value(flat: FlatChain, pieces: Pieces, rows: Indices, about_tip: bool) -> tuple[float, float]:
+    """Return what `least_singular_value` does, with enough samples."""
+    travel = travels(pieces)
+    found: tuple[float, float] = least_singular_value(flat, pieces, rows, about_tip, travel, sigma_samples(travel))
+    return found
+
+
+@compiled
+def sigma_samples(travel: Array) -> int:
+    """Return how many samples of σ are enough for what `travels` returns."""
+    return enough(travel, *_SIGMA_SAMPLES)
 
 
 @compiled
 def least_singular_value(
-    flat: FlatChain, pieces: Pieces, rows: Indices, about_tip: bool, least: int
+    flat: FlatChain, pieces: Pieces, rows: Indices, about_tip: bool, travel: Array, least: int
 ) -> tuple[float, float]:
     """Return the smallest σ of these rows, and its time [s]; like the joints, σ is continuous: one function."""
-    piece, tau, _ = grid(pieces, least, 1)
-    times = pieces.starts[piece] + tau * pieces.widths[piece]
-    is_new = np.append(tau[:-1] < 1.0, True)
-    times = times[is_new]
+    times = spread_times(pieces, travel, least)
     negative = np.empty((len(times), 1))
     negative[:, 0] = -smallest_singular_values(flat, positions_at(pieces, times), rows, about_tip)
     near, columns, tops, exact = promising(times, negative, np.arange(1, len(times) - 1), np.zeros(1))
@@ -164,20 +195,6 @@ def least_singular_value(
         if best[c] > value:
             value, time = best[c], where[c]
     return -value, time
-
-
-def poses_at(pieces: Pieces, chain: Chain, count: int) -> tuple[Array, Poses]:
-    """Return configurations, shape (count, n), and poses at evenly spread times, for an independent check."""
-    qs = even_positions(pieces, count)
-    return qs, Poses(*chain_poses(chain.flat, qs))
-
-
-@compiled
-def _rounding(pieces: Pieces) -> Array:
-    """Return the rounding of each of `RATES`, for a tip that hardly moves while the joints do."""
-    velocity, acceleration = rate_bounds(pieces)
-    later = max(acceleration, velocity**2)
-    return _ROUNDING * np.array([velocity, velocity, later, later])
 
 
 def between(

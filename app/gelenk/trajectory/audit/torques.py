@@ -53,7 +53,7 @@ def torque_peaks(pieces: Pieces, limits: TorqueLimits) -> tuple[Array, Array]:
     def torques(piece: Indices, tau: Array) -> Array:
         return limits.recomputed(*(values_at(pieces, piece, tau, order) for order in range(3)))
 
-    piece, tau, inner = grid(pieces, MIN_SAMPLES, 2)
+    piece, tau, inner = grid(pieces, MIN_SAMPLES)
     found = between(tau, piece, inner, lambda *at: np.abs(torques(*at)), np.full(len(limits.most), _ROUNDING))
     places = np.array([place for _, _, place in found])
     at = piece[[row for _, row, _ in found]]

@@ -3,7 +3,7 @@
 from typing import Literal, TypeAlias
 
 Check: TypeAlias = Literal[
-    "velocity", "acceleration", "jerk", "joint_limit", "continuity", "path", "tip", "boundary", "torque"
+    "velocity", "acceleration", "jerk", "joint_limit", "continuity", "path", "tip", "boundary", "torque", "clearance"
 ]
 PolynomialLaw: TypeAlias = Literal["cubic", "quintic", "septic"]
 Law: TypeAlias = Literal[PolynomialLaw, "trapezoidal", "jerk_limited", "time_optimal"]

@@ -41,6 +41,7 @@ class CountedRows:
 
 def task_rows(chain: Chain, task: Task, at: PathSamples, qs: Array) -> CountedRows:
     """Return the rows at configurations of shape (N, n) on or near the path; `at` has one sample for each."""
+    qs = np.ascontiguousarray(qs)  # as for all others: a kernel would be compiled for a choice of columns
     if len(task) == len(FULL_POSE):
         errors, Js = linearise(chain, at.poses, qs, task)
         return CountedRows(errors, Js, at.first)

@@ -48,14 +48,15 @@ def first_limit_excess(chain: Chain, motion: PiecewisePolynomial) -> LimitExcess
 
 def _is_surely_within(chain: Chain, motion: PiecewisePolynomial) -> bool:
     """Check by a rough bound that all is within: no piece goes further from its start than Σ |c_k| hᵏ."""
-    found: bool = _swings_within(
+    found: bool = swings_within(
         np.diff(motion.breaks), np.ascontiguousarray(motion.coefficients), chain.lower, chain.upper
     )
     return found
 
 
 @compiled
-def _swings_within(widths: Array, c: Array, lower: Array, upper: Array) -> bool:
+def swings_within(widths: Array, c: Array, lower: Array, upper: Array) -> bool:
+    """Check by a rough bound that all is within: no piece goes further from its start than Σ |c_k| hᵏ."""
     for i in range(len(c)):
         for j in range(len(lower)):
             swing = 0.0

@@ -9,8 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from gelenk.errors import InvalidField, counted
-from gelenk.robot.arrays import Array
+from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain
+from gelenk.robot.compilation import compiled
 from gelenk.trajectory.joints.fastest import NO_LENGTH
 from gelenk.trajectory.laws.time_scaling import LARGEST
 from gelenk.trajectory.motion.splines import CLOSED, NEAREST, Boundary, checked_times
@@ -58,17 +59,34 @@ def knots(start: Array, waypoints: Array | None, times: Array | None, velocity: 
 
 
 def _spaced(positions: Array, velocity: Array) -> Array:
-    steps = np.abs(np.diff(positions, axis=0))
-    lengths = (steps / velocity).max(axis=1, initial=0.0)
-    is_same = steps.max(axis=1, initial=0.0) <= NO_LENGTH
-    short = np.flatnonzero(is_same | ~(lengths > 2.0 * NEAREST * lengths.sum()))
+    times, lengths, steps = spacing(positions, velocity)
+    short = np.flatnonzero(~are_distinct(lengths, steps))
     if len(short) == 0:
-        times: Array = np.concatenate(([0.0], np.cumsum(lengths)))
         return times
     k = int(short[0])
     before = "the start" if k == 0 else f"entry {k - 1}"
-    how = "the same as" if is_same[k] else "less than a millionth of the whole path from"
+    how = "the same as" if steps[k] <= NO_LENGTH else "less than a millionth of the whole path from"
     raise InvalidField(f"waypoints.{k}", f"is {how} {before}: leave one of the two out, or give `times`")
+
+
+@compiled
+def are_distinct(lengths: Array, steps: Array) -> Flags:
+    """Return which steps lead somewhere, by what `spacing` returns of them; shape (N - 1,)."""
+    found: Flags = (steps > NO_LENGTH) & (lengths > 2.0 * NEAREST * lengths.sum())
+    return found
+
+
+@compiled
+def spacing(positions: Array, velocity: Array) -> tuple[Array, Array, Array]:
+    """Return the knots' times, (N,), the length of each step between them, and how far a joint goes, (N - 1,) each."""
+    count, n = positions.shape
+    times, lengths, steps = np.zeros(count), np.zeros(count - 1), np.zeros(count - 1)
+    for k in range(count - 1):
+        for j in range(n):
+            step = abs(positions[k + 1, j] - positions[k, j])
+            lengths[k], steps[k] = max(lengths[k], step / velocity[j]), max(steps[k], step)
+        times[k + 1] = times[k] + lengths[k]
+    return times, lengths, steps
 
 
 def _check_times(times: Array, count: int) -> None:

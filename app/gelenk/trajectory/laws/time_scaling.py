@@ -84,8 +84,8 @@ class Scaling:
 def check_limits(limits: Sequence[Array] | Array) -> None:
     """Refuse limits of velocity, acceleration and so on, (n,) each, that are not usable, with `InvalidField`."""
     rows = np.array(limits)
-    wrong = ~((rows >= SMALLEST) & (rows <= LARGEST))
-    if wrong.any():
+    if not (rows.min(initial=LARGEST) >= SMALLEST and rows.max(initial=SMALLEST) <= LARGEST):
+        wrong = ~((rows >= SMALLEST) & (rows <= LARGEST))
         order, joint = (int(index) for index in np.argwhere(wrong)[0])
         reason = f"joint {joint + 1}: must be a number from {SMALLEST:g} to {LARGEST:g}"
         raise InvalidField(f"limits.joint_{QUANTITIES[order]}", reason)

@@ -13,7 +13,7 @@ import numpy as np
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
-from gelenk.trajectory.motion.time_laws import hermite_pieces
+from gelenk.trajectory.motion.time_laws import END_CONDITIONS, hermite_pieces
 from gelenk.trajectory.motion.tridiagonal import Tridiagonal, solution
 
 Boundary: TypeAlias = Literal["clamped", "natural", "not_a_knot", "periodic", "assigned"]
@@ -111,17 +111,16 @@ def _inner_rows(h: Array, slopes: Array) -> tuple[Tridiagonal, Array]:
 
 def _clamped(times: Array, knots: Array, ends: EndRates) -> Spline:
     """Solve with both end velocities known, which moves them to the right side."""
-    h = np.diff(times)
-    A, b = _inner_rows(h, np.diff(knots, axis=0) / h[:, None])
-    velocities = np.empty_like(knots)
-    velocities[0], velocities[-1] = ends.start_velocity, ends.end_velocity
-    if len(A) == 0:
-        return _spline(times, knots, velocities, None, b, range(0))
-    b[0] -= A.lower[0] * ends.start_velocity
-    b[-1] -= A.upper[-1] * ends.end_velocity
-    A = _without_corners(A)
-    velocities[1:-1] = solution(A, b)
-    return _spline(times, knots, velocities, A, b, range(1, len(times) - 1))
+    from gelenk.trajectory.motion.evaluation import clamped  # noqa: PLC0415 - a client has no compiler
+
+    t, q, first, last = map(_numbers, (times, knots, ends.start_velocity, ends.end_velocity))
+    *diagonals, b, velocities, pieces = clamped(t, q, first, last, END_CONDITIONS[2])
+    A = Tridiagonal(*diagonals) if len(b) else None
+    return Spline(PiecewisePolynomial(times, pieces), times, knots, velocities, A, b, range(1, len(b) + 1))
+
+
+def _numbers(array: Array) -> Array:
+    return np.ascontiguousarray(array, dtype=float)
 
 
 def _without_corners(A: Tridiagonal) -> Tridiagonal:
@@ -253,18 +252,19 @@ def through_samples(
 
 NEAREST = 1e-6
 """Least time between two knots, as a fraction of the time from the first to the last."""
-_RESOLVED = 1e-9
+RESOLVED = 1e-9
 """The same as a fraction of the largest absolute time, because a double resolves less far from zero."""
 
 
 def checked_times(times: Array, field: str) -> None:
     """Check that times increase by more than rounding; if not, `InvalidField` names the first two that are wrong."""
-    gaps = np.diff(times)
-    least = max(NEAREST * float(np.ptp(times)), _RESOLVED * float(np.abs(times).max()))
-    wrong = np.flatnonzero(~(gaps > least))
-    if len(wrong) == 0:
+    from gelenk.trajectory.motion.evaluation import are_apart  # noqa: PLC0415 - a client has no compiler
+
+    if are_apart(_numbers(times), NEAREST, RESOLVED):
         return
-    k = int(wrong[0])
+    gaps = np.diff(times)
+    least = max(NEAREST * float(np.ptp(times)), RESOLVED * float(np.abs(times).max()))
+    k = int(np.flatnonzero(~(gaps > least))[0])
     if gaps[k] == 0.0:
         reason = f"{times[k]:.10g} s is there twice (entries {k} and {k + 1}): two knots at one time"
     elif gaps[k] < 0.0:

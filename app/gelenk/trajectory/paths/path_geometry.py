@@ -206,6 +206,8 @@ def geometry_of(
     zones: tuple[Zone, ...] = (),
 ) -> LimitedPath:
     """Combine limits with a path of the joints, which is also cut at the breaks of the tip's path and of zones."""
+    if path is None and not zones:
+        return LimitedPath(joints, limits, tip_motion)
     breaks = joints.breaks
     ends = [end for zone in zones for end in (zone.begin, zone.end)]
     extra = np.array([*(() if path is None else path.breaks), *ends])

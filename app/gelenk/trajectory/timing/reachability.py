@@ -61,14 +61,16 @@ class _Block(NamedTuple):
 
     Attributes:
         pieces: The path's coefficients, row k n + j for the power k of joint j.
-        alpha, beta: α and β of each constraint, then offset and slope of its line in x. The offset is positive if the
-            line bounds u from above, negative if from below, and 0 if it does not.
+        alpha, beta: α and β of each constraint, |αu + βx| ≤ 1 before αu + βx ≤ 1; then the offset of its line in x that
+            bounds u from above, and the slope.
+        below: The offset, with the same slope, of that which bounds u from below; like the other infinite for none.
         values: Δ, k², the slope of the line by which the least share bounds u, the largest x, and four lines.
     """
 
     pieces: Array
     alpha: Array
     beta: Array
+    below: Array
     values: Array
 
 
@@ -85,17 +87,17 @@ def stages(pieces: Array, lengths: Array, limits: Array, further: Further) -> St
         limits: Of velocity and acceleration; shape (2, n).
     """
     count, size, n = pieces.shape
-    own = 4 * (size - 1) * n
-    rows = own + further.alpha.shape[1]
-    lines, counts = np.empty((2, count, rows + 2, 2)), np.full((2, count), 2)
+    pairs = (size - 1) * n
+    most, squares = 3 * pairs + further.alpha.shape[1], pairs + further.alpha.shape[1]
+    lines, counts = np.empty((2, count, most + 2, 2)), np.full((2, count), 2)
     found = Stages(lengths, lines, counts, np.empty(count))
-    alpha, beta, values = np.empty(rows * LANES), np.empty(rows * LANES), np.empty(_VALUES * LANES)
-    block = _Block(np.empty(size * n * LANES), alpha, beta, values)
+    alpha, beta, values = np.empty((most + size) * LANES), np.empty(most * LANES), np.empty(_VALUES * LANES)
+    block = _Block(np.empty(size * n * LANES), alpha, beta, np.empty(most * LANES), values)
     for first in range(0, count, LANES):
         for lane in range(LANES):
             _gather(block, pieces, lengths, further, min(first + lane, count - 1), lane)
-        store_joint_rows(block.pieces, size, load(values, _LENGTH), limits, alpha, beta)
-        _store_extremes(block, rows)
+        rows = store_joint_rows(block.pieces, size, load(values, _LENGTH), limits, alpha, beta, squares)
+        _store_extremes(block, pairs, rows)
         for lane in range(min(LANES, count - first)):
             found.highest[first + lane] = values[_HIGHEST * LANES + lane]
             for k in range(8):
@@ -108,13 +110,13 @@ def stages(pieces: Array, lengths: Array, limits: Array, further: Further) -> St
 def _gather(block: _Block, pieces: Array, lengths: Array, further: Further, i: int, lane: int) -> None:
     """Write what interval `i` is given into a lane."""
     _, size, n = pieces.shape
-    own = 4 * (size - 1) * n
+    pairs = (size - 1) * n
     for k in range(size):
         for j in range(n):
             block.pieces[(k * n + j) * LANES + lane] = pieces[i, k, j]
     for k in range(further.alpha.shape[1]):
-        block.alpha[(own + k) * LANES + lane] = further.alpha[i, k]
-        block.beta[(own + k) * LANES + lane] = further.beta[i, k]
+        block.alpha[(pairs + k) * LANES + lane] = further.alpha[i, k]
+        block.beta[(pairs + k) * LANES + lane] = further.beta[i, k]
     block.values[_LENGTH * LANES + lane] = lengths[i]
     block.values[_SQUARE * LANES + lane] = further.squares[i]
     # x_i + 2Δu ≥ share x_i.
@@ -122,13 +124,13 @@ def _gather(block: _Block, pieces: Array, lengths: Array, further: Further, i: i
 
 
 @unmanaged
-def _store_extremes(block: _Block, rows: int) -> None:
+def _store_extremes(block: _Block, pairs: int, rows: int) -> None:
     """Find the largest x at which no upper line is below a lower one, by Newton's method from the right.
 
     The gap between the lowest upper and the highest lower line is concave in x and nonnegative at 0: every step ends
     to the right of the zero, and finitely many steps reach it. The innermost lines there and at 0 are stored.
     """
-    x = _store_lines(block, rows)
+    x, first, first_slope = _store_lines(block, pairs, rows)
     for _ in range(_MOST_STEPS):
         upper, upper_slope, lower, lower_slope = _innermost(block, rows, x)
         room, slope = upper - lower, lower_slope - upper_slope
@@ -137,7 +139,6 @@ def _store_extremes(block: _Block, rows: int) -> None:
             break
         x = where(is_smaller, room / slope, x)
     store(block.values, _HIGHEST, x)
-    first, first_slope, _, _ = _innermost(block, rows, lanes(0.0))
     _store_line(block, 0, first, first_slope)
     _store_line(block, 1, upper, upper_slope)
     _store_line(block, 2, lanes(0.0), load(block.values, _BRAKING))
@@ -151,20 +152,27 @@ def _store_line(block: _Block, k: int, offset: Lanes, slope: Lanes) -> None:
 
 
 @inlined
-def _store_lines(block: _Block, rows: int) -> Lanes:
-    """Replace α and β by lines; return the largest x that the rows without α allow."""
+def _store_lines(block: _Block, pairs: int, rows: int) -> tuple[Lanes, Lanes, Lanes]:
+    """Replace α and β by lines; return the largest x that rows without α allow, and the lowest upper line at x = 0."""
     slower, weight, highest = 1.0 / load(block.values, _SQUARE), lanes(0.0), lanes(_UNBOUNDED)
+    first, first_slope = lanes(np.inf), lanes(0.0)
     for k in range(rows):
         weight = max_lanes(weight, abs_lanes(load(block.alpha, k)))
     for k in range(rows):
         a, b = load(block.alpha, k), load(block.beta, k)
         bounds = abs_lanes(a) > _NO_WEIGHT * weight
         if bits(bounds) != _ALL:
-            highest = where(bounds, highest, where(b > 0.0, min_lanes(slower / b, highest), highest))
+            most = abs_lanes(b) if k < pairs else b
+            highest = where(bounds, highest, where(most > 0.0, min_lanes(slower / most, highest), highest))
         inverse = where(bounds, 1.0 / a, 0.0)
-        store(block.alpha, k, slower * inverse)
-        store(block.beta, k, -b * inverse)
-    return highest
+        offset, slope = slower * inverse, -b * inverse
+        size = abs_lanes(offset)
+        above = where(bounds & (offset > 0.0) if k >= pairs else bounds, size, np.inf)
+        store(block.alpha, k, above)
+        store(block.below, k, where(bounds & (offset < 0.0) if k >= pairs else bounds, -size, -np.inf))
+        store(block.beta, k, slope)
+        first, first_slope = where(above < first, above, first), where(above < first, slope, first_slope)
+    return highest, first, first_slope
 
 
 @inlined
@@ -174,18 +182,18 @@ def _innermost(block: _Block, rows: int, x: Lanes) -> tuple[Lanes, Lanes, Lanes,
     lower, lower_slope = lanes(0.0), load(block.values, _BRAKING)
     highest = lower_slope * x
     for k in range(rows):
-        offset, slope = load(block.alpha, k), load(block.beta, k)
-        u = offset + slope * x
-        is_lower, is_higher = (offset > 0.0) & (u < lowest), (offset < 0.0) & (u > highest)
+        offset, below, slope = load(block.alpha, k), load(block.below, k), load(block.beta, k)
+        u, v = offset + slope * x, below + slope * x
+        is_lower, is_higher = u < lowest, v > highest
         upper, upper_slope, lowest = (
             where(is_lower, offset, upper),
             where(is_lower, slope, upper_slope),
             where(is_lower, u, lowest),
         )
         lower, lower_slope, highest = (
-            where(is_higher, offset, lower),
+            where(is_higher, below, lower),
             where(is_higher, slope, lower_slope),
-            where(is_higher, u, highest),
+            where(is_higher, v, highest),
         )
     return upper, upper_slope, lower, lower_slope
 
@@ -196,16 +204,22 @@ def _add_others(block: _Block, rows: int, first: int, found: Stages) -> None:
     (x_upper, upper), (x_lower, lower) = _crossing(block, 0), _crossing(block, 2)
     most = min(LANES, len(found.lengths) - first)
     for k in range(rows):
-        offset, slope = load(block.alpha, k), load(block.beta, k)
-        below = bits((offset > 0.0) & (offset + slope * x_upper < upper))
-        above = bits((offset < 0.0) & (offset + slope * x_lower > lower))
+        slope = load(block.beta, k)
+        below = bits(load(block.alpha, k) + slope * x_upper < upper)
+        above = bits(load(block.below, k) + slope * x_lower > lower)
         for lane in range(most if below | above else 0):
-            for side, mask in ((0, below), (1, above)):
-                if mask >> lane & 1:
-                    i = first + lane
-                    line = found.lines[side, i, found.counts[side, i]]
-                    line[0], line[1] = block.alpha[k * LANES + lane], block.beta[k * LANES + lane]
-                    found.counts[side, i] += 1
+            place = k * LANES + lane
+            if below >> lane & 1:
+                _add(found, 0, first + lane, block.alpha[place], block.beta[place])
+            if above >> lane & 1:
+                _add(found, 1, first + lane, block.below[place], block.beta[place])
+
+
+@inlined
+def _add(found: Stages, side: int, i: int, offset: float, slope: float) -> None:
+    line = found.counts[side, i]
+    found.lines[side, i, line, 0], found.lines[side, i, line, 1] = offset, slope
+    found.counts[side, i] += 1
 
 
 @inlined

@@ -20,9 +20,10 @@ import numpy as np
 
 from gelenk.errors import InvalidField, TooLarge
 from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.compilation import compiled
 from gelenk.trajectory.laws.time_scaling import LARGEST, check_limits
-from gelenk.trajectory.motion.evaluation import composed, evaluated
-from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, cut
+from gelenk.trajectory.motion.evaluation import composed, evaluated, expanded
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.timing.nodes import (
     LARGEST_PATH,
     UnitPath,
@@ -110,13 +111,15 @@ def time_optimal(
         ends = path.breaks[None, -1:, None], path.at(path.breaks[-1:])[None]
         return TimeOptimal(*(PiecewisePolynomial(np.zeros(2), end) for end in ends))
     task = _task(path, size, np.stack((velocity, acceleration)) * (1.0 - MARGIN), further, slower)
-    nodes = even_nodes(task.path.breaks, _counts(task, size.travels, intervals // 2))
-    slopes = evaluated(task.path.breaks, task.path.coefficients, nodes, 1)[1]
-    rough = _time_law(task, nodes, cut(task.path, nodes))
-    nodes = finer_nodes(nodes, *rough, slopes, task.limits[0], intervals)
-    pieces = cut(task.path, nodes)
-    times, law = _time_law(task, nodes, pieces)
-    motion = composed(pieces, law)
+    counts = _counts(task, size.travels, intervals // 2)
+    if further is None and slower is None:
+        times, law, motion = _checked(*unlimited(size, counts, task.limits, intervals))
+    else:
+        nodes = even_nodes(task.path.breaks, counts)
+        times, law, _ = _time_law(task, nodes)
+        nodes = _finer(task.path.breaks, task.path.coefficients, nodes, times, law, task.limits[0], intervals)
+        times, law, pieces = _time_law(task, nodes)
+        motion = composed(pieces, law)
     law *= path.duration
     law[:, 0] += path.breaks[0]
     return TimeOptimal(PiecewisePolynomial(times, law[:, :, None]), PiecewisePolynomial(times, motion))
@@ -125,14 +128,32 @@ def time_optimal(
 def _task(
     path: PiecewisePolynomial, size: UnitPath, limits: Array, further: Rows | None, slower: Slower | None
 ) -> _Task:
-    longest = size.travels.max(axis=1)
-    if longest.min() <= _STILL * longest.max():
-        i = int(np.argmin(longest))
+    if not moves_on(size):
+        i = int(np.argmin(size.travels.max(axis=1)))
         raise InvalidField(
             "path", f"does not move from s = {path.breaks[i]:g} to {path.breaks[i + 1]:g}: leave that out"
         )
-    start, end = (math.inf if is_at_rest else 0.0 for is_at_rest in size.rests)
-    return _Task(PiecewisePolynomial(size.breaks, size.coefficients), limits, (start, end), further, slower)
+    return _Task(PiecewisePolynomial(size.breaks, size.coefficients), limits, _most_at_ends(size), further, slower)
+
+
+@compiled
+def is_usual(path: UnitPath) -> bool:
+    """Check whether a path is of sensible size, and leads somewhere everywhere."""
+    return path.largest <= LARGEST and path.travels.max() > _NO_LENGTH and moves_on(path)
+
+
+@compiled
+def moves_on(path: UnitPath) -> bool:
+    """Check whether a path, of some length, stands still nowhere."""
+    least, most = np.inf, 0.0
+    for travels in path.travels:
+        least, most = min(least, travels.max()), max(most, travels.max())
+    return least > _STILL * most
+
+
+@compiled
+def _most_at_ends(path: UnitPath) -> tuple[float, float]:
+    return np.inf if path.rests[0] else 0.0, np.inf if path.rests[1] else 0.0
 
 
 def _counts(task: _Task, travels: Array, intervals: int) -> Indices:
@@ -143,15 +164,62 @@ def _counts(task: _Task, travels: Array, intervals: int) -> Indices:
     return counts
 
 
-def _time_law(task: _Task, nodes: Array, pieces: Array) -> tuple[Array, Array]:
-    """Return what `time_law` does for the fastest motion between nodes, from the path cut there."""
+def _time_law(task: _Task, nodes: Array) -> tuple[Array, Array, Array]:
+    """Return what `time_law` does for the fastest motion between nodes, and the pieces of the path between them."""
     count = len(nodes) - 1
     alpha, beta = np.empty((2, count, 0)) if task.rows is None else task.rows(nodes)
     squares = np.ones(count) if task.slower is None else task.slower(nodes) ** 2
-    further = Further(alpha, beta, squares, _LEAST_SHARE * (1.0 - nodes[1:]) / (1.0 - nodes[:-1]))
-    constraints = stages(pieces, np.diff(nodes), task.limits, further)
-    start, end = task.most_at_ends
-    times, law = time_law(nodes, fastest(constraints, controllable(constraints, end), start))
+    path = task.path.breaks, task.path.coefficients
+    return _checked(*_fastest(*path, nodes, task.limits, alpha, beta, squares, task.most_at_ends))
+
+
+def _checked(times: Array, law: Array, pieces: Array) -> tuple[Array, Array, Array]:
     if not math.isfinite(times[-1]):
         raise InvalidField("path", "its slopes are too many powers of ten apart")
-    return times, law
+    return times, law, pieces
+
+
+@compiled
+def unlimited(path: UnitPath, counts: Indices, limits: Array, intervals: int) -> tuple[Array, Array, Array]:
+    """Plan the fastest motion along a path without further constraints, under limits (2, n) less their margin.
+
+    The first run divides each piece into `counts`. Returns the motion's breaks, the last of which is NaN if there is
+    none, s(t) as `time_law` does, and its coefficients.
+    """
+    nodes = even_nodes(path.breaks, counts)
+    for run in range(2):
+        none, squares = np.empty((len(nodes) - 1, 0)), np.ones(len(nodes) - 1)
+        ends = _most_at_ends(path)
+        times, law, pieces = _fastest(path.breaks, path.coefficients, nodes, limits, none, none, squares, ends)
+        if run or not math.isfinite(times[-1]):
+            break
+        nodes = _finer(path.breaks, path.coefficients, nodes, times, law, limits[0], intervals)
+    return times, law, composed(pieces, law)
+
+
+@compiled
+def _fastest(
+    breaks: Array,
+    coefficients: Array,
+    nodes: Array,
+    limits: Array,
+    alpha: Array,
+    beta: Array,
+    squares: Array,
+    most_at_ends: tuple[float, float],
+) -> tuple[Array, Array, Array]:
+    pieces = expanded(breaks, coefficients, nodes)
+    further = Further(alpha, beta, squares, _LEAST_SHARE * (1.0 - nodes[1:]) / (1.0 - nodes[:-1]))
+    constraints = stages(pieces, np.diff(nodes), limits, further)
+    start, end = most_at_ends
+    times, law = time_law(nodes, fastest(constraints, controllable(constraints, end), start))
+    return times, law, pieces
+
+
+@compiled
+def _finer(
+    breaks: Array, coefficients: Array, nodes: Array, times: Array, law: Array, velocity: Array, intervals: int
+) -> Array:
+    slopes = evaluated(breaks, coefficients, nodes, 1)[1]
+    found: Array = finer_nodes(nodes, times, law, slopes, velocity, intervals)
+    return found

@@ -1,6 +1,8 @@
 /** The panels, in the order of their tabs. */
 
 import { cellPanel } from "./cell/index.ts";
+import { comparePanel } from "./compare/index.ts";
+import { coursePanel } from "./course/index.ts";
 import { exercisesPanel } from "./exercises/index.ts";
 import { inversePanel } from "./ik/index.ts";
 import { jacobianPanel } from "./jacobian/index.ts";
@@ -19,6 +21,8 @@ export const PANELS: readonly Panel[] = [
   trajectoryPanel,
   workspacePanel,
   cellPanel,
+  comparePanel,
   workedPanel,
+  coursePanel,
   exercisesPanel,
 ];

@@ -1,6 +1,7 @@
 /** Panels whose calls need a robot that the service keeps: for a table that is only typed, they first offer to add it. */
 
 import { shownChain } from "../robot/chain.ts";
+import { t } from "../texts/index.ts";
 import { element, section } from "../ui/dom.ts";
 import type { Studio } from "./panel.ts";
 import { keep } from "./robot/keep.ts";
@@ -9,8 +10,12 @@ import { keep } from "./robot/keep.ts";
 export function whileKept(host: HTMLElement, studio: Studio, open: () => () => void): () => void {
   const { store } = studio;
   const offer = section(
-    "Add the table to the robots",
-    element("p", { class: "muted small" }, "This panel asks the service about the robot, which does not keep it yet."),
+    t("Add the table to the robots"),
+    element(
+      "p",
+      { class: "muted small" },
+      t("This panel asks the service about the robot, which does not keep it yet."),
+    ),
     keep(studio, () => store.value.draft),
   );
   let isOpen: boolean | null = null;

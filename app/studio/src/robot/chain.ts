@@ -15,6 +15,8 @@ export interface ShownChain {
   configuration: number[];
   /** The fields of a call that name the chain. */
   ends: { base_frame: string; tip_frame: string };
+  /** The field of a call that says where joints off the chain stand, such as fingers; none where all are at 0. */
+  others: { other_joints?: Record<string, number> };
   /** Where the calls on this robot are; null for a draft, which the service does not keep. */
   path: string | null;
 }
@@ -26,6 +28,7 @@ export function shownChain(state: Readonly<State>): ShownChain | null {
   const base = state.base ?? model.ends.base_frame;
   const tip = state.tip ?? model.ends.tip_frame;
   const joints = model.chain(base, tip);
+  const off = model.joints.filter(({ name }) => positions[name] && !joints.some((joint) => joint.name === name));
   return {
     model,
     base,
@@ -34,6 +37,7 @@ export function shownChain(state: Readonly<State>): ShownChain | null {
     positions,
     configuration: joints.map((joint) => positions[joint.name] ?? 0),
     ends: { base_frame: base, tip_frame: tip },
+    others: off.length ? { other_joints: Object.fromEntries(off.map(({ name }) => [name, positions[name]!])) } : {},
     path: model.name === null ? null : `v1/robots/${encodeURIComponent(model.name)}`,
   };
 }

@@ -1,9 +1,11 @@
 /** A robot on the screen: the scene that urdf-loader makes of its URDF, its joints, and its own forward kinematics. */
 
-import { type Matrix4, Mesh, type Object3D } from "three";
+import { type Matrix4, Mesh, type Object3D, type Vector3 } from "three";
 import { URDFJoint, type URDFRobot } from "urdf-loader/src/URDFClasses.js";
 
 import type { Positions } from "../state.ts";
+import { t } from "../texts/index.ts";
+import type { Kind } from "../ui/quantity.ts";
 import type { ChainEnds, JointInfo, RobotInfo } from "../types.ts";
 
 /** A joint with a position of its own. */
@@ -15,13 +17,21 @@ export interface Joint {
   upper: number | null;
 }
 
-interface Drive {
+/** What its position measures. */
+export function kindOf({ type }: Pick<Joint, "type">): Kind {
+  return type === "prismatic" ? "length" : "angle";
+}
+
+/** A joint that moves: as its leader does, which may be itself. */
+export interface Drive {
   joint: URDFJoint;
   leader: string;
   multiplier: number;
   offset: number;
 }
 
+/** How far from parallel, or from a right angle, axes of a planar arm may be, as cosines. */
+const PARALLEL = 1e-6;
 const MOVABLE = new Set(["revolute", "continuous", "prismatic"]);
 
 export class RobotModel {
@@ -55,7 +65,13 @@ export class RobotModel {
   }
 
   get title(): string {
-    return this.name ?? "Unsaved table";
+    return this.name ?? t("Unsaved table");
+  }
+
+  /** Whether all of its meshes that can be had are on the screen. */
+  get isComplete(): boolean {
+    const { wanted, shown, failed } = this.meshes;
+    return shown + failed.length >= wanted;
   }
 
   /** Move the scene to a configuration. */
@@ -81,6 +97,18 @@ export class RobotModel {
     return this.link(base).matrixWorld.clone().invert().multiply(this.link(tip).matrixWorld);
   }
 
+  /** The normal of the plane that everything moves in, in the world; null where there is none. */
+  normal(): Vector3 | null {
+    const axes = this.#drives.map(({ joint }) => ({
+      turns: joint.jointType !== "prismatic",
+      axis: joint.axis.clone().transformDirection(joint.matrixWorld),
+    }));
+    const normal = axes.find(({ turns }) => turns)?.axis;
+    if (!normal || axes.length < 2) return null;
+    const isAcross = axes.every(({ turns, axis }) => Math.abs(Math.abs(axis.dot(normal)) - Number(turns)) < PARALLEL);
+    return isAcross ? normal.clone() : null;
+  }
+
   /** What is drawn of one link. */
   parts(name: string): Mesh[] {
     const found: Mesh[] = [];
@@ -102,10 +130,27 @@ export class RobotModel {
     return [...found];
   }
 
+  /** What is drawn, by the joint that moves it last, or the one that this joint mimics; null has what none moves. */
+  drawnBy(): Map<string | null, Mesh[]> {
+    const found = new Map<string | null, Mesh[]>();
+    this.root.traverse((node) => {
+      if (!(node instanceof Mesh)) return;
+      const leader = this.drive(node)?.leader ?? null;
+      found.set(leader, [...(found.get(leader) ?? []), node]);
+    });
+    return found;
+  }
+
+  /** The joint that moves a thing last; null for none. */
+  drive(thing: Object3D): Drive | null {
+    const joint = this.#above(thing).find(({ name }) => this.#leaders.has(name));
+    return this.#drives.find((drive) => drive.joint === joint) ?? null;
+  }
+
   /** The joints that a configuration of a chain lists, base to tip: those that move, a leader for what mimics it. */
   chain(base: string, tip: string): Joint[] {
-    const up = this.#above(base);
-    const down = this.#above(tip);
+    const up = this.#above(this.link(base));
+    const down = this.#above(this.link(tip));
     while (up.length && down.length && up.at(-1) === down.at(-1)) {
       up.pop();
       down.pop();
@@ -120,7 +165,7 @@ export class RobotModel {
     const middle = new Set(this.chain(base, tip).map((joint) => joint.name));
     return this.#each((joint) => {
       if (joint.lower === null || joint.upper === null) return 0;
-      return middle.has(joint.name) ? (joint.lower + joint.upper) / 2 : clamp(0, joint);
+      return middle.has(joint.name) ? (joint.lower + joint.upper) / 2 : within(0, joint);
     });
   }
 
@@ -154,10 +199,10 @@ export class RobotModel {
     return Object.fromEntries(this.joints.map((joint) => [joint.name, value(joint)]));
   }
 
-  /** The joints between a link and the root, from the link up. */
-  #above(link: string): URDFJoint[] {
+  /** The joints between a thing and the root, from the thing up. */
+  #above(thing: Object3D): URDFJoint[] {
     const found: URDFJoint[] = [];
-    for (let node: Object3D | null = this.link(link); node; node = node.parent) {
+    for (let node: Object3D | null = thing; node; node = node.parent) {
       if (node instanceof URDFJoint) found.push(node);
     }
     return found;
@@ -174,7 +219,8 @@ export function isBeyond(joint: Joint, value: number): boolean {
   return (joint.lower !== null && value < joint.lower) || (joint.upper !== null && value > joint.upper);
 }
 
-function clamp(value: number, joint: Joint): number {
+/** The position that a joint can have, nearest to a value. */
+export function within(value: number, joint: Joint): number {
   return Math.max(joint.lower ?? -Infinity, Math.min(joint.upper ?? Infinity, value));
 }
 

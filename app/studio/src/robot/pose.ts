@@ -2,16 +2,17 @@
 
 import { Matrix4, Quaternion, Vector3 } from "three";
 
+import { t } from "../texts/index.ts";
 import type { Pose, PoseFormat } from "../types.ts";
 
 export const FORMATS: readonly { format: PoseFormat; title: string }[] = [
-  { format: "quaternion_xyzw", title: "Quaternion xyzw" },
-  { format: "quaternion_wxyz", title: "Quaternion wxyz" },
-  { format: "rpy", title: "Roll pitch yaw" },
-  { format: "zyz", title: "Euler ZYZ" },
-  { format: "rotation_vector", title: "Rotation vector" },
-  { format: "rotation", title: "Rotation matrix" },
-  { format: "matrix", title: "Homogeneous" },
+  { format: "quaternion_xyzw", title: t("Quaternion xyzw") },
+  { format: "quaternion_wxyz", title: t("Quaternion wxyz") },
+  { format: "rpy", title: t("Roll pitch yaw") },
+  { format: "zyz", title: t("Euler ZYZ") },
+  { format: "rotation_vector", title: t("Rotation vector") },
+  { format: "rotation", title: t("Rotation matrix") },
+  { format: "matrix", title: t("Homogeneous") },
 ];
 
 export const IN_RADIANS: ReadonlySet<PoseFormat> = new Set(["rpy", "zyz", "rotation_vector"]);
@@ -81,8 +82,8 @@ export function asMatrix(pose: Pose | null | undefined): Matrix4 {
   if (pose.matrix) return T.set(...(pose.matrix.flat() as Parameters<Matrix4["set"]>));
   const [x = 0, y = 0, z = 0] = pose.position ?? [];
   if (pose.rotation) {
-    const [r, s, t] = pose.rotation as [number[], number[], number[]];
-    return T.set(...([...r, x, ...s, y, ...t, z, 0, 0, 0, 1] as Parameters<Matrix4["set"]>));
+    const [x_row, y_row, z_row] = pose.rotation as [number[], number[], number[]];
+    return T.set(...([...x_row, x, ...y_row, y, ...z_row, z, 0, 0, 0, 1] as Parameters<Matrix4["set"]>));
   }
   T.makeRotationFromQuaternion(asQuaternion(pose));
   return T.setPosition(x, y, z);

@@ -4,6 +4,7 @@ import { type Api, asProblem, Paced, type Problem } from "../api.ts";
 import { type ShownChain, shownChain } from "../robot/chain.ts";
 import type { State } from "../state.ts";
 import type { Store } from "../store.ts";
+import { t } from "../texts/index.ts";
 import type { CollisionAnswer, CollisionResult } from "../types.ts";
 import { type Scene, sceneField } from "./objects.ts";
 
@@ -19,13 +20,11 @@ export interface Contacts {
 
 /** The call that asks for it. */
 export function call(chain: ShownChain, scene: Scene): Record<string, unknown> {
-  const others = chain.model.joints.filter(({ name }) => !chain.joints.some((joint) => joint.name === name));
-  const elsewhere = others.map(({ name }) => [name, chain.positions[name] ?? 0] as const).filter(([, q]) => q !== 0);
   return {
     ...chain.ends,
     joint_positions: [chain.configuration],
     ...sceneField(scene),
-    ...(elsewhere.length ? { other_joints: Object.fromEntries(elsewhere) } : {}),
+    ...chain.others,
     clearance: true,
   };
 }
@@ -42,7 +41,7 @@ export function followContacts(store: Store<State>, api: Api): void {
       const all = inCollision ? (await ask({ pairs: "all" })).results[0]!.pairs : pairs;
       set({ pairs: all ?? [], inCollision, clearance: clearance ?? null, warnings: answer.warnings }, null);
     } catch (error) {
-      set(null, asProblem(error, "Contacts cannot be computed"));
+      set(null, asProblem(error, t("Contacts cannot be computed")));
     }
   });
   const set = (contacts: Contacts | null, refusal: Problem | null) => {

@@ -27,7 +27,7 @@ import { type MeshSource, meshSource } from "../robot/meshes.ts";
 import type { State } from "../state.ts";
 import type { Store } from "../store.ts";
 import type { SceneObject } from "../types.ts";
-import { fixed } from "../ui/quantity.ts";
+import { column, type Units, UNITS, withUnit } from "../ui/quantity.ts";
 import { colour } from "../view/colours.ts";
 import { clear, label, put, rod } from "../view/shapes.ts";
 import type { View } from "../view/view.ts";
@@ -47,7 +47,7 @@ export function showScene(view: View, store: Store<State>, api: Api): void {
   objects.name = "scene";
   touching.name = "contacts";
   view.scene.add(objects, touching);
-  store.watch(["scene", "contacts", "unit", "dark", "chosen", "model"], (state) => {
+  store.watch(["scene", "contacts", "unit", "dark", "chosen", "model", ...UNITS], (state) => {
     dispose(objects);
     for (const object of state.scene.objects) objects.add(drawn(object, state, fetched(state.scene.origin)));
     place(objects, state);
@@ -81,7 +81,7 @@ export function showScene(view: View, store: Store<State>, api: Api): void {
     };
   }
 
-  store.watch(["scene"], ({ scene }) => view.surround(extent(scene.objects)));
+  store.watch(["scene"], ({ scene }) => view.surround("scene", extent(scene.objects)));
 }
 
 /** An object, red while it is in contact. */
@@ -155,15 +155,21 @@ function place(group: Group, { scene, model }: Readonly<State>): void {
   }
 }
 
+/** To a tenth of a millimetre below a centimetre. */
+function distanceText(distance: number, units: Units): string {
+  return withUnit(column(distance, "length", units, Math.abs(distance) < 0.01 ? 4 : 3), "length", units);
+}
+
 /** The links in contact in red, and a line between the two points of each pair, with its length. */
-function marks({ pairs, inCollision }: Contacts, { unit, model }: Readonly<State>): Object3D[] {
+function marks({ pairs, inCollision }: Contacts, state: Readonly<State>): Object3D[] {
+  const { unit, model } = state;
   const found: Object3D[] = [];
   const tone = colour(inCollision ? "bad" : "accent");
   for (const { distance, point_a, point_b } of pairs.slice(0, 8)) {
     const [from, to] = [new Vector3().fromArray(point_a), new Vector3().fromArray(point_b)];
     const line = rod(from, to, unit * 0.03, tone);
     line.name = "nearest points";
-    const length = label(`${fixed(1000 * distance, Math.abs(distance) < 0.01 ? 1 : 0)} mm`, "distance");
+    const length = label(distanceText(distance, state), "distance");
     length.position.copy(from).lerp(to, 0.5);
     found.push(line, length);
     for (const end of from.distanceTo(to) < NEAR ? [from] : [from, to]) {

@@ -2,7 +2,9 @@
 
 import type { Matrix4 } from "three";
 
+import type { ShownChain } from "../robot/chain.ts";
 import { asMatrix, asPose, isPose } from "../robot/pose.ts";
+import { t } from "../texts/index.ts";
 import type { Scene as ApiScene, SceneObject } from "../types.ts";
 
 export type Shape = SceneObject["shape"];
@@ -20,14 +22,14 @@ export const EMPTY: Scene = { name: null, objects: [], origin: null };
 
 /** Shapes that can be added, and their sizes for a robot whose marks are so long, [m]. */
 export const ADDED: readonly { kind: Kind; text: string; shape: (unit: number) => Shape }[] = [
-  { kind: "box", text: "Box", shape: (u) => ({ type: "box", size: [2 * u, 2 * u, 2 * u].map(round) }) },
-  { kind: "sphere", text: "Sphere", shape: (u) => ({ type: "sphere", radius: round(u) }) },
+  { kind: "box", text: t("Box"), shape: (u) => ({ type: "box", size: [2 * u, 2 * u, 2 * u].map(round) }) },
+  { kind: "sphere", text: t("Sphere"), shape: (u) => ({ type: "sphere", radius: round(u) }) },
   {
     kind: "cylinder",
-    text: "Cylinder",
+    text: t("Cylinder"),
     shape: (u) => ({ type: "cylinder", radius: round(u / 2), length: round(4 * u) }),
   },
-  { kind: "half_space", text: "Floor", shape: () => ({ type: "half_space", normal: [0, 0, 1], offset: 0 }) },
+  { kind: "half_space", text: t("Floor"), shape: () => ({ type: "half_space", normal: [0, 0, 1], offset: 0 }) },
 ];
 
 /** The field `scene` of a call; nothing where there is no object. Files are read of a stored scene alone, so that for a
@@ -36,6 +38,15 @@ export function sceneField(scene: Scene): { scene?: string | ApiScene } {
   const { name, objects, origin } = scene;
   if (objects.length === 0) return {};
   return { scene: name ?? (filesOf(scene).length ? origin : null) ?? { objects: [...objects] } };
+}
+
+/** The fields of a call for what the arm must not touch: objects, and links that move with joints off its chain;
+ * nothing where there is no object. */
+export function surroundings(
+  scene: Scene,
+  others: ShownChain["others"],
+): ReturnType<typeof sceneField> & typeof others {
+  return scene.objects.length ? { ...sceneField(scene), ...others } : {};
 }
 
 /** Names of the files that the objects are read from. */

@@ -4,6 +4,7 @@ import { type Api, asProblem, Latest, Paced, Problem } from "../api.ts";
 import type { ShownChain } from "../robot/chain.ts";
 import type { State } from "../state.ts";
 import type { Store } from "../store.ts";
+import { t } from "../texts/index.ts";
 import type { SceneInfo, SceneList, SceneObject } from "../types.ts";
 import { call } from "./contacts.ts";
 import { changed, filesOf, type Scene } from "./objects.ts";
@@ -67,7 +68,7 @@ export async function withMesh(
     await api.call({ method: "DELETE", path: path(stored.name!) });
     throw error;
   }
-  rememberCopy(stored.name!);
+  rememberCopy(stored);
   return stored;
 }
 
@@ -82,7 +83,7 @@ export function followFiles(store: Store<State>, api: Api): void {
       else if (now.origin === scene.origin && now.name === null)
         store.set({ scene: { ...now, origin: stored.origin } });
     } catch (error) {
-      store.set({ refusal: asProblem(error, "This scene cannot be kept") });
+      store.set({ refusal: asProblem(error, t("This scene cannot be kept")) });
     }
   });
   store.watch(["scene"], ({ scene }) => {
@@ -93,12 +94,14 @@ export function followFiles(store: Store<State>, api: Api): void {
 
 async function updated(api: Api, scene: Scene): Promise<Scene> {
   const { origin, objects } = scene;
-  if (copies().includes(origin!)) {
+  // A copy whose file is no longer named would lose it; undo may name it again.
+  const isWhole = copies()[origin!]?.every((file) => filesOf(scene).includes(file));
+  if (isWhole) {
     await api.call({ method: "PUT", path: path(origin!), body: { objects } });
     return { name: origin, objects, origin };
   }
   const stored = await keepScene(api, copyName(scene), scene);
-  rememberCopy(stored.name!);
+  rememberCopy(stored);
   return stored;
 }
 
@@ -133,12 +136,13 @@ function copyName({ origin }: Scene): string {
   return `${base}.copy-${Math.random().toString(36).slice(2, 10)}`;
 }
 
-function copies(): string[] {
-  return JSON.parse(sessionStorage.getItem(COPIES) ?? "[]") as string[];
+/** The copies of this tab, with their files. */
+function copies(): Readonly<Record<string, readonly string[]>> {
+  return JSON.parse(sessionStorage.getItem(COPIES) ?? "{}") as Record<string, string[]>;
 }
 
-function rememberCopy(name: string): void {
-  sessionStorage.setItem(COPIES, JSON.stringify([...copies(), name]));
+function rememberCopy(scene: Scene): void {
+  sessionStorage.setItem(COPIES, JSON.stringify({ ...copies(), [scene.name!]: filesOf(scene) }));
 }
 
 /** Fetch the objects of a scene that an address names without them. */
@@ -149,7 +153,7 @@ export function followStored(store: Store<State>, api: Api): void {
     latest
       .run((signal) => storedScene(api, name, signal))
       .then((scene) => scene?.objects.length && store.set({ scene }))
-      .catch((error: unknown) => store.set({ refusal: asProblem(error, "This scene cannot be shown") }));
+      .catch((error: unknown) => store.set({ refusal: asProblem(error, t("This scene cannot be shown")) }));
   });
 }
 

@@ -1,5 +1,6 @@
 /** What the page asks or tells in front of everything else. */
 
+import { t } from "../texts/index.ts";
 import { button, element } from "./dom.ts";
 
 /** Ask for a key; null where it is left at that. */
@@ -11,7 +12,7 @@ export function askForKey(reason: string): Promise<string | null> {
       autocomplete: "off",
       spellcheck: "false",
       required: true,
-      "aria-label": "Key",
+      "aria-label": t("Key"),
     });
     let given: string | null = null;
     const use = (event: Event) => {
@@ -20,19 +21,19 @@ export function askForKey(reason: string): Promise<string | null> {
       shown.close();
     };
     const shown = dialog(
-      "This service wants a key",
+      t("This service wants a key"),
       () => done(given),
       element("p", {}, reason),
       element(
         "form",
         { onsubmit: use },
-        element("label", { class: "setting" }, element("span", { class: "field" }, "Key"), field),
-        element("p", { class: "muted small" }, "It is kept for this tab alone, and sent to this service alone."),
+        element("label", { class: "setting" }, element("span", { class: "field" }, t("Key")), field),
+        element("p", { class: "muted small" }, t("It is kept for this tab alone, and sent to this service alone.")),
         element(
           "div",
           { class: "bar" },
-          element("button", { type: "submit", class: "button primary" }, "Use it"),
-          button("Cancel", () => shown.close()),
+          element("button", { type: "submit", class: "button primary" }, t("Use it")),
+          button(t("Cancel"), () => shown.close()),
         ),
       ),
     );
@@ -55,7 +56,7 @@ export function confirmed(title: string, text: string, does: string): Promise<bo
       element(
         "div",
         { class: "bar" },
-        button("Cancel", close(false)),
+        button(t("Cancel"), close(false)),
         button(does, close(true), { class: "button danger" }),
       ),
     );
@@ -64,37 +65,62 @@ export function confirmed(title: string, text: string, does: string): Promise<bo
 
 const SHORTCUTS: readonly { where: string; keys: readonly (readonly [string, string])[] }[] = [
   {
-    where: "Anywhere",
+    where: t("Anywhere"),
     keys: [
-      ["?", "This list"],
-      ["Tab, Shift Tab", "To the next control, or the one before"],
-    ],
-  },
-  { where: "On the tabs", keys: [["← →", "The panel beside"]] },
-  {
-    where: "On the picture",
-    keys: [
-      ["← → ↑ ↓", "Turn"],
-      ["+ −", "Nearer, farther"],
-      ["Home", "The whole robot"],
+      ["?", t("This list")],
+      [t("Ctrl Z"), t("Undo; in a field, first what is being typed")],
+      [t("Ctrl Shift Z, Ctrl Y"), t("Redo")],
+      [t("Tab, Shift Tab"), t("To the next control, or the one before")],
     ],
   },
   {
-    where: "In a number",
+    where: t("While presenting"),
     keys: [
-      ["↑ ↓", "A step up or down, where it has steps; with Shift ten"],
-      ["Enter", "Take what is typed"],
-      ["Escape", "Forget what is typed"],
+      [t("Page Up, Page Down"), t("The panel before, the next one")],
+      ["H", t("Hide the panel, or show it")],
+      [t("Escape"), t("Leave")],
+    ],
+  },
+  { where: t("On the tabs"), keys: [["← →", t("The panel beside")]] },
+  {
+    where: t("On the picture"),
+    keys: [
+      ["← → ↑ ↓", t("Turn")],
+      ["+ −", t("Nearer, farther")],
+      [t("Home"), t("The whole robot")],
     ],
   },
   {
-    where: "On a slider",
+    where: t("In a number"),
     keys: [
-      ["← → ↑ ↓", "A hundredth of its range"],
-      ["Page Up, Page Down", "A tenth"],
+      ["↑ ↓", t("A step up or down, where it has steps; with Shift ten")],
+      [t("Enter"), t("Take what is typed")],
+      [t("Escape"), t("Forget what is typed")],
     ],
   },
-  { where: "On the time of a motion", keys: [["Space", "Play, pause"]] },
+  {
+    where: t("On a slider"),
+    keys: [
+      ["← → ↑ ↓", t("A hundredth of its range")],
+      [t("Page Up, Page Down"), t("A tenth")],
+    ],
+  },
+  {
+    where: t("On the construction of a DH table"),
+    keys: [
+      ["← →", t("A motion back, or on")],
+      [t("Home, End"), t("To the first frame, to the last")],
+      [t("Space"), t("Play, pause")],
+    ],
+  },
+  {
+    where: t("On the tour"),
+    keys: [
+      ["← →", t("A step back, or on")],
+      [t("Escape"), t("Leave")],
+    ],
+  },
+  { where: t("On the time of a motion"), keys: [[t("Space"), t("Play, pause")]] },
 ];
 
 /** What the keyboard does. */
@@ -107,13 +133,13 @@ export function showShortcuts(): void {
     ),
   ]);
   const shown = dialog(
-    "Keyboard",
+    t("Keyboard"),
     () => {},
     element("table", { class: "shortcuts" }, element("tbody", {}, ...rows)),
     element(
       "div",
       { class: "bar" },
-      button("Close", () => shown.close(), { class: "button primary" }),
+      button(t("Close"), () => shown.close(), { class: "button primary" }),
     ),
   );
 }

@@ -1,5 +1,7 @@
 /** Elements without a framework. Nothing is ever parsed as HTML, and styles are classes: the page's policy has it so. */
 
+import { info } from "./info.ts";
+
 type Child = Node | string | null | undefined | false;
 type Listener = (event: never) => void;
 type Properties = Record<string, string | number | boolean | null | undefined | Listener>;
@@ -22,9 +24,15 @@ export function element<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
-/** A titled part of a panel. */
+/** A title or label, and beside it what it means where it is a term of the field. */
+export function explained(made: HTMLElement, title: string): HTMLElement {
+  const explanation = info(title);
+  return explanation ? element("div", { class: "explained" }, made, explanation) : made;
+}
+
+/** A titled part of a panel, with what the title means. */
 export function section(title: string, ...children: Child[]): HTMLElement {
-  return element("section", { class: "section" }, element("h2", {}, title), ...children);
+  return element("section", { class: "section" }, explained(element("h2", {}, title), title), ...children);
 }
 
 /** A titled part with choices beside its title. */

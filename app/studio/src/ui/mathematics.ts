@@ -8,11 +8,17 @@ type Katex = typeof import("katex").default;
 let katex: Katex | null = null;
 let arrival: Promise<Katex> | null = null;
 
-/** A formula: at once, or as soon as KaTeX is there. */
-export function formula(latex: string, display = false): HTMLElement {
+/** Rows of matrices are this much further apart than KaTeX has them: as far where a row has a fraction or a root as where
+ * none has. `worked.css` has numbers beside them as far apart. */
+const MACROS = { "\\arraystretch": "1.1" };
+
+/** A formula: at once, or as soon as KaTeX is there; `made` is told then. */
+export function formula(latex: string, display = false, made: (host: HTMLElement) => void = () => {}): HTMLElement {
   const host = element(display ? "div" : "span", { class: display ? "formula display" : "formula" });
-  const set = (by: Katex) =>
-    by.render(latex, host, { displayMode: display, throwOnError: false, output: "htmlAndMathml" });
+  const set = (by: Katex): void => {
+    by.render(latex, host, { displayMode: display, throwOnError: false, output: "htmlAndMathml", macros: MACROS });
+    made(host);
+  };
   if (katex) {
     set(katex);
     return host;

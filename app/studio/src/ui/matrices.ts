@@ -1,5 +1,6 @@
 /** Matrices as text: as the page shows them, and as other programs read them. */
 
+import { t } from "../texts/index.ts";
 import { copyButton } from "./copy.ts";
 import { element } from "./dom.ts";
 import { fixed } from "./quantity.ts";
@@ -37,7 +38,7 @@ export function matrixText(rows: Rows, form: string): string {
 /** Buttons that copy a matrix, one for each form; nothing is copied while there is none. */
 export function matrixCopies(rows: () => Rows | null, what: string): HTMLElement {
   const made = Object.keys(WRITINGS).map((form) =>
-    copyButton(() => matrixText(rows() ?? [], form), `${what} as ${form}`, form),
+    copyButton(() => matrixText(rows() ?? [], form), t("{what} as {form}", { what, form }), form),
   );
-  return element("div", { class: "bar copies" }, element("span", { class: "muted small" }, "Copy as"), ...made);
+  return element("div", { class: "bar copies" }, element("span", { class: "muted small" }, t("Copy as")), ...made);
 }

@@ -1,16 +1,18 @@
 /** A field for a number: shows it rounded, edits it exactly, and says when what is typed is none. */
 
+import { t } from "../texts/index.ts";
 import { element } from "./dom.ts";
-import { exact, format, ifDegrees, type Kind, parse } from "./quantity.ts";
+import { exact, format, fromUnit, ifDegrees, inUnit, type Kind, parse, type Units } from "./quantity.ts";
 
-const PLAIN = "Write a number such as 0.35";
+const PLAIN = t("Write a number such as 0.35");
 const WRITE: Record<Kind, string> = { length: PLAIN, number: PLAIN, angle: "Write a number such as 0.35, pi/2 or 90°" };
 
 export interface NumberOptions {
   /** What a screen reader says. */
   label: string;
-  kind: Kind;
-  degrees: () => boolean;
+  /** What is typed; a function where that changes. */
+  kind: Kind | (() => Kind);
+  units: () => Units;
   decimals?: number;
   /** Whether an empty field is fine: it stands for null. */
   optional?: boolean;
@@ -60,14 +62,20 @@ export class NumberField {
     this.#write(document.activeElement === this.input ? exact : format);
   }
 
+  get #kind(): Kind {
+    const { kind } = this.options;
+    return typeof kind === "function" ? kind() : kind;
+  }
+
   fail(reason: string | null): void {
     this.input.setAttribute("aria-invalid", String(reason !== null));
     this.input.title = reason ?? "";
   }
 
   #write(how: typeof format): void {
-    const { kind, degrees, decimals } = this.options;
-    this.input.value = this.#value === null ? "" : how(this.#value, kind, degrees(), decimals);
+    const { units, decimals } = this.options;
+    this.input.dataset["kind"] = this.#kind;
+    this.input.value = this.#value === null ? "" : how(this.#value, this.#kind, units(), decimals);
   }
 
   #begin(): void {
@@ -102,9 +110,10 @@ export class NumberField {
     event.preventDefault();
     this.#isEdited = false;
     const sign = (event.key === "ArrowUp" ? 1 : -1) * (event.shiftKey ? 10 : 1);
-    const scale = this.options.kind === "angle" && this.options.degrees() ? 180 / Math.PI : 1;
+    const units = this.options.units();
     // Rounded as it is shown: without the dust of adding 0.1 and 0.2.
-    this.#value = Number(((value + sign * step.by) * scale).toPrecision(15)) / scale;
+    const shown = Number(inUnit(value + sign * step.by, this.#kind, units).toPrecision(15));
+    this.#value = fromUnit(shown, this.#kind, units);
     this.#write(exact);
     step.take(this.#value);
   }
@@ -124,13 +133,13 @@ export class NumberField {
 
   /** What is typed; undefined, with the reason at the field, where it is no number. */
   #read(): number | null | undefined {
-    const { kind, degrees, optional, invalid, doubt } = this.options;
+    const { units, optional, invalid, doubt } = this.options;
     const text = this.input.value;
-    const value = optional && text.trim() === "" ? null : parse(text, kind, degrees());
-    const reason = value === null && !(optional && text.trim() === "") ? WRITE[kind] : null;
+    const value = optional && text.trim() === "" ? null : parse(text, this.#kind, units());
+    const reason = value === null && !(optional && text.trim() === "") ? WRITE[this.#kind] : null;
     this.fail(reason);
     invalid?.(reason);
-    if (kind === "angle") doubt?.(ifDegrees(text, degrees()));
+    if (this.#kind === "angle") doubt?.(ifDegrees(text, units()));
     return reason === null ? value : undefined;
   }
 }

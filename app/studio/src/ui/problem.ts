@@ -1,6 +1,7 @@
 /** An error as it is shown: what is wrong in a sentence, and what can be done. */
 
 import { NO_ANSWER, type Problem } from "../api.ts";
+import { t } from "../texts/index.ts";
 import { element } from "./dom.ts";
 
 export class ProblemView {
@@ -22,13 +23,13 @@ export class ProblemView {
 }
 
 function whatToDo(problem: Problem): string | null {
-  if (problem.status === NO_ANSWER) return "Start it again with ./dev serve, then try again.";
+  if (problem.status === NO_ANSWER) return t("Start it again with ./dev serve, then try again.");
   const close = problem.facts["close"];
-  if (Array.isArray(close) && close.length) return `Similar names: ${close.join(", ")}.`;
-  if (problem.status === 404) return "It may have been removed. The Robot panel lists what there is.";
-  if (problem.status === 409) return "Choose another name.";
-  if (problem.status === 413) return "Leave out what is not needed, such as collision meshes.";
-  if (problem.status === 429 || problem.status === 503) return "Wait a moment, then try again.";
-  if (problem.status >= 500) return "The service's log tells more.";
+  if (Array.isArray(close) && close.length) return t("Similar names: {close}.", { close: close.join(", ") });
+  if (problem.status === 404) return t("It may have been removed. The Robot panel lists what there is.");
+  if (problem.status === 409) return t("Choose another name.");
+  if (problem.status === 413) return t("Leave out what is not needed, such as collision meshes.");
+  if (problem.status === 429 || problem.status === 503) return t("Wait a moment, then try again.");
+  if (problem.status >= 500) return t("The service's log tells more.");
   return null;
 }

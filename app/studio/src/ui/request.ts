@@ -1,6 +1,7 @@
 /** A call as a script: the next step after the page. */
 
 import type { Api, Call } from "../api.ts";
+import { t } from "../texts/index.ts";
 import { copyButton } from "./copy.ts";
 import { Choice, element } from "./dom.ts";
 
@@ -27,7 +28,7 @@ export class RequestView {
     what = "",
   ) {
     this.api = service.recorded((call) => this.show(call));
-    this.#choice = new Choice("Language", LANGUAGES, (language) => {
+    this.#choice = new Choice(t("Language"), LANGUAGES, (language) => {
       this.#language = language;
       this.#write();
     });
@@ -35,17 +36,17 @@ export class RequestView {
       "div",
       { class: "bar" },
       this.#choice.host,
-      copyButton(() => this.#code.textContent ?? "", "the request"),
+      copyButton(() => this.#code.textContent ?? "", t("the request")),
     );
     const code = element(
       "pre",
-      { tabindex: "0", role: "region", "aria-label": what ? `The request: ${what}` : "The request" },
+      { tabindex: "0", role: "region", "aria-label": what ? t("The request: {what}", { what }) : t("The request") },
       this.#code,
     );
     this.host = element(
       "details",
       { class: "request", hidden: true },
-      element("summary", {}, what ? `As request: ${what}` : "As request"),
+      element("summary", {}, what ? t("As request: {what}", { what }) : t("As request")),
       element("div", { class: "request-body" }, bar, code),
     );
   }

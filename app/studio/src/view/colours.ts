@@ -5,6 +5,7 @@ import { Color } from "three";
 export type Hue =
   | "view"
   | "grid"
+  | "shadow"
   | "grid-strong"
   | "line"
   | "field-line"
@@ -18,6 +19,7 @@ export type Hue =
   | "bad"
   | "dimension-a"
   | "dimension-d"
+  | "dimension-alpha"
   | `joint-${number}`;
 
 const probe = document.createElement("span");
@@ -32,4 +34,11 @@ export function colour(hue: Hue): Color {
 /** The same for what is drawn on a canvas. */
 export function paint(hue: Hue): string {
   return `#${colour(hue).getHexString()}`;
+}
+
+const JOINT_HUES = 8;
+
+/** The colour of a joint in plots, tables and pictures, by its place in the chain. */
+export function jointHue(index: number): `joint-${number}` {
+  return `joint-${(index % JOINT_HUES) + 1}`;
 }

@@ -4,6 +4,7 @@ import { Vector3 } from "three";
 
 import type { State } from "../state.ts";
 import type { Store } from "../store.ts";
+import { t } from "../texts/index.ts";
 import type { View } from "./view.ts";
 
 /** A point, in the world, [m]. */
@@ -17,9 +18,10 @@ export interface Look {
 /** From where the usual drawings of an arm are made, and what is to the right and up in them. */
 export const SIDES = [
   // A little from the front: straight from above there would be no telling what is to the right.
-  { text: "Top", title: "From above: x to the right, y up", from: new Vector3(0, -1e-3, 1).normalize() },
-  { text: "Front", title: "From the front: x to the right, z up", from: new Vector3(0, -1, 0) },
-  { text: "Side", title: "From the side: y to the right, z up", from: new Vector3(1, 0, 0) },
+  { text: t("Top"), title: t("From above: x to the right, y up"), from: new Vector3(0, -1e-3, 1).normalize() },
+  { text: t("Front"), title: t("From the front: x to the right, z up"), from: new Vector3(0, -1, 0) },
+  { text: t("Side"), title: t("From the side: y to the right, z up"), from: new Vector3(1, 0, 0) },
+  { text: t("Iso"), title: t("All three axes equally short"), from: new Vector3(1, -1, 1).normalize() },
 ] as const;
 const FARTHEST = 1e4; // m
 
@@ -38,6 +40,9 @@ export function followCamera(view: View, store: Store<State>): void {
     robot = state.robot;
     view.look(state.camera);
   });
+  // The table that dragging makes of a robot is still that robot to look at.
+  store.watch(["robot"], ({ robot: next }) => view.isDragged && (robot = next));
+  store.watch(["parallel"], ({ parallel }) => view.project(parallel));
   store.watch(["model"], (state) => {
     if (!state.model) return;
     view.show(state.model);

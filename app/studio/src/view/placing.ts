@@ -40,15 +40,17 @@ function overlap(a: Box, b: Box): boolean {
 
 const SHIFTS = new WeakMap<HTMLElement, Shift>();
 
-/** Place the labels of a host, whose transforms say where they belong: the short ones first, names of links last. */
+/** Place the labels of a host, whose transforms say where they belong: what is pointed at or differs first, then the short ones,
+ * names of links last. */
 export function arrange(host: HTMLElement): void {
   const labels = [...(host.children as HTMLCollectionOf<HTMLElement>)].flatMap((element) => {
     const { x, y, width, height } = element.getBoundingClientRect();
     const [dx, dy] = SHIFTS.get(element) ?? [0, 0];
-    const isLast = element.classList.contains("link");
-    return width > 0 ? [{ element, isLast, box: { x: x - dx, y: y - dy, width, height } }] : [];
+    const isFirst = element.classList.contains("lit") || element.classList.contains("apart");
+    const rank = Number(element.classList.contains("link")) - Number(isFirst);
+    return width > 0 ? [{ element, rank, box: { x: x - dx, y: y - dy, width, height } }] : [];
   });
-  labels.sort((a, b) => Number(a.isLast) - Number(b.isLast) || a.box.width - b.box.width);
+  labels.sort((a, b) => a.rank - b.rank || a.box.width - b.box.width);
   const shifts = placed(labels.map(({ box }) => box));
   for (const [i, { element }] of labels.entries()) {
     const shift = shifts[i] ?? [0, 0];

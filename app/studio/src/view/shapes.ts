@@ -26,8 +26,22 @@ const Y = new Vector3(0, 1, 0);
 const DIRECTIONS = { x: new Vector3(1, 0, 0), y: new Vector3(0, 1, 0), z: new Vector3(0, 0, 1) };
 
 /** Drawn over the robot, so that a link never hides the frame inside of it. */
-function overlay(tone: Color, opacity = 1): MeshBasicMaterial {
+export function overlay(tone: Color, opacity = 1): MeshBasicMaterial {
   return new MeshBasicMaterial({ color: tone, depthTest: false, transparent: true, opacity });
+}
+
+/** The head of an arrow, to be aimed. */
+export function head(tone: Color): Mesh {
+  const cone = new Mesh(TIP, overlay(tone));
+  cone.renderOrder = 11;
+  return cone;
+}
+
+/** Have a head end at a point and show in a direction of length 1. */
+export function aim(cone: Mesh, at: Vector3, direction: Vector3, length: number): void {
+  cone.quaternion.setFromUnitVectors(Y, direction);
+  cone.position.copy(at).addScaledVector(direction, -length);
+  cone.scale.set(length * 0.3, length, length * 0.3);
 }
 
 /** A straight rod between two points. */
@@ -51,13 +65,11 @@ export function stretch(mesh: Object3D, from: Vector3, to: Vector3, radius: numb
 /** An arrow from the origin along a direction. */
 export function arrow(direction: Vector3, length: number, radius: number, tone: Color): Group {
   const group = new Group();
-  const head = Math.min(length * 0.3, radius * 7);
-  const cone = new Mesh(TIP, overlay(tone));
-  cone.quaternion.setFromUnitVectors(Y, direction.clone().normalize());
-  cone.position.copy(direction).setLength(length - head);
-  cone.scale.set(radius * 2.6, head, radius * 2.6);
-  cone.renderOrder = 11;
-  group.add(rod(new Vector3(), direction.clone().setLength(length - head), radius, tone), cone);
+  const pointed = Math.min(length * 0.3, radius * 7);
+  const cone = head(tone);
+  aim(cone, direction.clone().setLength(length), direction.clone().normalize(), pointed);
+  cone.scale.set(radius * 2.6, pointed, radius * 2.6);
+  group.add(rod(new Vector3(), direction.clone().setLength(length - pointed), radius, tone), cone);
   return group;
 }
 

@@ -4,6 +4,7 @@ import { asPose, position } from "../../robot/pose.ts";
 import { placeOf, replaced, type Shape } from "../../scene/objects.ts";
 import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import { t } from "../../texts/index.ts";
 import type { SceneObject } from "../../types.ts";
 import { button, element } from "../../ui/dom.ts";
 import { NumberField } from "../../ui/number.ts";
@@ -37,7 +38,7 @@ function sizes({ type }: Shape): Row[] {
     case "box":
       return [
         {
-          title: "Size",
+          title: t("Size"),
           kind: "length",
           names: ["x", "y", "z"],
           read: ({ shape }) => (shape as { size: number[] }).size,
@@ -46,12 +47,12 @@ function sizes({ type }: Shape): Row[] {
       ];
     case "sphere":
     case "points":
-      return [one("radius", "Radius")];
+      return [one("radius", t("Radius"))];
     case "cylinder":
     case "capsule":
-      return [one("radius", "Radius"), one("length", "Length")];
+      return [one("radius", t("Radius")), one("length", t("Length"))];
     case "half_space":
-      return [one("offset", "Height")];
+      return [one("offset", t("Height"))];
     case "mesh":
     case "height_map":
       return [];
@@ -60,14 +61,14 @@ function sizes({ type }: Shape): Row[] {
 
 const PLACE: readonly Row[] = [
   {
-    title: "Position",
+    title: t("Position"),
     kind: "length",
     names: ["x", "y", "z"],
     read: (object) => position(placeOf(object)),
     write: (object, values) => posed(object, { ...place(object), position: values }),
   },
   {
-    title: "Orientation",
+    title: t("Orientation"),
     kind: "angle",
     names: ["roll", "pitch", "yaw"],
     read: (object) => place(object).rpy!,
@@ -75,7 +76,7 @@ const PLACE: readonly Row[] = [
   },
 ];
 const CLEARANCE: Row = {
-  title: "Clearance",
+  title: t("Clearance"),
   kind: "length",
   names: [""],
   read: ({ clearance }) => [clearance ?? 0],
@@ -86,21 +87,21 @@ export class ObjectFields {
   readonly host = element("div", { class: "target-rows" });
   #shown = "";
   #fields: { row: Row; fields: NumberField[]; unit: HTMLElement }[] = [];
-  #frame = element("select", { class: "select", "aria-label": "Attached to", onchange: () => this.#attach() });
+  #frame = element("select", { class: "select", "aria-label": t("Attached to"), onchange: () => this.#attach() });
 
   constructor(private readonly store: Store<State>) {}
 
   /** Show the object that is being edited, if one is. */
   show(): void {
     const object = chosenObject(this.store.value);
-    const { model, degrees } = this.store.value;
+    const { model } = this.store.value;
     const shown = object ? `${object.name} ${object.shape.type} ${model?.name}` : "";
     if (shown !== this.#shown) this.#build(object);
     this.#shown = shown;
     if (!object) return;
     this.#frame.value = object.attached_to ?? "";
     for (const { row, fields, unit } of this.#fields) {
-      unit.textContent = unitOf(row.kind, degrees);
+      unit.textContent = unitOf(row.kind, this.store.value);
       for (const [i, value] of row.read(object).entries()) fields[i]!.set(value);
     }
   }
@@ -112,14 +113,19 @@ export class ObjectFields {
     const places = object.shape.type === "half_space" ? [] : PLACE;
     for (const row of [...sizes(object.shape), ...places, CLEARANCE]) this.host.append(this.#row(row));
     const links = this.store.value.model?.links ?? [];
-    const rest = element("option", { value: "" }, "nothing: it is at rest");
+    const rest = element("option", { value: "" }, t("nothing: it is at rest"));
     this.#frame.replaceChildren(rest, ...links.map((link) => element("option", { value: link }, link)));
     this.host.append(
-      element("label", { class: "target-row" }, element("span", { class: "target-title" }, "Attached to"), this.#frame),
+      element(
+        "label",
+        { class: "target-row" },
+        element("span", { class: "target-title" }, t("Attached to")),
+        this.#frame,
+      ),
       element(
         "div",
         { class: "bar" },
-        button("Remove", () => this.#change(() => null), { class: "button danger" }),
+        button(t("Remove"), () => this.#change(() => null), { class: "button danger" }),
       ),
     );
   }
@@ -133,7 +139,7 @@ export class ObjectFields {
       return new NumberField({
         label: `${row.title} ${name}`.trim(),
         kind: row.kind,
-        degrees: () => this.store.value.degrees,
+        units: () => this.store.value,
         change: take,
         step: { by: row.kind === "length" ? 0.01 : Math.PI / 180, take },
       });

@@ -1,17 +1,16 @@
 /** Handles in the picture on the object that is being edited: they move it, or turn it. */
 
 import { Matrix4, Object3D } from "three";
-import { TransformControls } from "three/addons/controls/TransformControls.js";
+import type { TransformControls } from "three/addons/controls/TransformControls.js";
 
 import { moved, placeOf, replaced } from "../../scene/objects.ts";
 import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
 import type { SceneObject } from "../../types.ts";
 import { colour } from "../../view/colours.ts";
+import { handlesOn, withoutHandles } from "../../view/handles.ts";
 import { put } from "../../view/shapes.ts";
 import type { View } from "../../view/view.ts";
-
-const SIZE = 0.75;
 
 export class Handles {
   #controls: TransformControls;
@@ -22,17 +21,13 @@ export class Handles {
     private readonly view: View,
     private readonly store: Store<State>,
   ) {
-    this.#controls = new TransformControls(view.camera, view.canvas);
-    this.#controls.setSize(SIZE);
-    this.#controls.addEventListener("change", () => view.draw());
+    this.#controls = handlesOn(this.#handle, view);
     this.#controls.addEventListener("objectChange", () => this.#take());
     this.#controls.addEventListener("dragging-changed", ({ value }) => {
-      view.controls.enabled = !value;
+      view.isDragged = Boolean(value);
       if (!value) this.#place();
     });
     this.#handle.name = "object handle";
-    this.#controls.attach(this.#handle);
-    view.scene.add(this.#handle, this.#controls.getHelper());
     this.#stops = [
       store.watch(["dark"], () => this.#controls.setColors(colour("x"), colour("y"), colour("z"), colour("axis"))),
       store.watch(["model", "scene", "chosen", "positions"], () => this.#place()),
@@ -47,10 +42,7 @@ export class Handles {
 
   close(): void {
     for (const stop of this.#stops) stop();
-    this.view.controls.enabled = true;
-    this.view.scene.remove(this.#handle, this.#controls.getHelper());
-    this.#controls.dispose();
-    this.view.draw();
+    withoutHandles(this.#handle, this.#controls, this.view);
   }
 
   #place(): void {

@@ -7,9 +7,11 @@ import { shownChain } from "../../robot/chain.ts";
 import { call } from "../../scene/contacts.ts";
 import { ADDED, changed, EMPTY } from "../../scene/objects.ts";
 import { keepScene, sceneNames, storedScene } from "../../scene/stored.ts";
+import { t } from "../../texts/index.ts";
+import { word } from "../../texts/words.ts";
 import { button, Choice, element, section, titled } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
-import { fixed } from "../../ui/quantity.ts";
+import { column, UNITS, withUnit } from "../../ui/quantity.ts";
 import { RequestView } from "../../ui/request.ts";
 import { whileKept } from "../kept.ts";
 import type { Panel, Studio } from "../panel.ts";
@@ -19,7 +21,7 @@ import { inFront, meshAdder } from "./meshes.ts";
 
 export const cellPanel: Panel = {
   id: "cell",
-  title: "Cell",
+  title: t("Cell"),
   open: (host, studio) => whileKept(host, studio, () => open(host, studio)),
 };
 
@@ -32,25 +34,25 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const list = element("ul", { class: "objects" });
   const verdict = element("div", { class: "contacts", role: "status" });
   const problem = new ProblemView();
-  const edited = titled("Object", modes ? [modes] : [], fields.host);
+  const edited = titled(t("Object"), modes ? [modes] : [], fields.host);
   host.append(
     section(
-      "Scene",
+      t("Scene"),
       element("div", { class: "bar" }, ...adders(studio), meshAdder(studio, problem)),
       list,
       kept(studio, problem),
     ),
     edited,
-    section("Contact", verdict, problem.host),
+    section(t("Contact"), verdict, problem.host),
     request.host,
   );
   const stops = [
     store.watch(["scene", "chosen", "contacts"], () => list.replaceChildren(...entries(studio))),
-    store.watch(["scene", "chosen", "model", "degrees"], (state) => {
+    store.watch(["scene", "chosen", "model", ...UNITS], (state) => {
       edited.hidden = chosenObject(state) === null;
       fields.show();
     }),
-    store.watch(["contacts"], () => verdict.replaceChildren(...told(studio))),
+    store.watch(["contacts", ...UNITS], () => verdict.replaceChildren(...told(studio))),
     store.watch(["refusal"], ({ refusal }) => problem.show(refusal)),
     store.watch(["scene", "positions", "model", "base", "tip"], (state) => {
       const chain = shownChain(state);
@@ -86,7 +88,7 @@ function entries({ store }: Studio): HTMLElement[] {
       "aria-pressed": String(isChosen),
       "data-tone": touched.has(name) ? "bad" : null,
     });
-    const about = shape.type.replace("_", " ") + (frame ? `, on ${frame}` : "");
+    const about = frame ? t("{type}, on {frame}", { type: word(shape.type), frame }) : word(shape.type);
     entry.append(element("span", {}, name), element("span", { class: "muted small" }, about));
     return element("li", {}, entry);
   });
@@ -104,13 +106,13 @@ function kept({ store, api }: Studio, problem: ProblemView): HTMLElement {
   };
   const chosen = element("select", {
     class: "select",
-    "aria-label": "Stored scenes",
+    "aria-label": t("Stored scenes"),
     onchange: () => void guarded(async () => store.set({ scene: await storedScene(api, chosen.value), chosen: null })),
   });
-  const name = element("input", { class: "search", "aria-label": "Name of the scene", placeholder: "Name" });
+  const name = element("input", { class: "search", "aria-label": t("Name of the scene"), placeholder: t("Name") });
   const list = async () => {
     const names = await sceneNames(api);
-    const none = element("option", { value: "", disabled: true, selected: true }, "Stored scenes");
+    const none = element("option", { value: "", disabled: true, selected: true }, t("Stored scenes"));
     chosen.replaceChildren(none, ...names.map((each) => element("option", { value: each }, each)));
     const now = store.value.scene.name;
     if (now !== null && names.includes(now)) chosen.value = name.value = now;
@@ -125,17 +127,17 @@ function kept({ store, api }: Studio, problem: ProblemView): HTMLElement {
     { class: "bar stored" },
     chosen,
     name,
-    button("Store", () => void guarded(keep), { title: "Keep the scene under this name" }),
-    button("Clear", () => store.set({ scene: EMPTY, chosen: null }), { title: "Begin with an empty scene" }),
+    button(t("Store"), () => void guarded(keep), { title: t("Keep the scene under this name") }),
+    button(t("Clear"), () => store.set({ scene: EMPTY, chosen: null }), { title: t("Begin with an empty scene") }),
   );
 }
 
 function dragModes(handles: Handles): HTMLElement {
   const options = [
-    { value: "translate", text: "Move" },
-    { value: "rotate", text: "Turn" },
+    { value: "translate", text: t("Move") },
+    { value: "rotate", text: t("Turn") },
   ] as const;
-  const choice = new Choice<"translate" | "rotate">("Dragging in the picture", options, (mode) => {
+  const choice = new Choice<"translate" | "rotate">(t("Dragging in the picture"), options, (mode) => {
     handles.turnTo(mode);
     choice.show(mode);
   });
@@ -148,21 +150,16 @@ function told({ store }: Studio): HTMLElement[] {
   const { contacts } = store.value;
   if (!contacts) return [];
   const { pairs, inCollision, clearance, warnings } = contacts;
+  const length = (value: number) => withUnit(column(value, "length", store.value, 4), "length", store.value);
   const text = inCollision
-    ? "In contact"
+    ? t("In contact")
     : clearance === null
-      ? "Nothing can touch anything"
-      : `Free: ${fixed(1000 * clearance, 1)} mm to the nearest`;
+      ? t("Nothing can touch anything")
+      : t("Free: {clearance} to the nearest", { clearance: length(clearance) });
   const rows = pairs.map(({ a, b, distance }) =>
-    element(
-      "tr",
-      {},
-      element("td", {}, a),
-      element("td", {}, b),
-      element("td", { class: "value" }, `${fixed(1000 * distance, 1)} mm`),
-    ),
+    element("tr", {}, element("td", {}, a), element("td", {}, b), element("td", { class: "value" }, length(distance))),
   );
-  const titles = ["Of", "To", "Distance"].map((title) => element("th", { scope: "col" }, title));
+  const titles = [t("Of"), t("To"), t("Distance")].map((title) => element("th", { scope: "col" }, title));
   return [
     element("p", { class: "verdict-text", "data-tone": inCollision ? "bad" : "good" }, text),
     ...(rows.length

@@ -5,6 +5,7 @@ import { shownChain } from "../../robot/chain.ts";
 import { freeName, type Shape } from "../../scene/objects.ts";
 import { withMesh } from "../../scene/stored.ts";
 import type { State } from "../../state.ts";
+import { t } from "../../texts/index.ts";
 import type { SceneObject } from "../../types.ts";
 import { button, element } from "../../ui/dom.ts";
 import type { ProblemView } from "../../ui/problem.ts";
@@ -39,7 +40,7 @@ export function meshAdder({ store, api }: Studio, problem: ProblemView): HTMLBut
       store.set({ scene, chosen: scene.objects.at(-1)!.name });
     } catch (error) {
       const { status, detail, facts } = asProblem(error);
-      problem.show(new Problem(status, `${file.name} cannot be added`, detail, facts));
+      problem.show(new Problem(status, t("{name} cannot be added", { name: file.name }), detail, facts));
     } finally {
       made.disabled = false;
     }
@@ -54,8 +55,8 @@ export function meshAdder({ store, api }: Studio, problem: ProblemView): HTMLBut
       if (file) void add(file);
     },
   });
-  const made = button("Mesh …", () => picker.click(), {
-    title: "An STL, OBJ or DAE file in metres, chosen here or dropped anywhere on the page",
+  const made = button(t("Mesh …"), () => picker.click(), {
+    title: t("An STL, OBJ or DAE file in metres, chosen here or dropped anywhere on the page"),
   });
   if (waiting) void add(waiting);
   waiting = null;

@@ -1,7 +1,7 @@
 /** Answers as they are typed, as they travel, and as they are read. */
 
 import type { ExerciseField } from "../../types.ts";
-import { kindOfUnit, parse } from "../../ui/quantity.ts";
+import { kindOfUnit, parse, SI } from "../../ui/quantity.ts";
 
 /** What is typed, cell by cell: a row for each row of a matrix or table, and for each solution of a set. */
 export type Grid = string[][];
@@ -57,5 +57,5 @@ export function hasRows(shape: readonly number[]): boolean {
 
 function numberOf(text: string, unit: string): number | string {
   const bare = unit === "°" ? text.replace(/°\s*$/, "") : text;
-  return parse(bare, kindOfUnit(unit), false) ?? text.trim();
+  return parse(bare, kindOfUnit(unit), SI) ?? text.trim();
 }

@@ -1,5 +1,6 @@
 /** The exercises' parts: the list, an exercise, the pictures. */
 
+import { t } from "../../texts/index.ts";
 import type { Language } from "../../types.ts";
 import { Choice, element } from "../../ui/dom.ts";
 import { RequestView } from "../../ui/request.ts";
@@ -42,7 +43,7 @@ class Parts {
     private readonly panel: HTMLElement,
     private readonly studio: Studio,
   ) {
-    this.#languages = new Choice("Language", LANGUAGES, (language) => this.#go({ language }));
+    this.#languages = new Choice(t("Language"), LANGUAGES, (language) => this.#go({ language }));
     const spring = element("span", { class: "spring" });
     this.#head = element("div", { class: "section bar" }, spring, this.#languages.host);
     this.host = element("div", { class: "exercises" }, this.#title, this.#head);

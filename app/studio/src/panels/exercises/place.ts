@@ -2,6 +2,7 @@
 
 import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import { language as usual } from "../../texts/index.ts";
 import type { Language } from "../../types.ts";
 
 export interface Place {
@@ -32,7 +33,6 @@ export function seedOf(text: string): number | null {
 
 export function placeOf({ options }: Readonly<State>): Place {
   const given = (name: keyof Place) => options[PREFIX + name] ?? "";
-  const usual: Language = navigator.language.startsWith("de") ? "de" : "en";
   return {
     part: given("part") === "pictures" ? "pictures" : "tasks",
     language: (["en", "de"] as const).find((one) => one === given("language")) ?? usual,

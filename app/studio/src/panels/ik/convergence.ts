@@ -2,8 +2,10 @@
 
 import { asProblem, Latest } from "../../api.ts";
 import { shownChain } from "../../robot/chain.ts";
-import { DIRECTIONS, type InverseAnswer } from "../../types.ts";
+import { t } from "../../texts/index.ts";
+import { DIRECTIONS, type Errors, type InverseAnswer } from "../../types.ts";
 import { button, Choice, element, section } from "../../ui/dom.ts";
+import { inUnit, type Kind, type Units, unitOf } from "../../ui/quantity.ts";
 import { ProblemView } from "../../ui/problem.ts";
 import { Ghost } from "../../view/ghosts.ts";
 import type { Studio } from "../panel.ts";
@@ -42,31 +44,31 @@ export class Convergence {
     private readonly solver: Solver,
   ) {
     const rival = new Choice<Rival>(
-      "Against Newton",
+      t("Against Newton"),
       [
-        { value: "gradient", text: "Gradient" },
-        { value: "gradient_then_newton", text: "Gradient, then Newton" },
+        { value: "gradient", text: t("Gradient") },
+        { value: "gradient_then_newton", text: t("Gradient, then Newton") },
       ],
       (chosen) => this.#choose(() => rival.show((this.#rival = chosen))),
     );
     const start = new Choice<Start>(
-      "Start",
+      t("Start"),
       [
-        { value: "here", text: "This posture" },
-        { value: "middle", text: "Middle of ranges" },
+        { value: "here", text: t("This posture") },
+        { value: "middle", text: t("Middle of ranges") },
       ],
       (chosen) => this.#choose(() => start.show((this.#start = chosen))),
     );
     rival.show(this.#rival);
     start.show(this.#start);
-    this.#run = button("Compare", () => (this.#isBusy ? this.clear() : void this.#compare()));
-    this.#close = button("Close", () => this.clear(), { hidden: true });
+    this.#run = button(t("Compare"), () => (this.#isBusy ? this.clear() : void this.#compare()));
+    this.#close = button(t("Close"), () => this.clear(), { hidden: true });
     this.host = section(
-      "Newton against gradient",
+      t("Newton against gradient"),
       element(
         "div",
         { class: "bar" },
-        element("span", { class: "field ways-title" }, "Against"),
+        element("span", { class: "field ways-title" }, t("Against")),
         rival.host,
         spring(),
         this.#run,
@@ -74,7 +76,7 @@ export class Convergence {
       element(
         "div",
         { class: "bar" },
-        element("span", { class: "field ways-title" }, "From"),
+        element("span", { class: "field ways-title" }, t("From")),
         start.host,
         spring(),
         this.#close,
@@ -96,10 +98,11 @@ export class Convergence {
     this.solver.outcome.set({ isWalking: false });
   }
 
-  /** Draw anew, in the colours of now and with the meshes that are there. */
+  /** Draw anew, in the colours and units of now and with the meshes that are there. */
   draw(): void {
     if (this.#ways.length === 0) return;
-    this.#plot.show(this.#ways.flatMap((way) => curves(way, this.#task)));
+    this.#name();
+    this.#plot.show(this.#ways.flatMap((way) => curves(way, this.#task, this.studio.store.value)));
     this.#haunt();
     this.#show(this.#plot.at);
   }
@@ -144,28 +147,40 @@ export class Convergence {
     this.#ways = ways;
     this.#body.hidden = this.#close.hidden = false;
     this.#lines = ways.map((way) => ({ way, now: element("span", { class: "way-now" }) }));
-    this.#legend.replaceChildren(
-      ...this.#lines.map(({ way, now }) =>
-        element(
-          "li",
-          { class: `way ${way.method === "newton" ? "newton" : "rival"}`, "data-method": way.method },
-          element("span", {}, `${TITLES[way.method]} ${way.end}`, remainder(way, this.#task)),
-          now,
-        ),
-      ),
-      element("li", { class: "muted small" }, `${meaning(this.#task)} over the iterations`),
-    );
+    this.#name();
     this.solver.outcome.set({ isWalking: true });
     this.#plot.mark(0);
     this.draw();
     this.#stepper.load(Math.max(...ways.map(({ steps }) => steps.length - 1)));
   }
 
+  /** What the curves are, and where each way ends. */
+  #name(): void {
+    this.#legend.replaceChildren(
+      ...this.#lines.map(({ way, now }) =>
+        element(
+          "li",
+          { class: `way ${way.method === "newton" ? "newton" : "rival"}`, "data-method": way.method },
+          element("span", {}, `${TITLES[way.method]} ${way.end}`, remainder(way, this.#task, this.studio.store.value)),
+          now,
+        ),
+      ),
+      element(
+        "li",
+        { class: "muted small" },
+        t("{task} over the iterations", { task: meaning(this.#task, this.studio.store.value) }),
+      ),
+    );
+  }
+
   #show(index: number): void {
     this.#plot.mark(index);
     for (const { way, now } of this.#lines) {
       const step = stepAt(way, index);
-      now.textContent = `Iteration ${Math.min(index, way.steps.length - 1)}: ${errors(step, this.#task)} off`;
+      now.textContent = t("Iteration {index}: {step} off", {
+        index: Math.min(index, way.steps.length - 1),
+        step: errors(step, this.#task, this.studio.store.value),
+      });
       now.dataset["position"] = String(step.position_error);
       now.dataset["orientation"] = String(step.orientation_error);
     }
@@ -195,27 +210,29 @@ export class Convergence {
 
   #setBusy(isBusy: boolean): void {
     this.#isBusy = isBusy;
-    this.#run.textContent = isBusy ? "Cancel" : "Compare";
+    this.#run.textContent = isBusy ? t("Cancel") : t("Compare");
   }
 }
 
-function curves({ hue, steps }: Way, task: InverseAnswer["task"]): Curve[] {
+function curves({ hue, steps }: Way, task: InverseAnswer["task"], units: Units): Curve[] {
   const made: Curve[] = [];
-  if (hasPosition(task)) made.push({ hue, isDashed: false, values: steps.map((step) => step.position_error) });
-  if (hasOrientation(task)) made.push({ hue, isDashed: true, values: steps.map((step) => step.orientation_error) });
+  const values = (name: keyof Errors, kind: Kind) => steps.map((step) => inUnit(step[name], kind, units));
+  if (hasPosition(task)) made.push({ hue, isDashed: false, values: values("position_error", "length") });
+  if (hasOrientation(task)) made.push({ hue, isDashed: true, values: values("orientation_error", "angle") });
   return made;
 }
 
 /** What is left of the error where a way ends. */
-function remainder({ steps }: Way, task: InverseAnswer["task"]): string {
+function remainder({ steps }: Way, task: InverseAnswer["task"], units: Units): string {
   const last = steps.at(-1);
-  return last ? `, ${errors(last, task)} off at the end` : "";
+  return last ? t(", {last} off at the end", { last: errors(last, task, units) }) : "";
 }
 
-function meaning(task: InverseAnswer["task"]): string {
-  if (!hasOrientation(task)) return "Distance to the target [m]";
-  if (!hasPosition(task)) return "Angle to the target [rad], dashed,";
-  return "Distance [m] and, dashed, angle [rad] to the target";
+function meaning(task: InverseAnswer["task"], units: Units): string {
+  const [length, angle] = [unitOf("length", units), unitOf("angle", units)];
+  if (!hasOrientation(task)) return t("Distance to the target [{length}]", { length });
+  if (!hasPosition(task)) return t("Angle to the target [{angle}], dashed,", { angle });
+  return t("Distance [{length}] and, dashed, angle [{angle}] to the target", { length, angle });
 }
 
 function spring(): HTMLElement {

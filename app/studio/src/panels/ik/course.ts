@@ -3,6 +3,7 @@
 import { type ShownChain } from "../../robot/chain.ts";
 import { asMatrix } from "../../robot/pose.ts";
 import type { State } from "../../state.ts";
+import { t } from "../../texts/index.ts";
 import type { Direction, Errors, InverseAnswer, InverseMethod, Iteration, Pose } from "../../types.ts";
 import type { Hue } from "../../view/colours.ts";
 import { errorsOf } from "./errors.ts";
@@ -21,18 +22,18 @@ export interface Way {
 }
 
 export const TITLES: Record<CourseMethod, string> = {
-  newton: "Newton",
-  gradient: "Gradient",
-  gradient_then_newton: "Gradient, then Newton",
+  newton: t("Newton"),
+  gradient: t("Gradient"),
+  gradient_then_newton: t("Gradient, then Newton"),
 };
 const ENDS: Record<string, (count: string) => string> = {
-  converged: (count) => `converged after ${count}`,
-  stagnated: (count) => `stagnated after ${count}: no joint can make the error smaller`,
-  near_singular: (count) => `stopped near a singularity after ${count}`,
-  at_limits: (count) => `stopped at the limits of the joints after ${count}`,
-  diverged: (count) => `diverged after ${count}`,
-  time_limit: (count) => `ran out of time after ${count}`,
-  iterations: (count) => `not there after ${count}`,
+  converged: (count) => t("converged after {count}", { count }),
+  stagnated: (count) => t("stagnated after {count}: no joint can make the error smaller", { count }),
+  near_singular: (count) => t("stopped near a singularity after {count}", { count }),
+  at_limits: (count) => t("stopped at the limits of the joints after {count}", { count }),
+  diverged: (count) => t("diverged after {count}", { count }),
+  time_limit: (count) => t("ran out of time after {count}", { count }),
+  iterations: (count) => t("not there after {count}", { count }),
 };
 
 export function wayOf(
@@ -44,8 +45,9 @@ export function wayOf(
 ): Way {
   const { trace, stop_reason } = answer.results[0]!;
   const steps = withErrors(trace ?? [], answer, chain, state, target);
-  const count = steps.length === 2 ? "1 iteration" : `${Math.max(steps.length - 1, 0)} iterations`;
-  const end = ENDS[stop_reason ?? ""]?.(count) ?? `ended after ${count}`;
+  const count =
+    steps.length === 2 ? t("1 iteration") : t("{length} iterations", { length: Math.max(steps.length - 1, 0) });
+  const end = ENDS[stop_reason ?? ""]?.(count) ?? t("ended after {count}", { count });
   return { method, hue: method === "newton" ? "accent" : "dimension-a", joints: answer.joint_names, steps, end };
 }
 

@@ -4,7 +4,7 @@ import { type Matrix4, Vector3 } from "three";
 
 import { orientation } from "../../robot/pose.ts";
 import type { Direction, Errors } from "../../types.ts";
-import { fixed, scientific } from "../../ui/quantity.ts";
+import { fixed, inUnit, type Kind, scientific, type Units, withUnit } from "../../ui/quantity.ts";
 
 const ROTATIONS = ["rx", "ry", "rz"] as const;
 
@@ -30,10 +30,14 @@ function between(a: Vector3, b: Vector3): number {
 }
 
 /** Errors in words, as far as they count. */
-export function errors({ position_error, orientation_error }: Errors, task: readonly Direction[]): string {
+export function errors(
+  { position_error, orientation_error }: Errors,
+  task: readonly Direction[],
+  units: Units,
+): string {
   const parts: string[] = [];
-  if (hasPosition(task)) parts.push(`${written(position_error)} m`);
-  if (hasOrientation(task)) parts.push(`${written(orientation_error)} rad`);
+  if (hasPosition(task)) parts.push(written(position_error, "length", units));
+  if (hasOrientation(task)) parts.push(written(orientation_error, "angle", units));
   return parts.join(", ");
 }
 
@@ -45,6 +49,7 @@ export function hasOrientation(task: readonly Direction[]): boolean {
   return task.some((direction) => direction.startsWith("r"));
 }
 
-function written(value: number): string {
-  return value !== 0 && value < 1e-3 ? scientific(value) : fixed(value, 4);
+function written(error: number, kind: Kind, units: Units): string {
+  const value = inUnit(error, kind, units);
+  return withUnit(value !== 0 && value < 1e-3 ? scientific(value) : fixed(value, 4), kind, units);
 }

@@ -2,12 +2,17 @@
 
 import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import { t } from "../../texts/index.ts";
 import type { InverseResult, SolutionFamily } from "../../types.ts";
 import { element } from "../../ui/dom.ts";
 import { moved, type Outcome } from "./solver.ts";
 
 export class FamilyList {
-  readonly host = element("ul", { class: "solutions families", "aria-label": "Families of solutions", hidden: true });
+  readonly host = element("ul", {
+    class: "solutions families",
+    "aria-label": t("Families of solutions"),
+    hidden: true,
+  });
   #result: InverseResult | null = null;
 
   constructor(
@@ -32,7 +37,7 @@ export class FamilyList {
       max: sweep.length - 1,
       step: 1,
       value: 0,
-      "aria-label": `Go along: ${text}`,
+      "aria-label": t("Go along: {text}", { text }),
       oninput: () => this.#go(sweep[Number(slider.value)]!),
       onfocus: show(index),
       onblur: show(null),

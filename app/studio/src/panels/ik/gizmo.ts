@@ -1,7 +1,7 @@
 /** The target in the picture, to be dragged: along the base's axes, or about its own. */
 
 import { Object3D, Vector3 } from "three";
-import { TransformControls } from "three/addons/controls/TransformControls.js";
+import type { TransformControls } from "three/addons/controls/TransformControls.js";
 
 import { shownChain } from "../../robot/chain.ts";
 import { asMatrix, asPose, formatOf } from "../../robot/pose.ts";
@@ -9,13 +9,12 @@ import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
 import type { Direction, Pose } from "../../types.ts";
 import { colour } from "../../view/colours.ts";
+import { handlesOn, withoutHandles } from "../../view/handles.ts";
 import { put } from "../../view/shapes.ts";
 import type { View } from "../../view/view.ts";
 import { fullOptions } from "./call.ts";
 
 export type DragMode = "translate" | "rotate";
-
-const SIZE = 0.75;
 
 export interface GizmoEvents {
   dragged: (target: Pose) => void;
@@ -34,21 +33,17 @@ export class Gizmo {
     private readonly store: Store<State>,
     events: GizmoEvents,
   ) {
-    this.#controls = new TransformControls(view.camera, view.canvas);
+    this.#controls = handlesOn(this.#handle, view);
     this.#controls.setSpace("local");
-    this.#controls.setSize(SIZE);
-    this.#controls.addEventListener("change", () => view.draw());
     this.#controls.addEventListener("objectChange", () => events.dragged(this.#target()));
     this.#controls.addEventListener("dragging-changed", ({ value }) => {
-      view.controls.enabled = !value;
+      view.isDragged = Boolean(value);
       if (!value) {
         this.#place();
         events.dropped();
       }
     });
     this.#handle.name = "target handle";
-    this.#controls.attach(this.#handle);
-    view.scene.add(this.#handle, this.#controls.getHelper());
     this.#stops = [
       store.watch(["dark"], () => this.#controls.setColors(colour("x"), colour("y"), colour("z"), colour("axis"))),
       store.watch(["model", "base", "tip", "target", "inverse", "positions"], () => this.#place()),
@@ -75,10 +70,7 @@ export class Gizmo {
 
   close(): void {
     for (const stop of this.#stops) stop();
-    this.view.controls.enabled = true;
-    this.view.scene.remove(this.#handle, this.#controls.getHelper());
-    this.#controls.dispose();
-    this.view.draw();
+    withoutHandles(this.#handle, this.#controls, this.view);
   }
 
   /** Put the handles to the target, those of the directions that count. */

@@ -2,8 +2,10 @@
 
 import "../../styles/ik.css";
 
+import { t } from "../../texts/index.ts";
 import { button, section } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
+import { UNITS } from "../../ui/quantity.ts";
 import { RequestView } from "../../ui/request.ts";
 import { whileKept } from "../kept.ts";
 import type { Panel, Studio } from "../panel.ts";
@@ -18,7 +20,7 @@ import { Verdict } from "./verdict.ts";
 
 export const inversePanel: Panel = {
   id: "ik",
-  title: "Inverse",
+  title: t("Inverse"),
   open: (host, studio) => whileKept(host, studio, () => open(host, studio)),
 };
 
@@ -47,20 +49,21 @@ function solutionsPart({ store, view }: Studio, solver: Solver): Part {
   const { outcome } = solver;
   const options = new OptionFields(store, () => void solver.solve());
   const problem = new ProblemView();
-  const repair = button("Make it a rotation", () => straighten(store), { hidden: true });
+  const repair = button(t("Make it a rotation"), () => straighten(store), { hidden: true });
   const verdict = new Verdict(store, solver);
   const list = new SolutionList(store, outcome);
   const families = new FamilyList(store, outcome);
   const picture = view && new Picture(view, store, outcome);
   const stops = [
     store.watch(["model", "base", "tip", "target", "inverse", "scene"], ({ target }) => {
-      if (target && !outcome.value.isFollowing) void solver.solve();
+      if (target && !solver.isAfter(target)) void solver.solve();
     }),
-    store.watch(["model", "base", "tip", "inverse", "degrees"], (state) => options.show(state)),
-    store.watch(["positions", "degrees"], () => {
+    store.watch(["model", "base", "tip", "inverse", ...UNITS], (state) => options.show(state)),
+    store.watch(["positions", ...UNITS], () => {
       list.show();
       verdict.follow();
     }),
+    store.watch(UNITS, () => verdict.show()),
     outcome.watch(["result"], () => {
       list.show();
       families.show();
@@ -74,7 +77,7 @@ function solutionsPart({ store, view }: Studio, solver: Solver): Part {
     () => picture?.close(),
   ];
   return {
-    host: section("Solutions", options.host, problem.host, repair, verdict.host, families.host, list.host),
+    host: section(t("Solutions"), options.host, problem.host, repair, verdict.host, families.host, list.host),
     close: () => stops.forEach((stop) => stop()),
   };
 }
@@ -83,7 +86,7 @@ function convergencePart(studio: Studio, solver: Solver): Part {
   const convergence = new Convergence(studio, solver);
   const stops = [
     studio.store.watch(["model", "base", "tip", "target", "inverse"], () => convergence.clear()),
-    studio.store.watch(["dark", "meshes"], () => convergence.draw()),
+    studio.store.watch(["dark", "meshes", ...UNITS], () => convergence.draw()),
     () => convergence.clear(),
   ];
   return { host: convergence.host, close: () => stops.forEach((stop) => stop()) };

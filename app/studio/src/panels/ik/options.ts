@@ -3,28 +3,32 @@
 import { shownChain } from "../../robot/chain.ts";
 import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import { t } from "../../texts/index.ts";
 import { DIRECTIONS, type Direction, type InverseMethod, type InverseOptions } from "../../types.ts";
-import { button, Choice, element, toggle } from "../../ui/dom.ts";
+import { button, Choice, element, explained, toggle } from "../../ui/dom.ts";
 import { NumberField } from "../../ui/number.ts";
-import { type Kind, unitOf } from "../../ui/quantity.ts";
+import { format, type Kind, unitOf } from "../../ui/quantity.ts";
 import { findsAll, fullOptions } from "./call.ts";
 
 const METHODS: readonly { value: InverseMethod; text: string }[] = [
-  { value: "auto", text: "Automatic" },
-  { value: "analytic", text: "Closed form" },
-  { value: "newton", text: "Newton" },
-  { value: "gradient", text: "Gradient" },
-  { value: "gradient_then_newton", text: "Gradient, then Newton" },
-  { value: "damped_least_squares", text: "Damped least squares" },
+  { value: "auto", text: t("Automatic") },
+  { value: "analytic", text: t("Closed form") },
+  { value: "newton", text: t("Newton") },
+  { value: "gradient", text: t("Gradient") },
+  { value: "gradient_then_newton", text: t("Gradient, then Newton") },
+  { value: "damped_least_squares", text: t("Damped least squares") },
 ];
 const MEANINGS: Record<Direction, string> = {
-  x: "Position along the base's x axis",
-  y: "Position along the base's y axis",
-  z: "Position along the base's z axis",
-  rx: "Rotation about the target's x axis",
-  ry: "Rotation about the target's y axis",
-  rz: "Rotation about the target's z axis",
+  x: t("Position along the base's x axis"),
+  y: t("Position along the base's y axis"),
+  z: t("Position along the base's z axis"),
+  rx: t("Rotation about the target's x axis"),
+  ry: t("Rotation about the target's y axis"),
+  rz: t("Rotation about the target's z axis"),
 };
+
+/** Of position [m] and of orientation [rad]. */
+const USUAL_TOLERANCE = 1e-6;
 
 export class OptionFields {
   readonly host: HTMLElement;
@@ -34,7 +38,8 @@ export class OptionFields {
   #directions = new Map<Direction, HTMLButtonElement>();
   #position: NumberField;
   #orientation: NumberField;
-  #unit = element("span", { class: "unit" });
+  #folded: HTMLDetailsElement;
+  #units = [element("span", { class: "unit" }), element("span", { class: "unit" })] as const;
 
   /** @param solve again, from the posture on the screen. */
   constructor(
@@ -42,10 +47,10 @@ export class OptionFields {
     solve: () => void,
   ) {
     this.#count = new Choice(
-      "How many solutions",
+      t("How many solutions"),
       [
-        { value: "one", text: "One" },
-        { value: "all", text: "All" },
+        { value: "one", text: t("One") },
+        { value: "all", text: t("All") },
       ],
       (solutions) => this.#set({ solutions }),
     );
@@ -53,48 +58,62 @@ export class OptionFields {
       "select",
       {
         class: "select",
-        "aria-label": "Method",
+        "aria-label": t("Method"),
         onchange: () => this.#set({ method: this.#method.value as InverseMethod }),
       },
       ...METHODS.map(({ value, text }) => element("option", { value }, text)),
     );
-    this.#limits = toggle("Within limits", "Whether solutions must be within the limits of the joints", () =>
+    this.#limits = toggle(t("Within limits"), t("Whether solutions must be within the limits of the joints"), () =>
       this.#set({ respect_limits: !this.#now().respect_limits }),
     );
     for (const direction of DIRECTIONS) {
       const flip = () => this.#flip(direction);
       this.#directions.set(direction, toggle(direction, MEANINGS[direction], flip));
     }
-    this.#position = this.#tolerance("Position tolerance", "length", "position_tolerance");
-    this.#orientation = this.#tolerance("Orientation tolerance", "angle", "orientation_tolerance");
+    this.#position = this.#tolerance(t("Position tolerance"), "length", "position_tolerance");
+    this.#orientation = this.#tolerance(t("Orientation tolerance"), "angle", "orientation_tolerance");
     this.host = element(
       "div",
       { class: "ik-options" },
-      element("div", { class: "bar" }, this.#count.host, this.#method, this.#limits),
       element(
         "div",
-        { class: "bar", role: "group", "aria-label": "Directions that count" },
-        element("span", { class: "field" }, "Counts"),
-        ...this.#directions.values(),
-      ),
-      element(
-        "div",
-        { class: "bar tolerances" },
-        element("span", { class: "field" }, "Tolerances"),
-        this.#position.input,
-        element("span", { class: "unit" }, "m"),
-        this.#orientation.input,
-        this.#unit,
+        { class: "bar" },
+        this.#count.host,
+        this.#method,
+        this.#limits,
         element("span", { class: "spring" }),
-        button("Solve again", solve, { title: "Once more, from the posture on the screen" }),
+        button(t("Solve again"), solve, { title: t("Once more, from the posture on the screen") }),
       ),
+      (this.#folded = element(
+        "details",
+        {},
+        element("summary", {}, t("Directions and tolerances")),
+        element(
+          "div",
+          { class: "bar", role: "group", "aria-label": t("Directions that count") },
+          explained(element("span", { class: "field" }, t("Counts")), t("Counts")),
+          ...this.#directions.values(),
+        ),
+        element(
+          "div",
+          { class: "bar tolerances" },
+          explained(element("span", { class: "field" }, t("Tolerances")), t("Tolerances")),
+          this.#position.input,
+          this.#units[0],
+          this.#orientation.input,
+          this.#units[1],
+        ),
+      )),
     );
   }
 
-  show({ inverse, degrees }: Readonly<State>): void {
+  show(state: Readonly<State>): void {
+    const { inverse } = state;
     const { solutions, method, respect_limits, task } = this.#now();
+    // What is not as usual is not hidden.
+    this.#folded.open ||= Boolean(inverse?.task ?? inverse?.position_tolerance ?? inverse?.orientation_tolerance);
     this.#count.show(solutions);
-    this.#count.allow("all", findsAll(method) ? null : "This method follows one start to one solution");
+    this.#count.allow("all", findsAll(method) ? null : t("This method follows one start to one solution"));
     this.#method.value = method;
     this.#limits.setAttribute("aria-pressed", String(respect_limits));
     for (const [direction, made] of this.#directions) {
@@ -102,8 +121,11 @@ export class OptionFields {
     }
     this.#position.set(inverse?.position_tolerance ?? null);
     this.#orientation.set(inverse?.orientation_tolerance ?? null);
-    this.#unit.textContent = unitOf("angle", degrees);
-    this.#orientation.input.placeholder = degrees ? "0.00006" : "0.000001";
+    for (const [i, field] of [this.#position, this.#orientation].entries()) {
+      const kind = i ? "angle" : "length";
+      this.#units[i]!.textContent = unitOf(kind, state);
+      field.input.placeholder = format(USUAL_TOLERANCE, kind, state, 7);
+    }
   }
 
   #now() {
@@ -122,10 +144,10 @@ export class OptionFields {
   }
 
   #tolerance(label: string, kind: Kind, key: "position_tolerance" | "orientation_tolerance"): NumberField {
-    const field = new NumberField({
+    return new NumberField({
       label,
       kind,
-      degrees: () => this.store.value.degrees,
+      units: () => this.store.value,
       decimals: 14,
       optional: true,
       change: (value) => {
@@ -133,7 +155,5 @@ export class OptionFields {
         this.store.set({ inverse: value === null ? others : { ...others, [key]: value } });
       },
     });
-    field.input.placeholder = "0.000001";
-    return field;
   }
 }

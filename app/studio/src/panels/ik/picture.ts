@@ -6,6 +6,7 @@ import { type ShownChain, shownChain } from "../../robot/chain.ts";
 import { asMatrix } from "../../robot/pose.ts";
 import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import { jointHue } from "../../view/colours.ts";
 import { Ghost } from "../../view/ghosts.ts";
 import { clear, put, triad } from "../../view/shapes.ts";
 import type { View } from "../../view/view.ts";
@@ -74,7 +75,7 @@ export class Picture {
     if (chain && result && !isWalking) {
       if (!isFollowing) for (const i of result.solutions.slice(0, MOST_GHOSTS).keys()) this.#add(chain, i);
       if (result.nearest) {
-        this.#nearest = new Ghost(chain.model, chain.joints, "bad", NEAREST);
+        this.#nearest = new Ghost(chain.model, chain.joints, "bad", NEAREST, "nearest");
         this.#nearest.group.name = "nearest";
         this.#place(this.#nearest, result.nearest.joint_positions);
       }
@@ -90,7 +91,7 @@ export class Picture {
   }
 
   #add(chain: ShownChain, index: number): void {
-    const ghost = new Ghost(chain.model, chain.joints, "accent", USUAL);
+    const ghost = new Ghost(chain.model, chain.joints, jointHue(index), USUAL, String(index + 1));
     ghost.group.name = `ghost ${index}`;
     this.#ghosts.set(index, ghost);
     this.#place(ghost, this.outcome.value.result!.solutions[index]!.joint_positions);
@@ -99,7 +100,7 @@ export class Picture {
   #place(ghost: Ghost, values: readonly number[]): void {
     const { positions } = this.store.value;
     ghost.place(moved(this.store.value, this.outcome.value.answer!.joint_names, values), positions);
-    this.#group.add(ghost.group);
+    this.#group.add(ghost.group, ghost.label);
   }
 
   /** The family that is pointed at, as ghosts all along it, in the place of those of the solutions. */
@@ -129,14 +130,13 @@ export class Picture {
       for (const [index, ghost] of this.#ghosts) {
         const isPointed = index === pointed;
         ghost.paint(
-          result.solutions[index]!.in_collision ? "bad" : "accent",
+          result.solutions[index]!.in_collision ? "bad" : jointHue(index),
           isPointed ? POINTED : pointed === null ? USUAL : FAINT,
         );
         const isHere = distance(chain, result.solutions[index]!.joint_positions) < SAME;
-        ghost.group.visible = !isHere && (isPointed || (isShown && index < MOST_GHOSTS));
+        ghost.show(!isHere && (isPointed || (isShown && index < MOST_GHOSTS)));
       }
-      if (this.#nearest && result.nearest)
-        this.#nearest.group.visible = distance(chain, result.nearest.joint_positions) > SAME;
+      if (this.#nearest && result.nearest) this.#nearest.show(distance(chain, result.nearest.joint_positions) > SAME);
     }
     this.view.draw();
   }

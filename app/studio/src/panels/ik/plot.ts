@@ -3,7 +3,9 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 
+import { t } from "../../texts/index.ts";
 import { element } from "../../ui/dom.ts";
+import { leftIn } from "../../ui/pointer.ts";
 import { type Hue, paint } from "../../view/colours.ts";
 
 const HEIGHT = 208;
@@ -18,7 +20,7 @@ export interface Curve {
 }
 
 export class ErrorPlot {
-  readonly host = element("div", { class: "errors-plot", role: "img", "aria-label": "Errors over iterations" });
+  readonly host = element("div", { class: "errors-plot", role: "img", "aria-label": t("Errors over iterations") });
   #plot: uPlot | null = null;
   #at = 0;
   #now = element("span", { class: "errors-now" });
@@ -53,7 +55,8 @@ export class ErrorPlot {
   }
 
   #scrub(event: PointerEvent): void {
-    this.choose(Math.round(this.#plot!.posToVal(event.offsetX, "x")));
+    const { over, posToVal } = this.#plot!;
+    this.choose(Math.round(posToVal(leftIn(over, event), "x")));
   }
 }
 

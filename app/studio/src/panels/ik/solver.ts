@@ -2,7 +2,7 @@
 
 import { type Api, asProblem, Latest, type Problem } from "../../api.ts";
 import { type ShownChain, shownChain } from "../../robot/chain.ts";
-import { sceneField } from "../../scene/objects.ts";
+import { surroundings } from "../../scene/objects.ts";
 import type { State } from "../../state.ts";
 import { Store } from "../../store.ts";
 import type { InverseAnswer, InverseResult, Pose } from "../../types.ts";
@@ -42,14 +42,23 @@ export class Solver {
   readonly outcome = new Store<Outcome>(NOTHING);
   #latest = new Latest();
   #isChasing = false;
-  #hasMoved = false;
+  /** Where the target has been moved to since the last call. */
+  #moved: Pose | null = null;
   #isAtRest = false;
   #timer = 0;
+  #followed: Pose | null = null;
+  /** The answer that is being waited for while the target moves, until the robot has it. */
+  #round: Promise<void> = Promise.resolve();
 
   constructor(
     private readonly api: Api,
     private readonly store: Store<State>,
   ) {}
+
+  /** Whether the robot is being brought after this very target. */
+  isAfter(target: Pose): boolean {
+    return this.outcome.value.isFollowing && target === this.#followed;
+  }
 
   /** Solve the target as wanted, from the posture on the screen. */
   async solve(): Promise<void> {
@@ -58,14 +67,17 @@ export class Solver {
     await this.#ask((options) => options);
   }
 
-  /** Bring the robot after a target that is being moved, until `rest`. */
-  follow(target: Pose): void {
+  /** Bring the robot after a target that is being moved, until `rest`; resolves when it has come one step nearer. */
+  follow(target: Pose): Promise<void> {
     clearTimeout(this.#timer);
     this.outcome.set({ isFollowing: true });
-    this.#hasMoved = true;
+    this.#moved = target;
     this.#isAtRest = false;
-    this.store.set({ target });
+    this.#followed = target;
+    // Asked first: while the service computes there is time to show the target.
     void this.#chase();
+    this.store.set({ target });
+    return this.#round;
   }
 
   /** The target stays where it is, or does if it is not moved for a while: solve it as wanted when the robot is there. */
@@ -85,7 +97,7 @@ export class Solver {
 
   #stop(): void {
     clearTimeout(this.#timer);
-    this.#hasMoved = false;
+    this.#moved = null;
     this.#isAtRest = false;
   }
 
@@ -99,31 +111,33 @@ export class Solver {
   async #chase(): Promise<void> {
     if (this.#isChasing) return;
     this.#isChasing = true;
-    while (this.#hasMoved) {
-      this.#hasMoved = false;
-      await this.#ask((options) => ({ ...options, solutions: "one" }));
-      if (this.outcome.value.isFollowing) this.#take();
+    while (this.#moved) {
+      const target = this.#moved;
+      this.#moved = null;
+      this.#round = this.#ask((options) => ({ ...options, solutions: "one" }), target).then(() => this.#take());
+      await this.#round;
     }
     this.#isChasing = false;
     if (this.#isAtRest) await this.solve();
   }
 
   #take(): void {
-    const { answer, result } = this.outcome.value;
+    const { answer, result, isFollowing } = this.outcome.value;
     const found = result?.solutions[0];
-    if (answer && found)
+    if (isFollowing && answer && found)
       this.store.set({ positions: moved(this.store.value, answer.joint_names, found.joint_positions) });
   }
 
-  async #ask(change: (options: FullOptions) => FullOptions): Promise<void> {
+  async #ask(change: (options: FullOptions) => FullOptions, target = this.store.value.target): Promise<void> {
     const state = this.store.value;
     const chain = shownChain(state);
-    if (!chain?.path || !state.target) return;
+    if (!chain?.path || !target) return;
     const options = change(fullOptions(state.inverse, chain.joints.length));
-    const call = { ...inverseCall(chain, state.target, options), ...sceneField(state.scene) };
+    const call = { ...inverseCall(chain, target, options), ...surroundings(state.scene, chain.others) };
+    const asked = this.#latest.run((signal) => this.#post(chain, call, signal));
     this.outcome.set({ isBusy: true, isCancelled: false });
     try {
-      const answer = await this.#latest.run((signal) => this.#post(chain, call, signal));
+      const answer = await asked;
       const found = { problem: null, isBusy: false, pointed: null, swept: null };
       if (answer) this.outcome.set({ answer, result: answer.results[0]!, ...found });
     } catch (error) {

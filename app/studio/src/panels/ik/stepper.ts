@@ -1,5 +1,6 @@
 /** Walks along iterations: play, step, scrub. */
 
+import { t } from "../../texts/index.ts";
 import { button, element } from "../../ui/dom.ts";
 
 const TICK = 120; // ms
@@ -21,16 +22,16 @@ export class Stepper {
       type: "range",
       min: 0,
       step: 1,
-      "aria-label": "Iteration",
+      "aria-label": t("Iteration"),
       oninput: () => this.go(Number(this.#slider.value)),
     });
-    this.#play = button("Play", () => (this.#timer ? this.pause() : this.#start()), { class: "button" });
+    this.#play = button(t("Play"), () => (this.#timer ? this.pause() : this.#start()), { class: "button" });
     this.host = element(
       "div",
       { class: "stepper slide" },
       this.#play,
-      button("−", () => this.go(this.#at - 1), { class: "button", "aria-label": "− one iteration" }),
-      button("+", () => this.go(this.#at + 1), { class: "button", "aria-label": "+ one iteration" }),
+      button("−", () => this.go(this.#at - 1), { class: "button", "aria-label": t("− one iteration") }),
+      button("+", () => this.go(this.#at + 1), { class: "button", "aria-label": t("+ one iteration") }),
       this.#slider,
       this.#count,
     );
@@ -53,12 +54,12 @@ export class Stepper {
   pause(): void {
     clearInterval(this.#timer);
     this.#timer = 0;
-    this.#play.textContent = "Play";
+    this.#play.textContent = t("Play");
   }
 
   #start(): void {
     if (this.#at >= this.#last) this.#put(0);
-    this.#play.textContent = "Pause";
+    this.#play.textContent = t("Pause");
     this.#timer = window.setInterval(() => {
       this.#put(this.#at + Math.max(1, Math.round(this.#at * HASTE)));
       if (this.#at >= this.#last) this.pause();
@@ -68,7 +69,7 @@ export class Stepper {
   #put(index: number): void {
     this.#at = Math.max(0, Math.min(this.#last, index));
     this.#slider.value = String(this.#at);
-    this.#count.textContent = `${this.#at} of ${this.#last}`;
+    this.#count.textContent = t("{at} of {last}", { at: this.#at, last: this.#last });
     this.show(this.#at);
   }
 }

@@ -2,14 +2,16 @@
 
 import type { Matrix4 } from "three";
 
-import { prefer } from "../../prefs.ts";
 import { shownChain } from "../../robot/chain.ts";
 import { asPose, formatOf, straightened } from "../../robot/pose.ts";
 import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import { t } from "../../texts/index.ts";
 import type { Pose } from "../../types.ts";
 import { button, Choice, element, section } from "../../ui/dom.ts";
+import { UNITS } from "../../ui/quantity.ts";
 import type { Studio } from "../panel.ts";
+import { UnitChoices } from "../units.ts";
 import { TargetFields } from "./fields.ts";
 import { type DragMode, Gizmo } from "./gizmo.ts";
 import type { Part } from "./index.ts";
@@ -19,42 +21,41 @@ const REST = 350; // ms after the last key that moved the target
 
 export function targetPart(studio: Studio, solver: Solver): Part {
   const { store, view } = studio;
+  const follow = (target: Pose): void => {
+    const answer = solver.follow(target);
+    view?.hold(answer);
+  };
   const fields = new TargetFields({
     typed: (target) => store.set({ target }),
     nudged: (target) => {
-      solver.follow(target);
+      follow(target);
       solver.rest(REST);
     },
-    degrees: () => store.value.degrees,
+    units: () => store.value,
   });
-  const drag = { dragged: (target: Pose) => solver.follow(target), dropped: () => solver.rest() };
+  const drag = { dragged: follow, dropped: () => solver.rest() };
   const gizmo = view && new Gizmo(view, store, drag);
-  const unit = new Choice(
-    "Unit of angles",
-    [
-      { value: "rad", text: "rad" },
-      { value: "deg", text: "deg" },
-    ],
-    (chosen) => prefer(store, { degrees: chosen === "deg" }),
-  );
+  const units = new UnitChoices(store);
   const modes = gizmo && dragModes(gizmo);
   const spring = element("span", { class: "spring" });
   const hint = element(
     "p",
-    { class: "muted small", title: "1 cm or 1° at a time, ten times as much with Shift" },
-    `${gizmo ? "Drag it in the picture, or press" : "Press"} ↑ or ↓ in a field: the robot follows.`,
+    { class: "muted small", title: t("1 cm or 1° at a time, ten times as much with Shift") },
+    gizmo
+      ? t("Drag it in the picture, or press ↑ or ↓ in a field: the robot follows.")
+      : t("Press ↑ or ↓ in a field: the robot follows."),
   );
   const stops = [
     followChain(store, solver),
-    store.watch(["target", "degrees"], ({ target }) => target && fields.show(target)),
+    store.watch(["target", ...UNITS], ({ target }) => target && fields.show(target)),
     store.watch(["model", "base", "tip", "inverse"], () => modes?.show()),
-    store.watch(["degrees"], ({ degrees }) => unit.show(degrees ? "deg" : "rad")),
+    store.watch(UNITS, (state) => units.show(state)),
     () => gizmo?.close(),
   ];
   return {
     host: section(
-      "Target",
-      element("div", { class: "bar" }, modes && modes.host, ...presets(store), spring, unit.host),
+      t("Target"),
+      element("div", { class: "bar" }, modes && modes.host, ...presets(store), spring, units.host),
       fields.host,
       hint,
     ),
@@ -79,14 +80,14 @@ function dragModes(gizmo: Gizmo): { host: HTMLElement; show: () => void } {
   const choose = (wanted: DragMode) => {
     choice.show(gizmo.turnTo(wanted));
     for (const mode of ["translate", "rotate"] as const) {
-      choice.allow(mode, gizmo.allows(mode) ? null : "None of its directions counts");
+      choice.allow(mode, gizmo.allows(mode) ? null : t("None of its directions counts"));
     }
   };
   const choice = new Choice<DragMode>(
-    "Dragging in the picture",
+    t("Dragging in the picture"),
     [
-      { value: "translate", text: "Move" },
-      { value: "rotate", text: "Turn" },
+      { value: "translate", text: t("Move") },
+      { value: "rotate", text: t("Turn") },
     ],
     choose,
   );
@@ -120,8 +121,8 @@ function presets(store: Store<State>): HTMLElement[] {
     if (chain) go(store.value, chain.model.random(chain.base, chain.tip, store.value.positions));
   };
   return [
-    button("Here", here, { title: "Where the tip is now" }),
-    button("Random", somewhere, { title: "Where a random configuration within the limits brings the tip" }),
+    button(t("Here"), here, { title: t("Where the tip is now") }),
+    button(t("Random"), somewhere, { title: t("Where a random configuration within the limits brings the tip") }),
   ];
 }
 

@@ -2,6 +2,7 @@
 
 import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import { t } from "../../texts/index.ts";
 import type { InverseResult } from "../../types.ts";
 import { button, element } from "../../ui/dom.ts";
 import { shownChain } from "../../robot/chain.ts";
@@ -12,11 +13,11 @@ import { MOST_GHOSTS } from "./picture.ts";
 import { moved, type Outcome, type Solver } from "./solver.ts";
 
 const TITLES: Record<Exclude<InverseResult["status"], "solved">, string> = {
-  unreachable: "Out of reach",
-  outside_limits: "Only outside the limits of the joints",
-  singular: "Stuck at a singularity",
-  not_converged: "Not converged",
-  in_collision: "Only in contact",
+  unreachable: t("Out of reach"),
+  outside_limits: t("Only outside the limits of the joints"),
+  singular: t("Stuck at a singularity"),
+  not_converged: t("Not converged"),
+  in_collision: t("Only in contact"),
 };
 const THERE = 1e-6; // rad or m; the robot is in the nearest configuration
 const BUSY_AFTER = 200; // ms; what is quicker needs no word
@@ -34,7 +35,7 @@ export class Verdict {
     private readonly store: Store<State>,
     private readonly solver: Solver,
   ) {
-    this.#cancel = button("Cancel", () => solver.cancel(), { class: "button small", hidden: true });
+    this.#cancel = button(t("Cancel"), () => solver.cancel(), { class: "button small", hidden: true });
     this.host = element(
       "div",
       { class: "verdict" },
@@ -68,7 +69,7 @@ export class Verdict {
   }
 
   #wait(): void {
-    this.#summary.textContent = "Solving …";
+    this.#summary.textContent = t("Solving …");
     this.#cancel.hidden = false;
   }
 
@@ -93,28 +94,38 @@ export class Verdict {
       const isThere = distance(chain, wanted) < THERE;
       // A method from one start says where it stopped: others come nearer.
       const isNearest = findsAll(fullOptions(this.store.value.inverse, chain.joints.length).method);
-      const place = isNearest ? "Move to nearest" : "Move to where it stopped";
-      go.textContent = isThere ? "The robot is there" : place;
+      const place = isNearest ? t("Move to nearest") : t("Move to where it stopped");
+      go.textContent = isThere ? t("The robot is there") : place;
       go.setAttribute("aria-disabled", String(isThere));
     };
     this.#place();
-    return element("div", { class: "bar" }, go, element("span", { class: "small" }, `${errors(nearest, task)} off`));
+    return element(
+      "div",
+      { class: "bar" },
+      go,
+      element("span", { class: "small" }, t("{nearest} off", { nearest: errors(nearest, task, this.store.value) })),
+    );
   }
 }
 
 function summary({ result, answer, isCancelled, isFollowing }: Outcome): string {
-  if (isCancelled) return "Cancelled.";
+  if (isCancelled) return t("Cancelled.");
   if (!result || result.status !== "solved") return "";
   const count = result.solutions.length;
   const parts: string[] = [];
   if (result.complete === true)
-    parts.push(count === 1 ? "1 solution, the only one." : `${count} solutions: these are all.`);
-  else if (result.families?.length) parts.push(`Infinitely many solutions, of which ${count} are listed.`);
-  else if (result.complete === false) parts.push(`${count} solutions; there may be more.`);
-  else parts.push("Solved.");
+    parts.push(count === 1 ? t("1 solution, the only one.") : t("{count} solutions: these are all.", { count }));
+  else if (result.families?.length) parts.push(t("Infinitely many solutions, of which {count} are listed.", { count }));
+  else if (result.complete === false)
+    parts.push(
+      count === 1 ? t("1 solution; there may be more.") : t("{count} solutions; there may be more.", { count }),
+    );
+  else parts.push(t("Solved."));
   const touching = result.solutions.filter(({ in_collision: isTouching }) => isTouching).length;
-  if (touching) parts.push(`In contact: ${touching} of them.`);
-  if (count > MOST_GHOSTS) parts.push(`The first ${MOST_GHOSTS} are in the picture, and any that you point at.`);
-  if (answer?.closed_form && !isFollowing) parts.push(`Closed form: ${answer.closed_form}.`);
+  if (touching) parts.push(t("In contact: {touching} of them.", { touching }));
+  if (count > MOST_GHOSTS)
+    parts.push(t("The first {MOST_GHOSTS} are in the picture, and any that you point at.", { MOST_GHOSTS }));
+  if (answer?.closed_form && !isFollowing)
+    parts.push(t("Closed form: {closed_form}.", { closed_form: answer.closed_form }));
   return parts.join(" ");
 }

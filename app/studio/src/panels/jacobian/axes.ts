@@ -1,15 +1,20 @@
 /** The principal axes of the ellipsoids as bars, and the measures drawn from them. */
 
+import { t } from "../../texts/index.ts";
 import type { ManipulabilityAnswer, Part, PartAnswer } from "../../types.ts";
 import { element } from "../../ui/dom.ts";
 import { fixed, rounded, subscript } from "../../ui/quantity.ts";
 
 /** What a lecturer calls each measure, and what it says. */
 const MEASURES = [
-  { key: "measure", title: "Yoshikawa w", hint: "Manipulability, the product of the σ: √det(JJᵀ)" },
-  { key: "condition_number", title: "Condition κ", hint: "The longest σ over the shortest" },
-  { key: "rank", title: "Rank", hint: "Directions that the tip has here, of those that it has at all" },
-  { key: "isotropy", title: "Isotropy 1/κ", hint: "The shortest σ over the longest: 1 is a sphere, 0 is singular" },
+  { key: "measure", title: t("Yoshikawa w"), hint: t("Manipulability, the product of the σ: √det(JJᵀ)") },
+  { key: "condition_number", title: t("Condition κ"), hint: t("The longest σ over the shortest") },
+  { key: "rank", title: t("Rank"), hint: t("Directions that the tip has here, of those that it has at all") },
+  {
+    key: "isotropy",
+    title: t("Isotropy 1/κ"),
+    hint: t("The shortest σ over the longest: 1 is a sphere, 0 is singular"),
+  },
 ] as const;
 
 export class AxesView {
@@ -18,7 +23,7 @@ export class AxesView {
   #velocityUnit = element("span", { class: "unit" });
   #forceUnit = element("span", { class: "unit" });
   #measures = new Map<string, HTMLElement>();
-  #nothing = element("p", { class: "muted small", hidden: true }, "The tip never moves in this way.");
+  #nothing = element("p", { class: "muted small", hidden: true }, t("The tip never moves in this way."));
   #table: HTMLElement;
 
   constructor() {
@@ -31,9 +36,9 @@ export class AxesView {
         element(
           "tr",
           {},
-          element("th", { scope: "col", colspan: 2 }, "Axis"),
-          element("th", { scope: "col", colspan: 2, class: "velocity" }, "Velocity ", this.#velocityUnit),
-          element("th", { scope: "col", class: "force" }, "Force ", this.#forceUnit),
+          element("th", { scope: "col", colspan: 2 }, t("Axis")),
+          element("th", { scope: "col", colspan: 2, class: "velocity" }, t("Velocity "), this.#velocityUnit),
+          element("th", { scope: "col", class: "force" }, t("Force "), this.#forceUnit),
         ),
       ),
       this.#rows,
@@ -69,12 +74,12 @@ export class AxesView {
     this.#forceUnit.textContent = space.force_unit;
     this.#rows.replaceChildren(...found.velocity_ellipsoid.axes.map((axis, i) => row(found, axis, i)));
     const unit = space.measure_unit.replace(/\^(\d)/, (_, digit) => "⁰¹²³⁴⁵⁶"[Number(digit)]!);
-    const number = (value: number | null) => (value === null ? "unbounded" : rounded(value));
+    const number = (value: number | null) => (value === null ? t("unbounded") : rounded(value));
     const texts = {
       measure: `${number(found.measure)} ${unit}`,
       condition_number: number(found.condition_number),
       isotropy: number(found.isotropy),
-      rank: `${found.rank} of ${space.dimension}`,
+      rank: t("{rank} of {dimension}", { rank: found.rank, dimension: space.dimension }),
     };
     for (const { key } of MEASURES) this.#measures.get(key)!.textContent = texts[key];
     this.host.dataset["measures"] = JSON.stringify(found, ["measure", "condition_number", "isotropy", "rank"]);
@@ -89,7 +94,7 @@ function row(part: PartAnswer, axis: number[], i: number): HTMLElement {
   bar.style.width = `${longest > 0 ? (100 * sigma) / longest : 0}%`;
   return element(
     "tr",
-    { class: sigma === 0 ? "lost" : "" },
+    { class: sigma === 0 ? "vanishing" : "" },
     element("th", { scope: "row" }, `σ${subscript(i + 1)}`),
     element("td", { class: "direction" }, ...directions(axis)),
     element("td", { class: "bar-cell" }, element("span", { class: "bar-track" }, bar)),

@@ -1,6 +1,7 @@
 /** What one chooses in the panel: in whose axes, in whose rates, and which of the tip's directions count. */
 
 import { chosen, type State } from "../../state.ts";
+import { t } from "../../texts/index.ts";
 import type { Direction, Part, Reference, Representation } from "../../types.ts";
 
 export interface Form {
@@ -15,38 +16,38 @@ export interface Form {
 export const FORMS: readonly Form[] = [
   {
     value: "base",
-    text: "Base axes",
+    text: t("Base axes"),
     reference: "local_world_aligned",
     representation: "geometric",
-    hint: "Geometric, of the tip, along the base's axes.",
+    hint: t("Geometric, of the tip, along the base's axes."),
   },
   {
     value: "tip",
-    text: "Tip axes",
+    text: t("Tip axes"),
     reference: "local",
     representation: "geometric",
-    hint: "Geometric, of the tip, along the tip's own axes.",
+    hint: t("Geometric, of the tip, along the tip's own axes."),
   },
   {
     value: "spatial",
-    text: "Spatial",
+    text: t("Spatial"),
     reference: "world",
     representation: "geometric",
-    hint: "Geometric, along the base's axes, of the point of the tip's body that passes the base's origin.",
+    hint: t("Geometric, along the base's axes, of the point of the tip's body that passes the base's origin."),
   },
   {
     value: "zyz",
     text: "ZYZ",
     reference: "local_world_aligned",
     representation: "zyz",
-    hint: "Analytic: the angular rows are the rates of the Euler angles ZYZ.",
+    hint: t("Analytic: the angular rows are the rates of the Euler angles ZYZ."),
   },
   {
     value: "rpy",
     text: "RPY",
     reference: "local_world_aligned",
     representation: "rpy",
-    hint: "Analytic: the angular rows are the rates of roll, pitch and yaw.",
+    hint: t("Analytic: the angular rows are the rates of roll, pitch and yaw."),
   },
 ];
 
@@ -58,9 +59,9 @@ export interface PartChoice {
 }
 
 export const PARTS: readonly PartChoice[] = [
-  { value: "translation", text: "Translation", task: ["x", "y", "z"] },
-  { value: "rotation", text: "Rotation", task: ["rx", "ry", "rz"] },
-  { value: "combined", text: "Both", task: ["x", "y", "z", "rx", "ry", "rz"] },
+  { value: "translation", text: t("Translation"), task: ["x", "y", "z"] },
+  { value: "rotation", text: t("Rotation"), task: ["rx", "ry", "rz"] },
+  { value: "combined", text: t("Both"), task: ["x", "y", "z", "rx", "ry", "rz"] },
 ];
 
 export function formOf(state: Readonly<State>): Form {

@@ -1,9 +1,10 @@
 /** Which ellipsoids are drawn and at what scale, in words beside the picture. */
 
 import { chosen, choosing } from "../../state.ts";
+import { t } from "../../texts/index.ts";
 import type { PartAnswer } from "../../types.ts";
 import { element, toggle } from "../../ui/dom.ts";
-import { rounded } from "../../ui/quantity.ts";
+import { lengthText } from "../../ui/quantity.ts";
 import type { Studio } from "../panel.ts";
 import type { Answers } from "./calls.ts";
 import { CUT, fitting, isCut, type Scale, TipPicture } from "./picture.ts";
@@ -38,9 +39,9 @@ export class EllipsoidControls {
       this.draw();
     };
     this.#toggles = {
-      velocity: toggle("Velocity", "Where joint rates of norm one take the tip", flip("velocity")),
-      force: toggle("Force", "What joint torques of norm one bear at the tip", flip("force")),
-      hold: toggle("Hold scale", "Keep the scale of the picture while the joints move", hold),
+      velocity: toggle(t("Velocity"), t("Where joint rates of norm one take the tip"), flip("velocity")),
+      force: toggle(t("Force"), t("What joint torques of norm one bear at the tip"), flip("force")),
+      hold: toggle(t("Hold scale"), t("Keep the scale of the picture while the joints move"), hold),
     };
     this.#toggles.velocity.classList.add("velocity");
     this.#toggles.force.classList.add("force");
@@ -115,13 +116,16 @@ export class EllipsoidControls {
     const name = isBoth ? "translation" : this.#answers.part.value;
     const space = this.#answers.axes.spaces.find((entry) => entry.part === name)!;
     const { velocity, force } = this.#scale();
-    const scale = (unit: string, metres: number) => `1 ${unit} is ${rounded(metres)} m long`;
+    const scale = (unit: string, metres: number) =>
+      t("In the picture 1 {unit} is {metres} long.", { unit, metres: lengthText(metres, this.studio.store.value) });
     return [
-      isBoth ? "Six dimensions have no picture: drawn is the translation. 1 rad counts as 1 m." : "",
-      this.#shown.velocity ? `In the picture ${scale(space.velocity_unit, velocity)}.` : "",
-      this.#shown.force ? `In the picture ${scale(space.force_unit, force)}.` : "",
-      this.#shown.force && isCut(part.force_ellipsoid) ? `The force is cut off at ${CUT} times its shortest axis.` : "",
-      this.#held ? "" : "The scale follows the longest axis.",
+      isBoth ? t("Six dimensions have no picture: drawn is the translation. 1 rad counts as 1 m.") : "",
+      this.#shown.velocity ? scale(space.velocity_unit, velocity) : "",
+      this.#shown.force ? scale(space.force_unit, force) : "",
+      this.#shown.force && isCut(part.force_ellipsoid)
+        ? t("The force is cut off at {CUT} times its shortest axis.", { CUT })
+        : "",
+      this.#held ? "" : t("The scale follows the longest axis."),
     ]
       .filter(Boolean)
       .join(" ");

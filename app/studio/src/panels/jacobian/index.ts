@@ -6,10 +6,12 @@ import { type Api, asProblem, Problem } from "../../api.ts";
 import { type ShownChain, shownChain } from "../../robot/chain.ts";
 import { choosing, type State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import { t } from "../../texts/index.ts";
 import type { Part, SingularityReport } from "../../types.ts";
 import { Choice, element, section, titled } from "../../ui/dom.ts";
 import { drawing, figureOf, svgOf } from "../../ui/drawing.ts";
 import { ProblemView } from "../../ui/problem.ts";
+import { UNITS } from "../../ui/quantity.ts";
 import { RequestView } from "../../ui/request.ts";
 import { whileKept } from "../kept.ts";
 import type { Panel, Studio } from "../panel.ts";
@@ -25,7 +27,7 @@ import { SingularityView } from "./singularity.ts";
 
 export const jacobianPanel: Panel = {
   id: "jacobian",
-  title: "Jacobian",
+  title: t("Jacobian"),
   open: (host, studio) => whileKept(host, studio, () => open(host, studio)),
 };
 
@@ -35,7 +37,8 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const inquiry = new Inquiry(views.apis, views);
   host.append(...views.hosts);
   const stops = [
-    store.watch(["model", "base", "tip", "degrees"], () => views.joints.build()),
+    store.watch(["model", "base", "tip", ...UNITS], () => views.joints.build()),
+    store.watch(UNITS, () => views.measure()),
     store.watch(["model", "base", "tip", "positions", "options"], (state) => {
       const [form, part] = [formOf(state), partOf(state)];
       views.choose(form, part);
@@ -43,7 +46,7 @@ function open(host: HTMLElement, studio: Studio): () => void {
       if (chain?.path) inquiry.about(chain, form, part);
     }),
     store.watch(["joint"], () => views.matrix.mark()),
-    store.watch(["joint", "dark", "unit", "options"], () => views.drawing.draw()),
+    store.watch(["joint", "dark", "unit", "options", ...UNITS], () => views.drawing.draw()),
     () => inquiry.stop(),
     () => views.drawing.close(),
     () => store.set({ joint: null }),
@@ -61,6 +64,8 @@ class Views implements Listener {
   readonly matrix: MatrixView;
   readonly drawing: EllipsoidControls;
   #axes = new AxesView();
+  #answers: Answers | null = null;
+  #nearest: [SingularityReport | null, ShownChain] | null = null;
   #singularity: SingularityView;
   #forms: Choice<string>;
   #parts: Choice<Part>;
@@ -70,7 +75,7 @@ class Views implements Listener {
     const { store, api } = studio;
     const set = (option: string, usual: string) => (value: string) =>
       store.set(choosing(store.value, option, value === usual ? null : value));
-    const requests = ["the matrix", "the ellipsoids", "the levers", "the singularity"].map(
+    const requests = [t("the matrix"), t("the ellipsoids"), t("the levers"), t("the singularity")].map(
       (what) => new RequestView(api, what),
     );
     const [matrix, axes, statics, singularity] = requests.map((request) => request.api) as [Api, Api, Api, Api];
@@ -79,16 +84,19 @@ class Views implements Listener {
     this.joints.host.classList.add("compact");
     this.matrix = new MatrixView(store, (joint) => visit(this.joints.host, joint));
     this.drawing = new EllipsoidControls(studio);
-    this.#singularity = new SingularityView((configuration) => move(studio, configuration));
-    this.#forms = new Choice("Axes and rates of the matrix", FORMS, set("jacobian.form", FORMS[0]!.value));
-    this.#parts = new Choice("What counts", PARTS, set("jacobian.part", PARTS[0]!.value));
-    const title = "The arm with both ellipses, as a picture to save";
-    const picture = drawing("Ellipses drawn", title, this.#problems.all, () => ellipses(axes, store));
+    this.#singularity = new SingularityView(
+      () => store.value,
+      (configuration) => move(studio, configuration),
+    );
+    this.#forms = new Choice(t("Axes and rates of the matrix"), FORMS, set("jacobian.form", FORMS[0]!.value));
+    this.#parts = new Choice(t("What counts"), PARTS, set("jacobian.part", PARTS[0]!.value));
+    const title = t("The arm with both ellipses, as a picture to save");
+    const picture = drawing(t("Ellipses drawn"), title, this.#problems.all, () => ellipses(axes, store));
     this.hosts = [
-      titled("Joints", presets(studio), this.joints.host),
-      titled("Jacobian", [this.#forms.host], this.#problems.matrix.host, this.matrix.host),
+      titled(t("Joints"), presets(studio), this.joints.host),
+      titled(t("Jacobian"), [this.#forms.host], this.#problems.matrix.host, this.matrix.host),
       titled(
-        "Ellipsoids at the tip",
+        t("Ellipsoids at the tip"),
         [this.#parts.host],
         this.drawing.host,
         this.#axes.host,
@@ -97,7 +105,7 @@ class Views implements Listener {
         picture.place,
       ),
       levers(statics, store),
-      section("Singularity", this.#singularity.host, this.#problems.all.host),
+      section(t("Singularity"), this.#singularity.host, this.#problems.all.host),
       ...requests.map((request) => request.host),
     ];
   }
@@ -109,18 +117,29 @@ class Views implements Listener {
   }
 
   answered(answers: Answers): void {
-    const { matrix, axes, report, form, part } = answers;
+    const { matrix, form } = answers;
+    this.#answers = answers;
+    this.#nearest = null;
     this.#problems.all.show(null);
     this.#problems.matrix.show(matrix instanceof Problem ? matrix : null);
     if (matrix instanceof Problem) this.matrix.clear();
     else this.matrix.show(matrix, form);
-    this.#axes.show(axes, part.value);
-    this.#singularity.show(report, axes.results[0]![part.value]);
+    this.measure();
     this.drawing.show(answers);
   }
 
-  nearest(report: SingularityReport | null, { joints }: ShownChain): void {
-    this.#singularity.nearest(report, joints);
+  /** What of the last answer has units. */
+  measure(): void {
+    if (!this.#answers) return;
+    const { axes, part, report } = this.#answers;
+    this.#axes.show(axes, part.value);
+    this.#singularity.show(report, axes.results[0]![part.value]);
+    if (this.#nearest) this.nearest(...this.#nearest);
+  }
+
+  nearest(report: SingularityReport | null, chain: ShownChain): void {
+    this.#nearest = [report, chain];
+    this.#singularity.nearest(report, chain.joints);
   }
 
   failed(error: unknown): void {
@@ -133,7 +152,7 @@ async function ellipses(api: Api, { value }: Store<State>): Promise<HTMLElement>
   const { path, ends, configuration } = shownChain(value)!;
   const body = { ...ends, joint_positions: [configuration] };
   const svg = await svgOf(api, { method: "POST", path: `${path}/manipulability`, body });
-  return figureOf(svg, "Velocity and force ellipses", "ellipses", "Save the ellipses as SVG");
+  return figureOf(svg, t("Velocity and force ellipses"), "ellipses", t("Save the ellipses as SVG"));
 }
 
 /** To the slider of a joint. */

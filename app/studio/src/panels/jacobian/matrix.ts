@@ -2,10 +2,12 @@
 
 import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import { t } from "../../texts/index.ts";
 import type { JacobianAnswer, Representation } from "../../types.ts";
 import { element } from "../../ui/dom.ts";
 import { matrixCopies } from "../../ui/matrices.ts";
 import { fixed, rounded, subscript } from "../../ui/quantity.ts";
+import { jointHue } from "../../view/colours.ts";
 import type { Form } from "./choices.ts";
 
 const LINEAR = ["vx", "vy", "vz"];
@@ -18,7 +20,12 @@ const ANGULAR: Record<Representation, string[]> = {
 export class MatrixView {
   readonly host = element("div", { class: "jacobian" });
   #summary = element("p", { class: "muted small" });
-  #scroll = element("div", { class: "jacobian-scroll", tabindex: "0", role: "region", "aria-label": "The Jacobian" });
+  #scroll = element("div", {
+    class: "jacobian-scroll",
+    tabindex: "0",
+    role: "region",
+    "aria-label": t("The Jacobian"),
+  });
   #names: string[] = [];
   #cells: HTMLElement[][] = [];
   #columns: HTMLElement[][] = [];
@@ -29,7 +36,7 @@ export class MatrixView {
     private readonly visit: (joint: string) => void,
   ) {
     const rows = () => JSON.parse(this.host.dataset["jacobian"] ?? "[]") as number[][];
-    this.host.append(this.#scroll, matrixCopies(rows, "the Jacobian"), this.#summary);
+    this.host.append(this.#scroll, matrixCopies(rows, t("the Jacobian")), this.#summary);
   }
 
   /** The element carries the matrix to the last digit as `data-jacobian`. */
@@ -43,10 +50,16 @@ export class MatrixView {
     this.host.dataset["jacobian"] = JSON.stringify(J);
     const condition = answer.condition_numbers[0];
     const full = Math.min(6, answer.joint_names.length);
-    this.#summary.textContent =
-      `${hint} Rank ${answer.ranks[0]} of ${full}; condition number ` +
-      `${condition == null ? "unbounded" : rounded(condition)}, metres and radians mixed. ` +
-      `Pinocchio differs by ${rounded(answer.certificate.max_error)} at most.`;
+    this.#summary.textContent = t(
+      "{hint} Rank {ranks} of {full}; condition number {condition}, metres and radians mixed. Pinocchio differs by {max_error} at most.",
+      {
+        hint,
+        ranks: answer.ranks[0],
+        full,
+        condition: condition == null ? t("unbounded") : rounded(condition),
+        max_error: rounded(answer.certificate.max_error),
+      },
+    );
     this.mark();
   }
 
@@ -95,9 +108,9 @@ export class MatrixView {
         "button",
         {
           type: "button",
-          class: "column",
-          title: `${name}: go to its slider`,
-          "aria-label": `${text}, ${name}: go to its slider`,
+          class: `column tinted ${jointHue(j)}`,
+          title: t("{name}: go to its slider", { name }),
+          "aria-label": t("{text}, {name}: go to its slider", { text, name }),
           onfocus: point.onpointerenter,
           onblur: point.onpointerleave,
           onclick: () => this.visit(name),

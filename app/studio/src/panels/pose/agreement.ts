@@ -6,10 +6,11 @@ import { type Api, asProblem, Latest, Paced } from "../../api.ts";
 import type { ShownChain } from "../../robot/chain.ts";
 import type { RobotModel } from "../../robot/model.ts";
 import { asMatrix, difference } from "../../robot/pose.ts";
+import { t } from "../../texts/index.ts";
 import type { ForwardAnswer } from "../../types.ts";
 import { element } from "../../ui/dom.ts";
 import type { ProblemView } from "../../ui/problem.ts";
-import { scientific } from "../../ui/quantity.ts";
+import { inUnit, type Kind, scientific, type Units, withUnit } from "../../ui/quantity.ts";
 
 /** Rounding of a long chain in doubles stays far below; anything above is an error of one of the two. */
 const TOLERANCE = 1e-9;
@@ -22,6 +23,7 @@ export class Agreement {
 
   constructor(
     private readonly api: Api,
+    private readonly units: () => Units,
     private readonly problem: ProblemView,
   ) {}
 
@@ -34,7 +36,7 @@ export class Agreement {
   check(chain: ShownChain, T: Matrix4): void {
     if (chain.path === null) {
       this.stop();
-      this.#say("idle", "Add the table to the robots (Robot, DH table) to compare this with the service.");
+      this.#say("idle", t("Add the table to the robots (Robot, DH table) to compare this with the service."));
       return;
     }
     if (chain.model !== this.#model) this.#latest.cancel();
@@ -64,13 +66,19 @@ export class Agreement {
     const apart = difference(T, asMatrix(answer.poses[0]));
     const isOrdered = names.join() === answer.joint_names.join();
     const agrees = isOrdered && apart.position < TOLERANCE && apart.angle < TOLERANCE;
-    const certified = `${scientific(answer.certificate.max_position_error)} m`;
+    const length = (value: number) => small(value, "length", this.units());
     this.host.dataset["position"] = String(apart.position);
     this.host.dataset["angle"] = String(apart.angle);
     this.#say(
       agrees ? "good" : "bad",
-      `Browser and service ${agrees ? "agree" : "differ"}: ` +
-        `${scientific(apart.position)} m, ${scientific(apart.angle)} rad apart. Service and Pinocchio: ${certified}.`,
+      (agrees ? t("Browser and service agree: ") : t("Browser and service differ: ")) +
+        t("{position}, {angle} apart. ", {
+          position: length(apart.position),
+          angle: small(apart.angle, "angle", this.units()),
+        }) +
+        t("Service and Pinocchio: {max_position_error}.", {
+          max_position_error: length(answer.certificate.max_position_error),
+        }),
     );
   }
 
@@ -78,4 +86,8 @@ export class Agreement {
     this.host.dataset["tone"] = tone;
     this.host.textContent = text;
   }
+}
+
+function small(value: number, kind: Kind, units: Units): string {
+  return withUnit(scientific(inUnit(value, kind, units)), kind, units);
 }

@@ -1,17 +1,19 @@
 /** Pose: move the joints, read where the tip is, and see that browser and service agree. */
 
-import { prefer } from "../../prefs.ts";
 import { shownChain, type ShownChain } from "../../robot/chain.ts";
 import type { Positions } from "../../state.ts";
-import { Choice, button, element, section } from "../../ui/dom.ts";
+import { t } from "../../texts/index.ts";
+import { button, element, section } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
 import { RequestView } from "../../ui/request.ts";
+import { UNITS } from "../../ui/quantity.ts";
 import type { Panel, Studio } from "../panel.ts";
 import { Agreement } from "./agreement.ts";
 import { JointList } from "./joints.ts";
+import { UnitChoices } from "../units.ts";
 import { TipPose } from "./tip.ts";
 
-export const posePanel: Panel = { id: "pose", title: "Pose", open };
+export const posePanel: Panel = { id: "pose", title: t("Pose"), open };
 
 function open(host: HTMLElement, studio: Studio): () => void {
   const { store, api } = studio;
@@ -19,35 +21,28 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const problem = new ProblemView();
   const joints = new JointList(store);
   const tip = new TipPose();
-  const agreement = new Agreement(request.api, problem);
-  const unit = new Choice(
-    "Unit of angles",
-    [
-      { value: "rad", text: "rad" },
-      { value: "deg", text: "deg" },
-    ],
-    (chosen) => prefer(store, { degrees: chosen === "deg" }),
-  );
+  const agreement = new Agreement(request.api, () => store.value, problem);
+  const units = new UnitChoices(store);
   host.append(
     section(
-      "Joints",
-      element("div", { class: "bar" }, ...presets(studio), element("span", { class: "spring" }), unit.host),
+      t("Joints"),
+      element("div", { class: "bar" }, ...presets(studio), element("span", { class: "spring" }), units.host),
       joints.host,
     ),
-    section("Tip", tip.host, agreement.host, problem.host),
+    section(t("Tip"), tip.host, agreement.host, problem.host),
     request.host,
   );
   const stops = [
-    store.watch(["model", "base", "tip", "degrees"], ({ degrees }) => {
-      unit.show(degrees ? "deg" : "rad");
+    store.watch(["model", "base", "tip", ...UNITS], (state) => {
+      units.show(state);
       joints.build();
     }),
-    store.watch(["model", "base", "tip", "degrees", "positions"], (state) => {
+    store.watch(["model", "base", "tip", ...UNITS, "positions"], (state) => {
       joints.update();
       const chain = shownChain(state);
       if (!chain) return;
       const T = chain.model.pose(chain.base, chain.tip);
-      tip.show(T, chain.base, chain.tip, state.degrees);
+      tip.show(T, chain.base, chain.tip, state);
       agreement.check(chain, T);
     }),
     () => agreement.stop(),
@@ -68,8 +63,8 @@ export function presets({ store }: Studio): HTMLElement[] {
   const zero = go(({ model }) => model.zero());
   const random = go(({ model, base, tip }) => model.random(base, tip, store.value.positions));
   return [
-    button("Home", home, { title: "Each joint of the chain in the middle of its range" }),
-    button("Zero", zero, { title: "Every joint at zero" }),
-    button("Random", random, { title: "Each joint of the chain somewhere within its limits" }),
+    button(t("Home"), home, { title: t("Each joint of the chain in the middle of its range") }),
+    button(t("Zero"), zero, { title: t("Every joint at zero") }),
+    button(t("Random"), random, { title: t("Each joint of the chain somewhere within its limits") }),
   ];
 }

@@ -1,12 +1,14 @@
 /** A slider and a number for each joint: first those of the chain, base to tip, then the others of the robot. */
 
 import { shownChain } from "../../robot/chain.ts";
-import { type Joint, isBeyond, range } from "../../robot/model.ts";
+import { type Joint, isBeyond, kindOf, range } from "../../robot/model.ts";
 import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import { t } from "../../texts/index.ts";
 import { element } from "../../ui/dom.ts";
 import { NumberField } from "../../ui/number.ts";
-import { format, type Kind, unitOf } from "../../ui/quantity.ts";
+import { jointHue } from "../../view/colours.ts";
+import { format, unitOf } from "../../ui/quantity.ts";
 
 interface Row {
   joint: Joint;
@@ -28,11 +30,11 @@ export class JointList {
     this.host.replaceChildren();
     if (!chain) return;
     const others = chain.model.joints.filter((joint) => !chain.joints.includes(joint));
-    this.host.append(...chain.joints.map((joint) => this.#row(joint)));
+    this.host.append(...chain.joints.map((joint, index) => this.#row(joint, jointHue(index))));
     if (chain.joints.length === 0)
-      this.host.append(element("p", { class: "muted" }, "No joint moves between these two frames."));
+      this.host.append(element("p", { class: "muted" }, t("No joint moves between these two frames.")));
     if (others.length) {
-      const title = `Other joints (${others.length})`;
+      const title = t("Other joints ({length})", { length: others.length });
       this.host.append(
         element(
           "details",
@@ -56,10 +58,10 @@ export class JointList {
     }
   }
 
-  #row(joint: Joint): HTMLElement {
+  #row(joint: Joint, hue?: string): HTMLElement {
     const { lower, upper } = range(joint);
-    const kind: Kind = joint.type === "prismatic" ? "length" : "angle";
-    const degrees = () => this.store.value.degrees;
+    const kind = kindOf(joint);
+    const units = () => this.store.value;
     const move = (value: number | null) => {
       if (value !== null) this.store.set({ positions: { ...this.store.value.positions, [joint.name]: value } });
     };
@@ -72,9 +74,9 @@ export class JointList {
       oninput: () => move(Number(slider.value)),
       onkeydown: (event: KeyboardEvent) => step(event, slider, move),
     });
-    const field = new NumberField({ label: `${joint.name}, number`, kind, degrees, change: move });
+    const field = new NumberField({ label: t("{name}, number", { name: joint.name }), kind, units, change: move });
     const point = (name: string | null) => () => this.store.set({ joint: name });
-    const text = (value: number) => format(value, kind, degrees(), 3);
+    const text = (value: number) => format(value, kind, units(), 3);
     const host = element(
       "div",
       {
@@ -84,8 +86,8 @@ export class JointList {
         onfocusin: point(joint.name),
         onfocusout: point(null),
       },
-      element("span", { class: "joint-name", title: joint.name }, joint.name),
-      element("span", { class: "entry" }, field.input, element("span", { class: "unit" }, unitOf(kind, degrees()))),
+      element("span", { class: hue ? `joint-name tinted ${hue}` : "joint-name", title: joint.name }, joint.name),
+      element("span", { class: "entry" }, field.input, element("span", { class: "unit" }, unitOf(kind, units()))),
       element(
         "span",
         { class: "slide" },

@@ -3,11 +3,12 @@
 import type { Matrix4 } from "three";
 
 import { asPose, FORMATS, IN_RADIANS, position } from "../../robot/pose.ts";
+import { t } from "../../texts/index.ts";
 import type { PoseFormat } from "../../types.ts";
 import { copyButton } from "../../ui/copy.ts";
 import { element } from "../../ui/dom.ts";
 import { matrixCopies } from "../../ui/matrices.ts";
-import { fixed } from "../../ui/quantity.ts";
+import { column, type Kind, type Units, unitOf } from "../../ui/quantity.ts";
 
 const DECIMALS = 5;
 
@@ -37,37 +38,40 @@ export class TipPose {
       element(
         "dl",
         { class: "pose" },
-        ...line("position", "Position"),
+        ...line("position", t("Position")),
         ...formats.flatMap(({ format, title }) => line(format, title)),
       ),
       element(
         "details",
         {},
-        element("summary", {}, "As matrices"),
+        element("summary", {}, t("As matrices")),
         element("dl", { class: "pose" }, ...matrices.flatMap(({ format, title }) => line(format, title))),
       ),
     );
   }
 
   /** T_base_tip. The element carries it to the last digit as `data-matrix`. */
-  show(T: Matrix4, base: string, tip: string, degrees: boolean): void {
+  show(T: Matrix4, base: string, tip: string, units: Units): void {
     this.#T = T;
-    this.#chain.textContent = `of ${tip} in ${base}`;
+    this.#chain.textContent = t("of {tip} in {base}", { tip, base });
     this.host.dataset["matrix"] = JSON.stringify(asPose(T, "matrix").matrix);
-    for (const [key, cell] of this.#cells) cell.replaceChildren(...columns(T, key, degrees));
+    for (const [key, cell] of this.#cells) cell.replaceChildren(...columns(T, key, units));
   }
 }
 
-function columns(T: Matrix4, key: PoseFormat | "position", degrees: boolean): Node[] {
-  if (key === "position") return [row(position(T), "m")];
+function columns(T: Matrix4, key: PoseFormat | "position", units: Units): Node[] {
+  if (key === "position") return [row(position(T), units, "length")];
   const value = asPose(T, key)[key]!;
-  if (Array.isArray(value[0])) return (value as number[][]).map((numbers) => row(numbers, ""));
-  const inAngles = IN_RADIANS.has(key);
-  const numbers = (value as number[]).map((number) => (inAngles && degrees ? (number * 180) / Math.PI : number));
-  return [row(numbers, inAngles ? (degrees ? "°" : "rad") : "", inAngles && degrees ? 3 : DECIMALS)];
+  // Of a transform the last column is a length.
+  if (Array.isArray(value[0])) return (value as number[][]).map((numbers) => row(numbers, units));
+  return [row(value as number[], units, IN_RADIANS.has(key) ? "angle" : "number")];
 }
 
-function row(numbers: number[], unit: string, decimals = DECIMALS): HTMLElement {
-  const cells = numbers.map((number) => element("span", {}, fixed(number, decimals)));
+/** @param kind of all the numbers; without one they are a row of a matrix. */
+function row(numbers: number[], units: Units, kind?: Kind): HTMLElement {
+  const unit = unitOf(kind ?? "number", units);
+  const written = (number: number, i: number) =>
+    column(number, kind ?? (i === 3 ? "length" : "number"), units, DECIMALS);
+  const cells = numbers.map((number, i) => element("span", {}, written(number, i)));
   return element("span", { class: "row" }, ...cells, unit && element("span", { class: "unit" }, unit));
 }

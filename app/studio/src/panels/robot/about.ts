@@ -4,6 +4,7 @@ import { asProblem } from "../../api.ts";
 import { jointName } from "../../robot/dh.ts";
 import type { RobotModel } from "../../robot/model.ts";
 import { chainTable } from "../../robot/table.ts";
+import { t } from "../../texts/index.ts";
 import type { DhTable } from "../../types.ts";
 import { confirmed } from "../../ui/dialogs.ts";
 import { button, element } from "../../ui/dom.ts";
@@ -25,16 +26,22 @@ export function about(studio: Studio, problem: ProblemView): { host: HTMLElement
 function describe(model: RobotModel): HTMLElement[] {
   const info = model.info;
   const facts: [string, string | null | undefined][] = [
-    ["Joints", `${model.joints.length} with a position of their own, ${model.links.length} links`],
-    ["Chain", `${model.ends.base_frame} → ${model.ends.tip_frame}`],
-    ["Licence", info?.licence],
-    ["Source", info?.provenance],
+    [
+      t("Joints"),
+      t("{length} with a position of their own, {length2} links", {
+        length: model.joints.length,
+        length2: model.links.length,
+      }),
+    ],
+    [t("Chain"), `${model.ends.base_frame} → ${model.ends.tip_frame}`],
+    [t("Licence"), info?.licence],
+    [t("Source"), info?.provenance],
   ];
   const shown = facts.filter(([, text]) => text);
   const warnings = info?.warnings ?? [];
   return [
     element("h3", {}, model.title),
-    element("p", { class: "muted" }, info?.description ?? "A table that the service does not keep yet."),
+    element("p", { class: "muted" }, info?.description ?? t("A table that the service does not keep yet.")),
     element(
       "dl",
       { class: "facts" },
@@ -45,7 +52,10 @@ function describe(model: RobotModel): HTMLElement[] {
 }
 
 function warningList(warnings: readonly string[], open: boolean): HTMLElement {
-  const title = `${warnings.length} ${warnings.length === 1 ? "remark" : "remarks"} on the description`;
+  const title =
+    warnings.length === 1
+      ? t("1 remark on the description")
+      : t("{length} remarks on the description", { length: warnings.length });
   return element(
     "details",
     { open },
@@ -62,26 +72,26 @@ function actions(model: RobotModel, studio: Studio, problem: ProblemView): HTMLE
   };
   const file = model.name ?? "table";
   const removal = attempt(async () => {
-    const text = "Its description and its meshes are removed from the service, for everyone who uses it.";
-    if (!(await confirmed(`Remove ${model.name}?`, text, "Remove it"))) return;
+    const text = t("Its description and its meshes are removed from the service, for everyone who uses it.");
+    if (!(await confirmed(t("Remove {name}?", { name: model.name }), text, t("Remove it")))) return;
     await api.call({ method: "DELETE", path: `v1/robots/${encodeURIComponent(model.name!)}` });
     store.set({ robot: "panda", base: null, tip: null });
   });
-  const title = "The frames of the chain's DH table, at this configuration";
-  const picture = drawing("Frames drawn", title, problem, () => frames(file, studio));
+  const title = t("The frames of the chain's DH table, at this configuration");
+  const picture = drawing(t("Frames drawn"), title, problem, () => frames(file, studio));
   const bar = element(
     "div",
     { class: "bar" },
-    button("Download URDF", () => save(`${file}.urdf`, "application/xml", model.urdf)),
+    button(t("Download URDF"), () => save(`${file}.urdf`, "application/xml", model.urdf)),
     button(
-      "Download DH",
+      t("Download DH"),
       attempt(async () =>
         save(`${file}.dh.json`, "application/json", `${JSON.stringify(await table(studio), null, 2)}\n`),
       ),
     ),
     picture.ask,
     element("span", { class: "spring" }),
-    model.info?.source === "uploaded" && button("Remove", removal, { class: "button danger" }),
+    model.info?.source === "uploaded" && button(t("Remove"), removal, { class: "button danger" }),
   );
   return [bar, picture.place];
 }
@@ -93,7 +103,7 @@ async function frames(file: string, studio: Studio): Promise<HTMLElement> {
   const variables = dh.joints.flatMap((row, i) => (row.mimic ? [] : [positions[jointName(row, i)] ?? 0]));
   const body = { dh, joint_positions: [variables] };
   const svg = await svgOf(studio.api, { method: "POST", path: "v1/dh/picture", body });
-  return figureOf(svg, "Frames of the DH table", `${file}-dh`, "Save the frames as SVG");
+  return figureOf(svg, t("Frames of the DH table"), `${file}-dh`, t("Save the frames as SVG"));
 }
 
 /** The table of the chain on the screen. */

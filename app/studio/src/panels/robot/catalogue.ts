@@ -1,42 +1,53 @@
 /** The robots that the service has, to search and to pick from. */
 
 import { asProblem } from "../../api.ts";
+import JOINTS from "../../../thumbnails/joints.json" with { type: "json" };
+import { t } from "../../texts/index.ts";
 import type { RobotSummary } from "../../types.ts";
 import { element } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
+import { neutral, thumbnail } from "../../ui/thumbnail.ts";
 import type { Studio } from "../panel.ts";
+import { groups, titled, values, type Wanted } from "./groups.ts";
 
 export function catalogue(host: HTMLElement, { api, store }: Studio): () => void {
   const stop = new AbortController();
   const problem = new ProblemView();
-  const list = element("ul", { class: "robots" });
+  const list = element("div", { class: "robots" });
   const count = element("p", { class: "muted small", role: "status" });
   let robots: RobotSummary[] = [];
   const search = element("input", {
     type: "search",
     class: "search",
-    placeholder: "Search by name or description",
-    "aria-label": "Search the robots",
+    placeholder: t("Search by name or description"),
+    "aria-label": t("Search the robots"),
     oninput: () => show(),
   });
+  const filters = new Filters(() => show());
   const show = () => {
-    const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
-    const found = robots.filter((robot) =>
-      words.every((word) => `${robot.name} ${robot.description} ${robot.format}`.toLowerCase().includes(word)),
+    const found = groups(robots, JOINTS, { words: search.value, ...filters.values });
+    const shown = found.reduce((sum, group) => sum + group.robots.length, 0);
+    count.textContent =
+      shown === robots.length
+        ? t("{shown} robots", { shown })
+        : t("{shown} of {length} robots", { shown, length: robots.length });
+    list.replaceChildren(
+      ...found.flatMap(({ title, robots: members }) => [
+        element("h3", { class: "robots-kind" }, title),
+        element("ul", {}, ...members.map((robot) => entry(robot, store.value.robot, () => pick(robot.name)))),
+      ]),
     );
-    count.textContent = words.length ? `${found.length} of ${robots.length} robots` : `${robots.length} robots`;
-    list.replaceChildren(...found.map((robot) => entry(robot, store.value.robot, () => pick(robot.name))));
   };
   const pick = (name: string) => store.set({ robot: name, draft: null, base: null, tip: null, target: null });
-  host.append(search, count, list, problem.host);
+  host.append(search, filters.host, count, list, problem.host);
   const load = async () => {
     try {
       const { robots: found } = await api.get<{ robots: RobotSummary[] }>("v1/robots", stop.signal);
       problem.show(null);
-      found.sort((a, b) => (a.source === b.source ? 0 : a.source === "uploaded" ? -1 : 1));
       if (JSON.stringify(found) === JSON.stringify(robots)) return;
       const isFirst = robots.length === 0;
       robots = found;
+      filters.offer(values(found, JOINTS));
       keepingPlace(list, show);
       if (isFirst) reveal(list);
     } catch (error) {
@@ -58,6 +69,47 @@ export function catalogue(host: HTMLElement, { api, store }: Studio): () => void
     stop.abort();
     unwatch();
   };
+}
+
+type Filter = "joints" | "kind" | "maker";
+
+/** What there is to choose from beside the words. */
+class Filters {
+  readonly values: Omit<Wanted, "words"> = { joints: "", kind: "", maker: "" };
+  readonly #selects: Record<Filter, HTMLSelectElement>;
+  readonly host: HTMLElement;
+
+  constructor(changed: () => void) {
+    const made = (filter: Filter, label: string) => {
+      const select = element("select", {
+        class: "select",
+        "aria-label": label,
+        onchange: () => {
+          this.values[filter] = select.value;
+          changed();
+        },
+      });
+      return select;
+    };
+    this.#selects = {
+      joints: made("joints", t("Joints")),
+      kind: made("kind", t("Kind")),
+      maker: made("maker", t("Maker")),
+    };
+    this.host = element("div", { class: "filters" }, ...Object.values(this.#selects));
+  }
+
+  offer(found: Record<Filter, string[]>): void {
+    const any = { joints: t("Any joints"), kind: t("Any kind"), maker: t("Any maker") };
+    for (const filter of ["joints", "kind", "maker"] as const) {
+      const text = (value: string) => (filter === "joints" ? t("{value} joints", { value }) : titled(value));
+      this.#selects[filter].replaceChildren(
+        element("option", { value: "" }, any[filter]),
+        ...found[filter].map((value) => element("option", { value }, text(value))),
+      );
+      this.#selects[filter].value = this.values[filter];
+    }
+  }
 }
 
 /** Build the list anew, with what is in sight and the focus as they were. */
@@ -91,8 +143,13 @@ function entry(robot: RobotSummary, chosen: string, onclick: () => void): HTMLEl
         "aria-current": String(robot.name === chosen),
         onclick,
       },
+      robot.source === "uploaded" ? neutral() : thumbnail(robot.name),
       element("span", { class: "robot-name" }, robot.name, marks && element("span", { class: "mark" }, marks)),
-      element("span", { class: "robot-description", title: robot.description }, robot.description || "No description"),
+      element(
+        "span",
+        { class: "robot-description", title: robot.description },
+        robot.description || t("No description"),
+      ),
     ),
   );
 }

@@ -1,5 +1,6 @@
 /** Robot: choose one of the catalogue, bring one along, or type a table. */
 
+import { t } from "../../texts/index.ts";
 import { Choice, element, section } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
 import { RequestView } from "../../ui/request.ts";
@@ -9,14 +10,14 @@ import { catalogue } from "./catalogue.ts";
 import { tableEditor } from "./table.ts";
 import { hasDropped, uploads } from "./upload.ts";
 
-export const robotPanel: Panel = { id: "robot", title: "Robot", open };
+export const robotPanel: Panel = { id: "robot", title: t("Robot"), open };
 
 type Part = "catalogue" | "upload" | "table";
 
 const PARTS: readonly { value: Part; text: string }[] = [
-  { value: "catalogue", text: "Catalogue" },
-  { value: "upload", text: "Upload" },
-  { value: "table", text: "DH table" },
+  { value: "catalogue", text: t("Catalogue") },
+  { value: "upload", text: t("Upload") },
+  { value: "table", text: t("DH table") },
 ];
 
 let last: Part = "catalogue";
@@ -41,11 +42,11 @@ function open(host: HTMLElement, studio: Studio): () => void {
     const made = { catalogue, upload: uploads, table: tableEditor }[part](body, { ...studio, api: request.api });
     close = made;
   };
-  const parts = new Choice("Where the robot comes from", PARTS, show);
+  const parts = new Choice(t("Where the robot comes from"), PARTS, show);
   host.append(
-    section("Choose a robot", parts.host, body),
+    section(t("Choose a robot"), parts.host, body),
     problem.host,
-    section("On the screen", card.host),
+    section(t("On the screen"), card.host),
     request.host,
   );
   show(store.value.draft && !hasDropped() ? "table" : last);
@@ -53,6 +54,7 @@ function open(host: HTMLElement, studio: Studio): () => void {
     card.close,
     store.watch(["failure", "draft"], ({ failure, draft }) => problem.show(draft ? null : failure)),
     store.watch(["robot", "draft"], ({ robot, draft }) => {
+      if (!robot && !draft) return;
       request.show(
         draft
           ? { method: "POST", path: "v1/dh/to-urdf", body: { name: "draft", dh: draft } }

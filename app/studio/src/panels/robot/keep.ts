@@ -1,5 +1,6 @@
 /** A typed table becomes a robot of the service, so that everything else can be asked of it. */
 
+import { t } from "../../texts/index.ts";
 import type { DhTable, RobotInfo } from "../../types.ts";
 import type { Studio } from "../panel.ts";
 import { naming } from "./naming.ts";
@@ -13,7 +14,7 @@ export function keep({ api, store }: Pick<Studio, "api" | "store">, table: () =>
     else await api.call<RobotInfo>({ method: "POST", path: "v1/robots", body: { name, dh } });
     store.set({ robot: name, draft: null, base: null, tip: null });
   };
-  const made = naming({ id: "table-name", label: "Name at the service", add: "Add to the robots", send });
+  const made = naming({ id: "table-name", label: t("Name at the service"), add: t("Add to the robots"), send });
   made.name.value = "my_arm";
   return made.host;
 }

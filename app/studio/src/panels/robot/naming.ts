@@ -2,6 +2,7 @@
 
 import { asProblem, Problem } from "../../api.ts";
 import { isName } from "../../robot/upload.ts";
+import { t } from "../../texts/index.ts";
 import { button, element } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
 
@@ -26,7 +27,11 @@ export function naming({ id, label, add, send, refused }: Naming) {
     problem.show(
       isName(wanted)
         ? null
-        : new Problem(422, "This is no name", "1 to 64 letters, digits, _, . or -, the first one a letter or digit."),
+        : new Problem(
+            422,
+            t("This is no name"),
+            "1 to 64 letters, digits, _, . or -, the first one a letter or digit.",
+          ),
     );
     if (!isName(wanted)) return;
     adding.disabled = exchange.disabled = true;
@@ -48,7 +53,7 @@ export function naming({ id, label, add, send, refused }: Naming) {
     const isTaken = found?.status === 409 && is_ours !== undefined;
     exchange.hidden = !isTaken || is_ours === true;
     taken = wanted;
-    exchange.textContent = `Replace ${wanted}`;
+    exchange.textContent = t("Replace {wanted}", { wanted });
     if (isTaken && typeof free === "string") name.value = free;
   };
   const adding = button(add, () => void submit(), { class: "button primary" });

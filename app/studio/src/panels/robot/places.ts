@@ -1,19 +1,20 @@
 /** Base and tool of a DH table: where frame 0 stands in the base, and the tool in the last frame. */
 
 import { asMatrix, asPose, position } from "../../robot/pose.ts";
+import { t, within } from "../../texts/index.ts";
 import type { DhTable, Pose } from "../../types.ts";
 import { Choice, element } from "../../ui/dom.ts";
 import { formula } from "../../ui/mathematics.ts";
 import { NumberField } from "../../ui/number.ts";
-import { unitOf } from "../../ui/quantity.ts";
+import { type Units, unitOf } from "../../ui/quantity.ts";
 import type { Place } from "./rows.ts";
 
 type Angles = "rpy" | "zyz";
 type Cell = "position" | Angles;
 
 const NOTATIONS: readonly { value: Angles; text: string }[] = [
-  { value: "rpy", text: "Roll pitch yaw" },
-  { value: "zyz", text: "Euler ZYZ" },
+  { value: "rpy", text: t("Roll pitch yaw") },
+  { value: "zyz", text: t("Euler ZYZ") },
 ];
 const NAMES: Record<Cell, readonly string[]> = {
   position: ["x", "y", "z"],
@@ -21,8 +22,8 @@ const NAMES: Record<Cell, readonly string[]> = {
   zyz: ["φ", "ϑ", "ψ"],
 };
 const ENDS = [
-  { end: "base", title: "Base", latex: "T^{\\mathrm{base}}_{0}" },
-  { end: "tool", title: "Tool", latex: "T^{n}_{\\mathrm{tool}}" },
+  { end: "base", title: t("Base"), latex: "T^{\\mathrm{base}}_{0}" },
+  { end: "tool", title: t("Tool"), latex: "T^{n}_{\\mathrm{tool}}" },
 ] as const;
 
 export class Places {
@@ -30,14 +31,14 @@ export class Places {
   #places: readonly PlaceFields[];
 
   /** @param edited is told of the new pose of an end; undefined for the identity. */
-  constructor(edited: (end: "base" | "tool", pose: Pose | undefined) => void, degrees: () => boolean) {
+  constructor(edited: (end: "base" | "tool", pose: Pose | undefined) => void, units: () => Units) {
     this.#places = ENDS.map(
-      ({ end, title, latex }) => new PlaceFields(title, latex, degrees, (pose) => edited(end, pose)),
+      ({ end, title, latex }) => new PlaceFields(title, latex, units, (pose) => edited(end, pose)),
     );
     this.host = element(
       "details",
       { class: "places" },
-      element("summary", {}, "Base and tool"),
+      element("summary", {}, t("Base and tool")),
       ...this.#places.map(({ host }) => host),
     );
   }
@@ -71,10 +72,10 @@ class PlaceFields {
   constructor(
     private readonly title: string,
     latex: string,
-    private readonly degrees: () => boolean,
+    private readonly units: () => Units,
     private readonly edited: (pose: Pose | undefined) => void,
   ) {
-    this.#notation = new Choice(`Orientation of the ${title.toLowerCase()}`, NOTATIONS, (chosen) => {
+    this.#notation = new Choice(t("Orientation of the {title}", { title: within(title) }), NOTATIONS, (chosen) => {
       this.#angles = chosen;
       this.#fill();
     });
@@ -123,7 +124,7 @@ class PlaceFields {
       const field = new NumberField({
         label: `${this.title}, ${name}`,
         kind,
-        degrees: this.degrees,
+        units: this.units,
         live: true,
         change: (value) => this.#change(cell, index, value!),
         invalid: (reason) => {
@@ -136,7 +137,7 @@ class PlaceFields {
       this.#fields.set(key, field);
       return element("span", { class: "detail" }, name, field.input);
     });
-    return [...fields, element("span", { class: "unit" }, unitOf(kind, this.degrees()))];
+    return [...fields, element("span", { class: "unit" }, unitOf(kind, this.units()))];
   }
 
   #change(cell: Cell, index: number, value: number): void {

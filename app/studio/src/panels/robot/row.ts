@@ -1,38 +1,39 @@
 /** One row of a DH table as fields: what the convention needs, and below it name and limits of rate and effort. */
 
-import { jointName } from "../../robot/dh.ts";
+import { jointName, PARAMETERS, type Parameter as Part, variableOf } from "../../robot/dh.ts";
+import { t } from "../../texts/index.ts";
 import type { DhRow } from "../../types.ts";
 import { button, element } from "../../ui/dom.ts";
 import { NumberField } from "../../ui/number.ts";
-import { format, type Kind, unitOf } from "../../ui/quantity.ts";
+import { format, type Kind, measured, SI, type Units, unitOf } from "../../ui/quantity.ts";
 
 export type Parameter = "a" | "alpha" | "d" | "theta" | "lower" | "upper" | "velocity" | "effort";
 
 /** The columns of the table. */
-export const COLUMNS: readonly { name: Parameter; latex: string; kind: Kind | "joint" }[] = [
-  { name: "a", latex: "a_i", kind: "length" },
-  { name: "alpha", latex: "\\alpha_i", kind: "angle" },
-  { name: "d", latex: "d_i", kind: "length" },
-  { name: "theta", latex: "\\theta_i", kind: "angle" },
-  { name: "lower", latex: "q_{\\min}", kind: "joint" },
-  { name: "upper", latex: "q_{\\max}", kind: "joint" },
+export const COLUMNS: readonly { name: Parameter; latex: string; kind: Kind | "joint"; term: string }[] = [
+  { name: "a", latex: "a_i", kind: "length", term: t("Length a") },
+  { name: "alpha", latex: "\\alpha_i", kind: "angle", term: t("Twist α") },
+  { name: "d", latex: "d_i", kind: "length", term: t("Offset d") },
+  { name: "theta", latex: "\\theta_i", kind: "angle", term: t("Angle θ") },
+  { name: "lower", latex: "q_{\\min}", kind: "joint", term: t("Lower limit") },
+  { name: "upper", latex: "q_{\\max}", kind: "joint", term: t("Upper limit") },
 ];
 const SIGNS: Record<Parameter | "name", string> = {
   a: "a",
   alpha: "α",
   d: "d",
   theta: "θ",
-  lower: "lower limit",
-  upper: "upper limit",
-  velocity: "velocity limit",
-  effort: "effort limit",
+  lower: t("lower limit"),
+  upper: t("upper limit"),
+  velocity: t("velocity limit"),
+  effort: t("effort limit"),
   name: "name",
 };
 const OPTIONAL: ReadonlySet<Parameter> = new Set(["lower", "upper", "velocity", "effort"]);
 const DETAILS: readonly string[] = ["name", "velocity", "effort"];
 
 export interface RowOptions {
-  degrees: () => boolean;
+  units: () => Units;
   isOnly: boolean;
   /** A number of the row has changed. */
   edited: () => void;
@@ -41,12 +42,17 @@ export interface RowOptions {
   /** The name wanted; empty for the usual one. */
   rename: (name: string) => void;
   remove: () => void;
+  /** The pointer or the focus is on the row, on one of its parameters or on none of them; null where it has left. */
+  pointed: (at: { part: Part | null } | null) => void;
+  /** The colour of its joint. */
+  tone: string;
 }
 
 export class Row {
   /** Rows of the table: the parameters, the details, the errors. */
   readonly hosts: readonly HTMLElement[];
   #fields = new Map<Parameter, NumberField>();
+  #cells = new Map<Part, HTMLElement>();
   #name: HTMLInputElement;
   #details: HTMLElement;
   #errors: HTMLElement;
@@ -68,7 +74,7 @@ export class Row {
     this.#name = element("input", {
       class: "text",
       type: "text",
-      "aria-label": `Row ${number}, name`,
+      "aria-label": t("Row {number}, name", { number }),
       autocomplete: "off",
       spellcheck: "false",
       placeholder: `joint_${number}`,
@@ -83,6 +89,11 @@ export class Row {
 
   get isRead(): boolean {
     return this.#unread.size === 0;
+  }
+
+  /** Whether nothing in it waits for the one who types. */
+  get isSettled(): boolean {
+    return this.isRead && this.#doubts.size === 0;
   }
 
   focus(): void {
@@ -107,29 +118,51 @@ export class Row {
   #parameters(number: number): HTMLElement {
     const cells = COLUMNS.map(({ name, kind }) => {
       const field = this.#field(name, kind === "joint" ? this.#jointKind : kind, number);
-      const isVariable = name === (this.row.type === "revolute" ? "theta" : "d");
-      const title = isVariable ? "The joint's position is added to this" : null;
-      return element("td", { class: isVariable ? "variable" : null, title }, field.input);
+      const isVariable = name === variableOf(this.row);
+      const part = PARAMETERS.find((parameter) => parameter === name) ?? null;
+      const title = isVariable ? t("The joint's position is added to this") : null;
+      const classes = [isVariable && "variable", part].filter(Boolean).join(" ");
+      const cell = element("td", { class: classes || null, title, ...this.#pointing(part) }, field.input);
+      if (part) this.#cells.set(part, cell);
+      return cell;
     });
     const remove = button("×", this.options.remove, {
       class: "icon",
-      "aria-label": `Remove row ${number}`,
-      title: "Remove",
+      "aria-label": t("Remove row {number}", { number }),
+      title: t("Remove"),
       disabled: this.options.isOnly,
     });
     return element(
       "tr",
-      {},
-      element("th", { scope: "row" }, String(number)),
+      { class: this.options.tone },
+      element("th", { scope: "row", class: "tinted", ...this.#pointing(null) }, String(number)),
       element("td", {}, this.#type(number)),
       ...cells,
       element("td", {}, remove),
     );
   }
 
+  #pointing(part: Part | null) {
+    const { pointed } = this.options;
+    const [enter, leave] = [() => pointed({ part }), () => pointed(null)];
+    return { onpointerenter: enter, onpointerleave: leave, onfocusin: enter, onfocusout: leave };
+  }
+
+  /** Show which parameter is pointed at in the picture. */
+  light(part: Part | null): void {
+    for (const [name, cell] of this.#cells) cell.classList.toggle("lit", name === part);
+  }
+
+  /** Numbers that have been changed in the picture. */
+  update(row: DhRow): void {
+    for (const key of Object.keys(this.row)) delete this.row[key as "name"];
+    Object.assign(this.row, row);
+    for (const [name, field] of this.#fields) field.set(row[name] ?? null);
+  }
+
   #detailsRow(number: number): HTMLElement {
     const isTurning = this.row.type === "revolute";
-    const rate = `${unitOf(this.#jointKind, this.options.degrees())}/s`;
+    const rate = `${unitOf(this.#jointKind, this.options.units())}/s`;
     const titled = (title: string, field: HTMLElement, unit: string) =>
       element("span", { class: "detail" }, title, field, unit && element("span", { class: "unit" }, unit));
     const cell = element(
@@ -138,9 +171,9 @@ export class Row {
       element(
         "div",
         { class: "details" },
-        titled("Name", this.#name, ""),
-        titled("Velocity", this.#field("velocity", this.#jointKind, number).input, rate),
-        titled("Effort", this.#field("effort", "number", number).input, isTurning ? "N m" : "N"),
+        titled(t("Name"), this.#name, ""),
+        titled(t("Velocity"), this.#field("velocity", this.#jointKind, number).input, rate),
+        titled(t("Effort"), this.#field("effort", "number", number).input, isTurning ? "N m" : "N"),
       ),
     );
     return element("tr", { class: "row-details", hidden: true }, element("td"), cell);
@@ -152,7 +185,7 @@ export class Row {
       "select",
       {
         class: "select",
-        "aria-label": `Row ${number}, type`,
+        "aria-label": t("Row {number}, type", { number }),
         onchange: () => {
           row.type = select.value as DhRow["type"];
           for (const limit of OPTIONAL) delete row[limit as "lower"];
@@ -169,9 +202,9 @@ export class Row {
     const { row } = this;
     const optional = OPTIONAL.has(name);
     const field = new NumberField({
-      label: `Row ${number}, ${SIGNS[name]}`,
+      label: t("Row {number}, {SIGNS}", { number, SIGNS: SIGNS[name] }),
       kind,
-      degrees: this.options.degrees,
+      units: this.options.units,
       decimals: 3,
       live: true,
       optional,
@@ -189,8 +222,8 @@ export class Row {
       ...(name !== "velocity" && { doubt: (asDegrees) => this.#doubt(name, asDegrees) }),
     });
     field.set(row[name] ?? null);
-    if (name === "lower") field.input.placeholder = kind === "angle" ? "−π" : "−1";
-    if (name === "upper") field.input.placeholder = kind === "angle" ? "π" : "1";
+    const usual = { lower: -1, upper: 1 }[name as "lower"];
+    if (usual) field.input.placeholder = format(usual * (kind === "angle" ? Math.PI : 1), kind, this.options.units());
     this.#fields.set(name, field);
     return field;
   }
@@ -206,7 +239,7 @@ export class Row {
   }
 
   #question(name: Parameter, radians: number): HTMLElement {
-    const text = `${format(radians, "angle", true, 6)}°`;
+    const text = measured(radians, "angle", { ...SI, degrees: true }, 6);
     const take = () => {
       const field = this.#fields.get(name)!;
       this.row[name] = radians;
@@ -215,13 +248,18 @@ export class Row {
       field.input.focus();
       this.options.edited();
     };
-    const turns = `${format((Math.abs(radians) * 180) / Math.PI / (2 * Math.PI), "number", false, 1)} turns`;
-    const typed = format((radians * 180) / Math.PI, "number", false, 4);
+    const turns = t("{radians} turns", {
+      radians: format((Math.abs(radians) * 180) / Math.PI / (2 * Math.PI), "number", SI, 1),
+    });
+    const typed = format((radians * 180) / Math.PI, "number", SI, 4);
     return element(
       "p",
       {},
-      `${SIGNS[name]} = ${typed} rad is ${turns}. `,
-      button(`${text}?`, take, { class: "button small", "aria-label": `Take ${SIGNS[name]} as ${text}` }),
+      t("{SIGNS} = {typed} rad is {turns}. ", { SIGNS: SIGNS[name], typed, turns }),
+      button(`${text}?`, take, {
+        class: "button small",
+        "aria-label": t("Take {SIGNS} as {text}", { SIGNS: SIGNS[name], text }),
+      }),
     );
   }
 

@@ -1,10 +1,14 @@
 /** The rows of a DH table as fields. */
 
+import { t } from "../../texts/index.ts";
 import type { DhRow } from "../../types.ts";
 import { element } from "../../ui/dom.ts";
+import { info } from "../../ui/info.ts";
 import { formula } from "../../ui/mathematics.ts";
-import { unitOf } from "../../ui/quantity.ts";
-import { jointName } from "../../robot/dh.ts";
+import type { Lit } from "../../state.ts";
+import { jointHue } from "../../view/colours.ts";
+import { type Units, unitOf } from "../../ui/quantity.ts";
+import { jointName, places } from "../../robot/dh.ts";
 import { COLUMNS, Row } from "./row.ts";
 
 /** A place in the payload, and what is wrong there. */
@@ -21,10 +25,14 @@ export class TableRows {
   #rows: DhRow[] = [];
   #isDetailed = false;
 
-  /** @param edited is told of all rows, whenever each of them can be read. */
+  /**
+   * @param edited is told of all rows, whenever each of them can be read.
+   * @param pointed is told what the pointer or the focus is on.
+   */
   constructor(
     private readonly edited: (rows: DhRow[]) => void,
-    private readonly degrees: () => boolean,
+    private readonly units: () => Units,
+    private readonly pointed: (lit: Lit | null) => void,
   ) {
     this.host = element("table", { class: "dh" }, element("thead", {}, this.#head), this.#body);
   }
@@ -35,13 +43,15 @@ export class TableRows {
 
   build(rows: readonly DhRow[]): void {
     this.#rows = structuredClone([...rows]);
-    const titles = COLUMNS.map(({ latex, kind }) => {
-      const unit = kind === "joint" ? "" : unitOf(kind, this.degrees());
-      return element("th", { scope: "col" }, formula(latex), unit && element("span", { class: "unit" }, unit));
+    const titles = COLUMNS.map(({ latex, kind, term }) => {
+      const unit = kind === "joint" ? "" : unitOf(kind, this.units());
+      const named = [formula(latex), unit && element("span", { class: "unit" }, unit)];
+      return element("th", { scope: "col" }, ...named, info(term));
     });
     const hidden = (text: string) => element("th", { scope: "col" }, element("span", { class: "unseen" }, text));
-    this.#head.replaceChildren(hidden("Row"), hidden("Type"), ...titles, hidden("Remove"));
-    this.#lines = this.#rows.map((row, index) => this.#line(row, index));
+    this.#head.replaceChildren(hidden(t("Row")), hidden(t("Type")), ...titles, hidden(t("Remove")));
+    const hues = places(this.#rows).map(jointHue);
+    this.#lines = this.#rows.map((row, index) => this.#line(row, index, hues[index]!));
     this.#body.replaceChildren(...this.#lines.flatMap(({ hosts }) => hosts));
   }
 
@@ -74,13 +84,29 @@ export class TableRows {
     return elsewhere;
   }
 
-  #line(row: DhRow, index: number): Row {
+  /** Show what is pointed at in the picture. */
+  light(lit: Lit | null): void {
+    for (const [index, line] of this.#lines.entries()) line.light(lit?.row === index ? lit.part : null);
+  }
+
+  /** The same rows with other numbers: what is typed in stays; whether they are the same. */
+  update(rows: readonly DhRow[]): boolean {
+    const kinds = (all: readonly DhRow[]) => all.map((row, i) => `${jointName(row, i)} ${row.type}`).join();
+    const isSame = kinds(rows) === kinds(this.#rows) && this.#lines.every(({ isSettled }) => isSettled);
+    if (!isSame || this.isEmpty) return false;
+    for (const [i, row] of rows.entries()) this.#lines[i]!.update(structuredClone(row));
+    return true;
+  }
+
+  #line(row: DhRow, index: number, tone: string): Row {
     const line = new Row(row, index, {
-      degrees: this.degrees,
+      units: this.units,
       isOnly: this.#rows.length === 1,
       edited: () => this.#tell(),
       retyped: () => this.#rebuild(this.#rows),
       rename: (name) => this.#rename(index, name.trim()),
+      pointed: (at) => this.pointed(at && { row: index, ...at }),
+      tone,
       remove: () => this.#rebuild(this.#rows.filter((_, i) => i !== index)),
     });
     line.detail(this.#isDetailed);

@@ -1,5 +1,6 @@
 /** Names for parts of the trajectory call's answer. */
 
+import type { ShownChain } from "../../robot/chain.ts";
 import type { Scene } from "../../scene/objects.ts";
 import type { TrajectoryAnswer } from "../../types.ts";
 import type { Motion } from "./motion.ts";
@@ -13,5 +14,7 @@ export type JointLimits = Pick<TrajectoryAnswer["limits"], "joint_velocity" | "j
 export interface Plan {
   motion: Motion;
   scene: Scene;
+  /** Where joints off the chain stand. */
+  others: ShownChain["others"];
   answer: TrajectoryAnswer;
 }

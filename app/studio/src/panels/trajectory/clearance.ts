@@ -4,35 +4,39 @@ import uPlot from "uplot";
 
 import { type Api, asProblem, Latest } from "../../api.ts";
 import type { ShownChain } from "../../robot/chain.ts";
-import { call } from "../../scene/contacts.ts";
+import { surroundings } from "../../scene/objects.ts";
+import { t } from "../../texts/index.ts";
 import type { CollisionAnswer } from "../../types.ts";
 import { element } from "../../ui/dom.ts";
+import { leftIn } from "../../ui/pointer.ts";
 import { ProblemView } from "../../ui/problem.ts";
-import { fixed } from "../../ui/quantity.ts";
+import { column, inUnit, type Units, unitOf } from "../../ui/quantity.ts";
 import { paint } from "../../view/colours.ts";
 import type { Plan } from "./answer.ts";
 import type { Curve } from "./curve.ts";
 
 const SAMPLES = 240;
 const HEIGHT = 120;
-const MILLIMETRES = 1000;
 
 export class ClearancePlot {
   readonly host: HTMLElement;
   #latest = new Latest();
   #problem = new ProblemView();
-  #canvas = element("div", { class: "profiles clearance", role: "img", "aria-label": "Clearance over time" });
+  #canvas = element("div", { class: "profiles clearance", role: "img", "aria-label": t("Clearance over time") });
   #now = element("div", { class: "profile-now" });
   #words = element("p", { class: "muted small" });
   #plot: uPlot | null = null;
-  /** Times [s] and clearances [mm]. */
+  /** Times [s] and clearances [m]. */
   #data: [number[], (number | null)[]] = [[], []];
   #time = 0;
 
   /** Is told of the time that is clicked, [s]. */
   go: (time: number) => void = () => {};
 
-  constructor(private readonly api: Api) {
+  constructor(
+    private readonly api: Api,
+    private readonly units: () => Units,
+  ) {
     this.host = element("div", { class: "part", hidden: true }, this.#words, this.#canvas, this.#problem.host);
     this.#canvas.addEventListener("click", (event) => this.#follow(event));
     new ResizeObserver(() => this.#plot?.setSize({ width: this.#width, height: HEIGHT })).observe(this.#canvas);
@@ -46,21 +50,22 @@ export class ClearancePlot {
     this.host.hidden = !plan?.scene.objects.length || !curve?.duration;
     if (!plan || !curve || this.host.hidden) return;
     const times = Array.from({ length: SAMPLES + 1 }, (_, i) => (i * curve.duration) / SAMPLES);
-    const body = { ...call(chain, plan.scene), joint_positions: times.map((time) => curve.at(time)), pairs: "none" };
+    const around = { ...chain.ends, ...surroundings(plan.scene, plan.others) };
+    const body = { ...around, joint_positions: times.map((time) => curve.at(time)), clearance: true, pairs: "none" };
     try {
       const answer = await this.#latest.run((signal) =>
         this.api.post<CollisionAnswer>(`${chain.path}/collisions`, body, signal),
       );
       if (!answer) return;
       const values = answer.results.map(({ clearance }) => clearance ?? null);
-      this.#data = [times, values.map((value) => value && value * MILLIMETRES)];
+      this.#data = [times, values];
       this.draw();
     } catch (error) {
       this.#problem.show(asProblem(error));
     }
   }
 
-  /** Anew, in the colours of the page; below zero the arm is in contact. */
+  /** Anew, in the units and colours of the page; below zero the arm is in contact. */
   draw(): void {
     this.#plot?.destroy();
     this.#plot = null;
@@ -83,7 +88,9 @@ export class ClearancePlot {
       legend: { show: false },
       cursor: { show: false },
     };
-    const data = [...this.#data, this.#data[0].map(() => 0)] as uPlot.AlignedData;
+    const [times, clearances] = this.#data;
+    const shown = clearances.map((value) => value && inUnit(value, "length", this.units()));
+    const data = [times, shown, times.map(() => 0)] as uPlot.AlignedData;
     this.#plot = new uPlot(options, data, this.#canvas);
     this.#plot.over.append(this.#now);
     this.at(this.#time);
@@ -96,7 +103,7 @@ export class ClearancePlot {
     this.#now.style.transform = `translateX(${this.#plot.valToPos(time, "x")}px)`;
     const [times, values] = this.#data;
     const value = values[Math.round((time / times.at(-1)!) * SAMPLES)];
-    this.#words.textContent = value == null ? "Clearance [mm]" : `Clearance [mm]: ${fixed(value, 1)} at this time`;
+    this.#words.textContent = this.#told(value);
   }
 
   stop(): void {
@@ -108,12 +115,19 @@ export class ClearancePlot {
     this.#data = [[], []];
     this.#plot?.destroy();
     this.#plot = null;
-    this.#words.textContent = "Clearance [mm]";
+    this.#words.textContent = this.#told();
+  }
+
+  #told(value: number | null = null): string {
+    const title = t("Clearance [{unitOf}]", { unitOf: unitOf("length", this.units()) });
+    return value === null
+      ? title
+      : t("{title}: {value} at this time", { title, value: column(value, "length", this.units(), 4) });
   }
 
   #follow(event: MouseEvent): void {
     if (!this.#plot) return;
-    const x = event.clientX - this.#plot.over.getBoundingClientRect().left;
+    const x = leftIn(this.#plot.over, event);
     this.go(Math.max(0, Math.min(this.#data[0].at(-1)!, this.#plot.posToVal(x, "x"))));
   }
 

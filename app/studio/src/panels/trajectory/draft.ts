@@ -3,6 +3,7 @@
 import { shownChain, type ShownChain } from "../../robot/chain.ts";
 import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import type { Units } from "../../ui/quantity.ts";
 import { moved } from "./configurations.ts";
 import { belongs, defined, fresh, type Limits, type Motion, type Segment } from "./motion.ts";
 
@@ -22,8 +23,8 @@ export class Draft {
     return belongs(motion, this.chain) ? motion : fresh(this.chain);
   }
 
-  get degrees(): boolean {
-    return this.store.value.degrees;
+  get units(): Units {
+    return this.store.value;
   }
 
   /** Unless there is a motion of this chain already: go on with the one that was left, or begin where the robot is. */

@@ -3,6 +3,7 @@
 import type { Api } from "../../api.ts";
 import type { ShownChain } from "../../robot/chain.ts";
 import { asMatrix, isPose, position } from "../../robot/pose.ts";
+import { t } from "../../texts/index.ts";
 import { element } from "../../ui/dom.ts";
 import { drawing, figureOf, svgOf } from "../../ui/drawing.ts";
 import { ProblemView } from "../../ui/problem.ts";
@@ -32,7 +33,7 @@ export function drawings(api: Api, chain: ShownChain, plan: Plan, curve: Curve):
       problem,
       async () => {
         const svg = await svgOf(api, { method: "POST", ...picture.call });
-        return figureOf(svg, picture.title, picture.name, `Save as SVG: ${picture.title}`);
+        return figureOf(svg, picture.title, picture.name, t("Save as SVG: {title}", { title: picture.title }));
       },
       place,
     );
@@ -41,9 +42,9 @@ export function drawings(api: Api, chain: ShownChain, plan: Plan, curve: Curve):
   return element("div", { class: "part" }, element("div", { class: "bar" }, ...buttons), problem.host, place);
 }
 
-function profiles({ path }: ShownChain, { motion, scene }: Plan): Picture {
-  const call = { path: `${path}/trajectory`, body: request(motion, scene) };
-  return { name: "profiles", button: "Profiles drawn", title: "Profiles of the joints", call };
+function profiles({ path }: ShownChain, { motion, scene, others }: Plan): Picture {
+  const call = { path: `${path}/trajectory`, body: request(motion, scene, others) };
+  return { name: "profiles", button: t("Profiles drawn"), title: t("Profiles of the joints"), call };
 }
 
 /** The ellipses of translation, evenly spaced in time. */
@@ -51,7 +52,7 @@ function ellipses({ path, ends }: ShownChain, curve: Curve): Picture {
   const shares = Array.from({ length: POSTURES }, (_, i) => i / (POSTURES - 1));
   const body = { ...ends, joint_positions: shares.map((share) => curve.at(share * curve.duration)) };
   const call = { path: `${path}/manipulability`, body };
-  return { name: "ellipses", button: "Ellipses drawn", title: "Velocity ellipses along the motion", call };
+  return { name: "ellipses", button: t("Ellipses drawn"), title: t("Velocity ellipses along the motion"), call };
 }
 
 /** The course's fly-over of each blended corner: with the plan's radius, at the least speed that both lines allow. */
@@ -69,9 +70,14 @@ function corners(chain: ShownChain, { motion, answer }: Plan, curve: Curve): Pic
       ...{ start: point(start_time), corner, end: point(next.end_time), radius: blend.radius },
       ...{ speed_before: speed, speed_after: speed },
     };
-    const title = `Fly-over from line ${index + 1} to line ${index + 2}`;
+    const title = t("Fly-over from line {index} to line {index2}", { index: index + 1, index2: index + 2 });
     return [
-      { name: "fly-over", button: `Corner ${index + 1} drawn`, title, call: { path: "v1/course/fly-over", body } },
+      {
+        name: "fly-over",
+        button: t("Corner {index} drawn", { index: index + 1 }),
+        title,
+        call: { path: "v1/course/fly-over", body },
+      },
     ];
   });
 }

@@ -1,9 +1,11 @@
 /** What can be changed about one segment: its type, where it leads, how it goes there. */
 
 import { isPose } from "../../robot/pose.ts";
+import { t, within } from "../../texts/index.ts";
 import { Choice, button, element } from "../../ui/dom.ts";
 import type { Draft } from "./draft.ts";
 import { NumberField } from "../../ui/number.ts";
+import { shownUnit, type Units } from "../../ui/quantity.ts";
 import { choice, type Field, icon, optional, placeFields } from "./fields.ts";
 import {
   asPoseOf,
@@ -20,33 +22,33 @@ import {
 } from "./motion.ts";
 
 const PASSED = [
-  { value: "soon", text: "As soon as limits allow" },
-  { value: "timed", text: "At given times" },
+  { value: "soon", text: t("As soon as limits allow") },
+  { value: "timed", text: t("At given times") },
 ] as const;
 
 const WAYS = [
-  { value: "spline", text: "A cubic spline" },
-  { value: "blends", text: "Lines with blends" },
+  { value: "spline", text: t("A cubic spline") },
+  { value: "blends", text: t("Lines with blends") },
 ] as const;
 
 type Blend = "blend_radius" | "blend_time" | "blend_acceleration";
 
 const BLENDS: readonly { value: Blend; text: string; unit: string }[] = [
-  { value: "blend_radius", text: "Radius [m]", unit: "m" },
-  { value: "blend_time", text: "Time [s]", unit: "s" },
-  { value: "blend_acceleration", text: "Acceleration [m/s²]", unit: "m/s²" },
+  { value: "blend_radius", text: t("Radius"), unit: "m" },
+  { value: "blend_time", text: t("Time"), unit: "s" },
+  { value: "blend_acceleration", text: t("Acceleration"), unit: "m/s²" },
 ];
 const ORIENTATIONS: readonly { value: OrientationLaw; text: string }[] = [
-  { value: "axis_angle", text: "One axis" },
-  { value: "zyz", text: "Euler ZYZ" },
-  { value: "zyz_other", text: "ZYZ, other" },
+  { value: "axis_angle", text: t("One axis") },
+  { value: "zyz", text: t("Euler ZYZ") },
+  { value: "zyz_other", text: t("ZYZ, other") },
 ];
 const BOUNDARIES: readonly { value: Boundary; text: string }[] = [
-  { value: "clamped", text: "At rest (clamped)" },
-  { value: "natural", text: "No acceleration (natural)" },
-  { value: "not_a_knot", text: "Not a knot" },
-  { value: "periodic", text: "Periodic" },
-  { value: "assigned", text: "At rest, no acceleration" },
+  { value: "clamped", text: t("At rest (clamped)") },
+  { value: "natural", text: t("No acceleration (natural)") },
+  { value: "not_a_knot", text: t("Not a knot") },
+  { value: "periodic", text: t("Periodic") },
+  { value: "assigned", text: t("At rest, no acceleration") },
 ];
 
 export class Editor {
@@ -77,7 +79,7 @@ export class Editor {
   }
 
   get #name(): string {
-    return `Segment ${this.index + 1}`;
+    return t("Segment {index}", { index: this.index + 1 });
   }
 
   #edit(patch: { [K in keyof Segment]?: Segment[K] | undefined }): void {
@@ -92,24 +94,34 @@ export class Editor {
   #type(): HTMLElement {
     const change = (type: SegmentType) =>
       this.draft.edit(this.index, (segment) => converted(segment, type, this.draft.chain));
-    return this.#follow(choice("Type", `${this.#name}, type`, TYPES, change), ({ type }) => type);
+    return this.#follow(choice(t("Type"), t("{name}, type", { name: this.#name }), TYPES, change), ({ type }) => type);
   }
 
   #law(): HTMLElement {
-    const options = [{ value: "" as Law | "", text: "As the motion" }, ...LAWS];
+    const options = [{ value: "" as Law | "", text: t("As the motion") }, ...LAWS];
     const change = (law: Law | "") => this.#edit({ law: law || undefined });
-    return this.#follow(choice("Law", `${this.#name}, law`, options, change), ({ law }) => law ?? "");
+    return this.#follow(
+      choice(t("Law"), t("{name}, law", { name: this.#name }), options, change),
+      ({ law }) => law ?? "",
+    );
   }
 
   #pace(): HTMLElement[] {
     const fields = [
-      { name: "duration", title: "Duration", unit: "s", left: "shortest" },
-      { name: "velocity_scale", title: "Velocity scale", unit: "", left: "1" },
-      { name: "acceleration_scale", title: "Acceleration scale", unit: "", left: "1" },
+      { name: "duration", title: t("Duration"), unit: "s", left: t("shortest") },
+      { name: "velocity_scale", title: t("Velocity scale"), unit: "", left: 1 },
+      { name: "acceleration_scale", title: t("Acceleration scale"), unit: "", left: 1 },
     ] as const;
     return fields.map(({ name, title, unit, left }) => {
-      const label = `${this.#name}, ${title.toLowerCase()}`;
-      const field = optional(title, label, unit, left, (value) => this.#edit({ [name]: value }));
+      const label = `${this.#name}, ${within(title)}`;
+      const field = optional(
+        title,
+        label,
+        unit,
+        left,
+        () => this.draft.units,
+        (value) => this.#edit({ [name]: value }),
+      );
       return this.#follow(field, (segment) => segment[name]);
     });
   }
@@ -118,13 +130,13 @@ export class Editor {
     const { type, waypoints } = this.#segment;
     if (waypoints) return waypoints.map((_, i) => this.#waypoint(i, waypoints.length));
     const target = this.#place(
-      "Target",
+      t("Target"),
       (segment) => segment.target,
       (place) => this.#edit({ target: place }),
     );
     if (type !== "circle") return [target];
     const via = this.#place(
-      "Via",
+      t("Via"),
       (segment) => segment.via,
       (place) => this.#edit({ via: asPoseOf(place, this.draft.chain) }),
     );
@@ -138,27 +150,27 @@ export class Editor {
       this.#edit({ waypoints: others(waypoints!), times: times && others(times) });
     };
     return this.#place(
-      `Waypoint ${i + 1}`,
+      t("Waypoint {i}", { i: i + 1 }),
       (segment) => segment.waypoints?.[i],
       (place) => this.#edit({ waypoints: this.#segment.waypoints!.map((old, other) => (other === i ? place : old)) }),
       this.#segment.times !== undefined && this.#time(i),
-      count > 1 && icon("×", `${this.#name}, remove waypoint ${i + 1}`, remove),
+      count > 1 && icon("×", t("{name}, remove waypoint {i}", { name: this.#name, i: i + 1 }), remove),
     );
   }
 
   /** When a waypoint is passed. */
   #time(i: number): HTMLElement {
     const field = new NumberField({
-      label: `${this.#name}, waypoint ${i + 1}, time`,
+      label: t("{name}, waypoint {i}, time", { name: this.#name, i: i + 1 }),
       kind: "number",
-      degrees: () => false,
+      units: () => this.draft.units,
       change: (value) => this.#edit({ times: this.#segment.times!.map((old, other) => (other === i ? value! : old)) }),
     });
     this.#shows.push(({ times }) => field.set(times?.[i] ?? null));
     return element(
       "label",
       { class: "passed" },
-      element("span", { class: "unit" }, "at"),
+      element("span", { class: "unit" }, t("at")),
       field.input,
       element("span", { class: "unit" }, "s"),
     );
@@ -173,7 +185,7 @@ export class Editor {
   ): HTMLElement {
     const { draft } = this;
     const place = read(this.#segment);
-    const label = `${this.#name}, ${title.toLowerCase()}`;
+    const label = `${this.#name}, ${within(title)}`;
     const wantsPose = this.#segment.type === "line" || this.#segment.type === "circle";
     const isTip = place ? isPose(place) : wantsPose;
     const set = () => write(isTip ? presentPose(draft.chain) : draft.chain.configuration);
@@ -184,17 +196,17 @@ export class Editor {
       "div",
       { class: "bar place-head" },
       element("h3", {}, title),
-      this.#segment.times === undefined && element("span", { class: "unit" }, isTip ? "tip in base" : "joints"),
+      this.#segment.times === undefined && element("span", { class: "unit" }, isTip ? t("tip in base") : t("joints")),
       element("span", { class: "spring" }),
-      small("Set here", "Set it to the present pose", set),
-      place && !isTip && small("Go", "Move the arm there", go),
+      small(t("Set here"), t("Set it to the present pose"), set),
+      place && !isTip && small(t("Go"), t("Move the arm there"), go),
       ...tools,
     );
     if (!place) return element("div", { class: "part" }, head);
     const fields = placeFields(place, {
       label,
       joints: draft.chain.joints,
-      degrees: () => draft.degrees,
+      units: () => draft.units,
       change: write,
     });
     return element(
@@ -210,8 +222,17 @@ export class Editor {
     let kind: Blend = blendOf(this.#segment);
     const write = (value: number | undefined) =>
       this.#edit({ ...Object.fromEntries(BLENDS.map(({ value: name }) => [name, undefined])), [kind]: value });
-    const size = optional("Blend into the next", `${this.#name}, blend`, "", "none", write);
-    const by = choice("by", `${this.#name}, blend by`, BLENDS, (chosen) => {
+    const units = () => this.draft.units;
+    const unit = () => BLENDS.find(({ value }) => value === kind)!.unit;
+    const size = optional(
+      t("Blend into the next"),
+      t("{name}, blend", { name: this.#name }),
+      unit,
+      t("none"),
+      units,
+      write,
+    );
+    const by = choice(t("by"), t("{name}, blend by", { name: this.#name }), blends(units()), (chosen) => {
       const value = this.#segment[kind];
       kind = chosen;
       if (value !== undefined) write(value);
@@ -221,8 +242,11 @@ export class Editor {
       size.show(segment[kind]);
       by.show(kind);
     });
-    const turns = choice("Orientation", `${this.#name}, orientation`, ORIENTATIONS, (orientation) =>
-      this.#edit({ orientation }),
+    const turns = choice(
+      t("Orientation"),
+      t("{name}, orientation", { name: this.#name }),
+      ORIENTATIONS,
+      (orientation) => this.#edit({ orientation }),
     );
     const orientation = this.#follow(turns, (segment) => segment.orientation ?? "axis_angle");
     return element("div", { class: "settings thirds" }, size.host, ...(type === "line" ? [by.host] : []), orientation);
@@ -231,10 +255,10 @@ export class Editor {
   /** Of what, how it ends, and when its waypoints are passed. */
   #spline(): HTMLElement[] {
     const through = new Choice<"joints" | "tip">(
-      `${this.#name}, through`,
+      t("{name}, through", { name: this.#name }),
       [
-        { value: "joints", text: "Joints" },
-        { value: "tip", text: "Tip" },
+        { value: "joints", text: t("Joints") },
+        { value: "tip", text: t("Tip") },
       ],
       (chosen) => {
         if (chosen === "tip")
@@ -246,13 +270,13 @@ export class Editor {
       const isTip = waypoints!.some(isPose);
       through.show(isTip ? "tip" : "joints");
       joints!.disabled = isTip;
-      joints!.title = isTip ? "A pose can be reached in several ways: add configurations as a new spline" : "";
+      joints!.title = isTip ? t("A pose can be reached in several ways: add configurations as a new spline") : "";
     });
-    const ends = choice("At its ends", `${this.#name}, at its ends`, BOUNDARIES, (boundary) =>
+    const ends = choice(t("At its ends"), t("{name}, at its ends", { name: this.#name }), BOUNDARIES, (boundary) =>
       this.#edit({ boundary }),
     );
     const boundary = this.#follow(ends, (segment) => segment.boundary ?? "clamped");
-    const way = choice("Between waypoints", `${this.#name}, between waypoints`, WAYS, (chosen) =>
+    const way = choice(t("Between waypoints"), t("{name}, between waypoints", { name: this.#name }), WAYS, (chosen) =>
       this.#edit({ blends: chosen === "blends" || undefined, ...(chosen === "blends" && { boundary: undefined }) }),
     );
     const between = this.#follow(way, ({ blends }) => (blends ? "blends" : "spline"));
@@ -260,16 +284,24 @@ export class Editor {
       boundary.hidden = blends === true;
       between.hidden = !blends && waypoints!.some(isPose); // blends are of the joints
     });
-    const passed = choice("Waypoints are passed", `${this.#name}, waypoints are passed`, PASSED, (when) =>
-      this.#edit({ times: when === "timed" ? this.#segment.waypoints!.map((_, i) => i + 1) : undefined }),
+    const passed = choice(
+      t("Waypoints are passed"),
+      t("{name}, waypoints are passed", { name: this.#name }),
+      PASSED,
+      (when) => this.#edit({ times: when === "timed" ? this.#segment.waypoints!.map((_, i) => i + 1) : undefined }),
     );
     return [
-      element("div", { class: "setting" }, element("span", { class: "field" }, "A spline of"), through.host),
+      element("div", { class: "setting" }, element("span", { class: "field" }, t("A spline of")), through.host),
       between,
       boundary,
       this.#follow(passed, ({ times }) => (times ? "timed" : "soon")),
     ];
   }
+}
+
+/** The quantities that a blend is given by, with their units. */
+function blends(units: Units): { value: Blend; text: string }[] {
+  return BLENDS.map(({ value, text, unit }) => ({ value, text: `${text} [${shownUnit(unit, units)}]` }));
 }
 
 function blendOf(segment: Segment): Blend {

@@ -1,10 +1,11 @@
 /** Settings with their titles, and the fields of a place. */
 
 import { asMatrix, isPose, orientation, position } from "../../robot/pose.ts";
-import type { Joint } from "../../robot/model.ts";
-import { button, element } from "../../ui/dom.ts";
+import { type Joint, kindOf } from "../../robot/model.ts";
+import { t } from "../../texts/index.ts";
+import { button, element, explained } from "../../ui/dom.ts";
 import { NumberField } from "../../ui/number.ts";
-import { format, type Kind, kindOfUnit, unitOf } from "../../ui/quantity.ts";
+import { format, type Kind, kindOfUnit, shownUnit, type Units, unitOf, withUnit } from "../../ui/quantity.ts";
 import type { Place } from "./motion.ts";
 
 /** Something to fill in that can show another value without being built anew, so that the focus stays. */
@@ -15,12 +16,13 @@ export interface Field<T> {
 
 /** A title above a control, and its unit behind it. */
 export function titled(title: string, control: HTMLElement, unit = ""): HTMLElement {
-  return element(
+  const made = element(
     "label",
     { class: "setting" },
     element("span", { class: "field" }, title, unit && element("span", { class: "unit" }, ` [${unit}]`)),
     control,
   );
+  return explained(made, title);
 }
 
 export function choice<T extends string>(
@@ -40,26 +42,37 @@ export function choice<T extends string>(
 /**
  * A number that may be left out: the placeholder then says what holds.
  *
+ * @param unit of the service; a function where that changes.
+ * @param left what holds then: a number in that unit, or words.
  * @param name the field of the request, where the service's word on it is shown.
  */
 export function optional(
   title: string,
   label: string,
-  unit: string,
-  placeholder: string,
+  unit: string | (() => string),
+  left: string | number,
+  units: () => Units,
   change: (value: number | undefined) => void,
   name = "",
 ): Field<number | undefined> {
+  const unitNow = () => (typeof unit === "function" ? unit() : unit);
   const field = new NumberField({
     label,
-    kind: kindOfUnit(unit),
-    degrees: () => false,
+    kind: () => kindOfUnit(unitNow()),
+    units,
     optional: true,
     change: (value) => change(value ?? undefined),
   });
-  field.input.placeholder = placeholder;
   field.input.name = name;
-  return { host: titled(title, field.input, unit), show: (value) => field.set(value ?? null) };
+  const host = titled(title, field.input, unitNow());
+  const show = (value: number | undefined) => {
+    const shown = shownUnit(unitNow(), units());
+    const place = host.querySelector(".unit");
+    if (place) place.textContent = ` [${shown}]`;
+    field.input.placeholder = typeof left === "string" ? left : format(left, kindOfUnit(unitNow()), units(), 6);
+    field.set(value ?? null);
+  };
+  return { host, show };
 }
 
 /** A row for each joint, and in each column a control of it. */
@@ -88,8 +101,8 @@ export function jointTable(
 }
 
 /** The units of some joints, per a power of the second. */
-export function unitsOf(joints: readonly Joint[], degrees: boolean, per: string): string {
-  return [...new Set(joints.map((joint) => unitOf(kindOf(joint), degrees) + per))].join(" or ");
+export function unitsOf(joints: readonly Joint[], units: Units, per: string): string {
+  return [...new Set(joints.map((joint) => unitOf(kindOf(joint), units) + per))].join(t(" or "));
 }
 
 /** Of what a joint's motor gives. */
@@ -101,7 +114,7 @@ export interface PlaceOptions {
   /** What a screen reader says in front of each field. */
   label: string;
   joints: readonly Joint[];
-  degrees: () => boolean;
+  units: () => Units;
   change: (place: Place) => void;
 }
 
@@ -110,12 +123,12 @@ export function placeFields(place: Place, options: PlaceOptions): Field<Place> {
   return isPose(place) ? poseFields(options) : configurationFields(options);
 }
 
-function configurationFields({ label, joints, degrees, change }: PlaceOptions): Field<Place> {
+function configurationFields({ label, joints, units, change }: PlaceOptions): Field<Place> {
   let shown: number[] = [];
   const fields = joints.map((joint, index) => {
     const kind = kindOf(joint);
     const title = `${label}, ${joint.name}`;
-    return numberField(title, kind, degrees, (value) => change(shown.map((old, i) => (i === index ? value : old))));
+    return numberField(title, kind, units, (value) => change(shown.map((old, i) => (i === index ? value : old))));
   });
   const cells = fields.map((field, i) =>
     element(
@@ -134,10 +147,10 @@ function configurationFields({ label, joints, degrees, change }: PlaceOptions): 
   };
 }
 
-function poseFields({ label, degrees, change }: PlaceOptions): Field<Place> {
+function poseFields({ label, units, change }: PlaceOptions): Field<Place> {
   let shown: number[] = [];
   const fields = COORDINATES.map(({ name, kind }, index) =>
-    numberField(`${label}, ${name}`, kind, degrees, (value) => {
+    numberField(`${label}, ${name}`, kind, units, (value) => {
       const numbers = shown.map((old, i) => (i === index ? value : old));
       change({ position: numbers.slice(0, 3), rpy: numbers.slice(3) });
     }),
@@ -171,29 +184,25 @@ function coordinates(place: Place): number[] {
   return [...position(T), ...(orientation(T, "rpy") as number[])];
 }
 
-function numberField(label: string, kind: Kind, degrees: () => boolean, change: (value: number) => void): NumberField {
+function numberField(label: string, kind: Kind, units: () => Units, change: (value: number) => void): NumberField {
   return new NumberField({
     label,
     kind,
-    degrees,
+    units,
     change: (value) => {
       if (value !== null) change(value);
     },
   });
 }
 
-export function kindOf(joint: Joint): Kind {
-  return joint.type === "prismatic" ? "length" : "angle";
-}
-
 /** A place in a line: a configuration in its joints' units, of a pose where it is. */
-export function told(place: Place, joints: readonly Joint[], degrees: boolean): string {
+export function told(place: Place, joints: readonly Joint[], units: Units): string {
   if (isPose(place)) {
     const numbers = coordinates(place).slice(0, 3);
-    return `${numbers.map((value) => format(value, "length", degrees, 3)).join(", ")} m`;
+    return withUnit(numbers.map((value) => format(value, "length", units, 3)).join(", "), "length", units);
   }
-  const unit = new Set(joints.map((joint) => unitOf(kindOf(joint), degrees)));
-  const numbers = place.map((value, i) => format(value, kindOf(joints[i]!), degrees, 2));
+  const unit = new Set(joints.map((joint) => unitOf(kindOf(joint), units)));
+  const numbers = place.map((value, i) => format(value, kindOf(joints[i]!), units, 2));
   return unit.size === 1 ? `${numbers.join(", ")} ${[...unit][0]}` : numbers.join(", ");
 }
 

@@ -2,7 +2,9 @@
 
 import "../../styles/trajectory.css";
 
+import { t } from "../../texts/index.ts";
 import { section } from "../../ui/dom.ts";
+import { UNITS } from "../../ui/quantity.ts";
 import { RequestView } from "../../ui/request.ts";
 import { whileKept } from "../kept.ts";
 import type { Panel, Studio } from "../panel.ts";
@@ -21,7 +23,7 @@ import { Tool } from "./tool.ts";
 
 export const trajectoryPanel: Panel = {
   id: "trajectory",
-  title: "Trajectory",
+  title: t("Trajectory"),
   open: (host, studio) => whileKept(host, studio, () => open(host, studio)),
 };
 
@@ -37,7 +39,7 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const ends = new Ends(draft);
   const loads = new Loads(draft);
   const arm = new Arm(studio);
-  const result = new Result(draft, asked.api, new ClearancePlot(studio.api), marks);
+  const result = new Result(draft, asked.api, new ClearancePlot(studio.api, () => store.value), marks, view);
   const planner = new Planner(
     draft,
     asked,
@@ -48,12 +50,12 @@ function open(host: HTMLElement, studio: Studio): () => void {
     },
   );
   host.append(
-    section("Motion", list.host, tool.host, arm.host, settings.host, ends.host, loads.host, planner.host),
+    section(t("Motion"), list.host, tool.host, arm.host, settings.host, ends.host, loads.host, planner.host),
     result.host,
     asked.host,
   );
   const stops = [
-    store.watch(["model", "base", "tip", "motion", "degrees", "plan", "scene"], ({ plan }) => {
+    store.watch(["model", "base", "tip", "motion", ...UNITS, "plan", "scene"], ({ plan }) => {
       draft.begin();
       list.update();
       settings.update(plan && belongs(plan.motion, draft.chain) ? plan.answer.limits : null);
@@ -68,7 +70,10 @@ function open(host: HTMLElement, studio: Studio): () => void {
     store.watch(["unit", "dark"], () => result.drawWay()),
     store.watch(["dark", "options"], () => result.drawProfiles()),
     store.watch(["joint"], ({ joint }) => result.point(joint)),
-    store.watch(["positions"], () => marks?.follow(draft.chain)),
+    store.watch(["positions"], () => {
+      marks?.follow(draft.chain);
+      planner.update();
+    }),
     () => planner.stop(),
     () => arm.stop(),
     () => result.stop(),

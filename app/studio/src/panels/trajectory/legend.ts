@@ -3,19 +3,13 @@
 import type { Joint } from "../../robot/model.ts";
 import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import { t } from "../../texts/index.ts";
 import { button, element } from "../../ui/dom.ts";
 import { fixed } from "../../ui/quantity.ts";
-import type { Hue } from "../../view/colours.ts";
-
-const HUES = 8;
-
-/** The colour of a joint's lines. */
-export function hue(index: number): Hue {
-  return `joint-${(index % HUES) + 1}`;
-}
+import { jointHue } from "../../view/colours.ts";
 
 export class Legend {
-  readonly host = element("div", { class: "profile-legend", role: "group", "aria-label": "Joints in the plot" });
+  readonly host = element("div", { class: "profile-legend", role: "group", "aria-label": t("Joints in the plot") });
   #values: HTMLElement[] = [];
   #hidden = new Set<string>();
 
@@ -43,7 +37,7 @@ export class Legend {
     const point = (name: string | null) => () => this.store.set({ joint: name });
     const entry = button("", () => this.#flip(joint, index, entry), {
       class: "profile-joint",
-      title: `${joint.name}: show or hide`,
+      title: t("{name}: show or hide", { name: joint.name }),
       "aria-pressed": String(this.isShown(joint)),
       onpointerenter: point(joint.name),
       onpointerleave: point(null),
@@ -51,7 +45,7 @@ export class Legend {
       onblur: point(null),
     });
     entry.append(
-      element("span", { class: `swatch ${hue(index)}` }),
+      element("span", { class: `swatch ${jointHue(index)}` }),
       element("span", { class: "profile-name" }, joint.name.slice(prefix)),
       this.#values[index]!,
     );
@@ -67,7 +61,7 @@ export class Legend {
 }
 
 /** How many characters at the front, up to an underscore, all names share and can do without: `panda_`. */
-function commonPrefix(names: readonly string[]): number {
+export function commonPrefix(names: readonly string[]): number {
   const [first = ""] = names;
   const isShared = (end: number) =>
     names.every((name) => name.startsWith(first.slice(0, end)) && /^[a-z]/i.test(name.slice(end)));

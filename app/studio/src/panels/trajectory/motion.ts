@@ -1,8 +1,9 @@
 /** A motion as it is built here: the request itself, but for places that are still missing, and whose it is. */
 
-import { type Scene, sceneField } from "../../scene/objects.ts";
+import { type Scene, surroundings } from "../../scene/objects.ts";
 import type { ShownChain } from "../../robot/chain.ts";
 import { asPose, isPose } from "../../robot/pose.ts";
+import { t } from "../../texts/index.ts";
 import type { Direction, Pose, TrajectoryRequest } from "../../types.ts";
 import { poseAt } from "./configurations.ts";
 
@@ -94,19 +95,19 @@ export interface Motion extends Pace, Partial<Rates> {
 }
 
 export const TYPES: readonly { value: SegmentType; text: string }[] = [
-  { value: "joint", text: "Joints" },
-  { value: "line", text: "Line" },
-  { value: "circle", text: "Circle" },
-  { value: "spline", text: "Spline" },
+  { value: "joint", text: t("Joints") },
+  { value: "line", text: t("Line") },
+  { value: "circle", text: t("Circle") },
+  { value: "spline", text: t("Spline") },
 ];
 
 export const LAWS: readonly { value: Law; text: string }[] = [
-  { value: "trapezoidal", text: "Trapezoidal" },
-  { value: "cubic", text: "Cubic" },
-  { value: "quintic", text: "Quintic" },
-  { value: "septic", text: "Septic" },
-  { value: "jerk_limited", text: "Jerk-limited" },
-  { value: "time_optimal", text: "Time-optimal" },
+  { value: "trapezoidal", text: t("Trapezoidal") },
+  { value: "cubic", text: t("Cubic") },
+  { value: "quintic", text: t("Quintic") },
+  { value: "septic", text: t("Septic") },
+  { value: "jerk_limited", text: t("Jerk-limited") },
+  { value: "time_optimal", text: t("Time-optimal") },
 ];
 
 /** The law where a motion says none. */
@@ -196,15 +197,17 @@ export function asPoseOf(place: Place, chain: ShownChain): Pose {
 /** What keeps a motion from being asked for; null for one that is whole. */
 export function missing({ path, segments }: Motion): string | null {
   if (path) return null;
-  if (segments.length === 0) return "Move the arm, then add its pose as the first segment.";
+  if (segments.length === 0) return t("Move the arm, then add its pose as the first segment.");
   const open = segments.findIndex(isOpen);
-  return open < 0 ? null : `Segment ${open + 1} lacks its target: move the arm, then press “Circle target”.`;
+  return open < 0
+    ? null
+    : t("Segment {open} lacks its target: move the arm, then press “Circle target”.", { open: open + 1 });
 }
 
-/** The body of the call. */
-export function request(motion: Motion, scene: Scene): object {
+/** The body of the call, where the scene and the joints off the chain are as given. */
+export function request(motion: Motion, scene: Scene, others: ShownChain["others"]): object {
   const { robot: _, approach, ...own } = motion;
-  const call = { ...own, ...sceneField(scene) };
+  const call = { ...own, ...surroundings(scene, others) };
   if (!call.path) return call;
   const { segments: __, start, ...along } = call;
   return approach ? { ...along, start } : along;

@@ -1,6 +1,7 @@
 /** Has the motion planned: the button, how long it has been at it, how to end that, and what is wrong. */
 
 import { asProblem, Latest } from "../../api.ts";
+import { t } from "../../texts/index.ts";
 import { button, element } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
 import type { RequestView } from "../../ui/request.ts";
@@ -17,7 +18,7 @@ export class Planner {
   #status = element("p", { class: "muted small plan-status", role: "status" });
   #problem = new ProblemView();
   #plan: HTMLButtonElement;
-  #cancel = button("Cancel", () => this.#latest.cancel(), { hidden: true });
+  #cancel = button(t("Cancel"), () => this.#latest.cancel(), { hidden: true });
 
   /**
    * @param fail shows what the service has against fields of the motion, and returns what it has no field for.
@@ -37,7 +38,7 @@ export class Planner {
       if (await answered) planned(isFree());
       else if (isFree()) this.#plan.focus();
     };
-    this.#plan = button("Plan", () => void press(), { class: "button primary" });
+    this.#plan = button(t("Plan"), () => void press(), { class: "button primary" });
     this.host = element(
       "div",
       { class: "part" },
@@ -48,22 +49,30 @@ export class Planner {
 
   /** Whether there is something to plan, and whether what is shown is of it. */
   update(): void {
-    const { motion, store } = this.draft;
-    const lacks = missing(motion);
+    const lacks = missing(this.draft.motion);
     const isBusy = this.#timer !== 0;
     this.#plan.disabled = isBusy || lacks !== null;
     this.#plan.hidden = isBusy;
     this.#cancel.hidden = !isBusy;
+    const status = isBusy ? this.#elapsed() : (lacks ?? this.#outdated());
+    // A screen reader says what is set, also where that is the same: the arm moves many times a second.
+    if (this.#status.textContent !== status) this.#status.textContent = status;
+  }
+
+  #elapsed(): string {
+    const seconds = Math.floor((performance.now() - this.#begun) / 1000);
+    return seconds < 1 ? t("Planning …") : t("Planning … {seconds} s", { seconds });
+  }
+
+  /** What has changed since the plan was made; empty where that still holds. */
+  #outdated(): string {
+    const { motion, chain, store } = this.draft;
     const { plan, scene } = store.value;
-    if (isBusy) {
-      const seconds = Math.floor((performance.now() - this.#begun) / 1000);
-      this.#status.textContent = seconds < 1 ? "Planning …" : `Planning … ${seconds} s`;
-    } else if (lacks) this.#status.textContent = lacks;
-    else if (plan && JSON.stringify(plan.motion) !== JSON.stringify(motion))
-      this.#status.textContent = "The motion has changed since it was planned.";
-    else if (plan && JSON.stringify(plan.scene) !== JSON.stringify(scene))
-      this.#status.textContent = "The scene has changed since it was planned.";
-    else this.#status.textContent = "";
+    if (!plan) return "";
+    if (!isSame(plan.motion, motion)) return t("The motion has changed since it was planned.");
+    if (!isSame(plan.scene, scene)) return t("The scene has changed since it was planned.");
+    const hasMoved = scene.objects.length > 0 && !isSame(plan.others, chain.others);
+    return hasMoved ? t("A joint off the chain has moved since it was planned.") : "";
   }
 
   /** Ask the service; whether an answer came. */
@@ -74,7 +83,7 @@ export class Planner {
     this.#timer = window.setInterval(() => this.update(), 1000);
     this.update();
     // The polynomials are exact between the samples too.
-    const call = { ...request(motion, scene), coefficients: true };
+    const call = { ...request(motion, scene, chain.others), coefficients: true };
     try {
       const answer = await this.#latest.run((signal) =>
         this.asked.api.post<TrajectoryAnswer>(`${chain.path}/trajectory`, call, signal),
@@ -82,7 +91,7 @@ export class Planner {
       if (!answer) return false;
       this.#problem.show(null);
       this.fail([]);
-      store.set({ plan: { motion, scene, answer } });
+      store.set({ plan: { motion, scene, others: chain.others, answer } });
       return true;
     } catch (error) {
       const problem = asProblem(error);
@@ -99,4 +108,9 @@ export class Planner {
   stop(): void {
     this.#latest.cancel();
   }
+}
+
+/** Whether two values say the same; while the arm moves, most are the same object. */
+function isSame(a: unknown, b: unknown): boolean {
+  return a === b || JSON.stringify(a) === JSON.stringify(b);
 }

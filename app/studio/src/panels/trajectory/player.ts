@@ -1,5 +1,6 @@
 /** Plays a motion: at a speed, over and over, or wherever the slider is put. */
 
+import { t } from "../../texts/index.ts";
 import { button, element } from "../../ui/dom.ts";
 import { fixed } from "../../ui/quantity.ts";
 
@@ -13,9 +14,9 @@ export class Player {
   #speed = 1;
   #isLooping = false;
   #frame = 0;
-  #play = button("Play", () => (this.#frame ? this.pause() : this.#start()), { class: "button play" });
+  #play = button(t("Play"), () => (this.#frame ? this.pause() : this.#start()), { class: "button play" });
   #slider: HTMLInputElement;
-  #clock = element("output", { class: "clock", "aria-label": "Time" });
+  #clock = element("output", { class: "clock", "aria-label": t("Time") });
 
   /** @param reached is told of every time that is played or gone to, [s]. */
   constructor(private readonly reached: (time: number) => void) {
@@ -24,16 +25,16 @@ export class Player {
       min: 0,
       max: 0,
       step: "any",
-      "aria-label": "Time in the motion",
+      "aria-label": t("Time in the motion"),
       oninput: () => this.seek(Number(this.#slider.value)),
       onkeydown: (event: KeyboardEvent) => this.#key(event),
     });
     const speed = element(
       "select",
-      { class: "select", "aria-label": "Speed", onchange: () => (this.#speed = Number(speed.value)) },
+      { class: "select", "aria-label": t("Speed"), onchange: () => (this.#speed = Number(speed.value)) },
       ...SPEEDS.map((value) => element("option", { value, selected: value === 1 }, `${value}×`)),
     );
-    const loop = button("Loop", () => (this.#isLooping = flip(loop)), { class: "toggle", "aria-pressed": "false" });
+    const loop = button(t("Loop"), () => (this.#isLooping = flip(loop)), { class: "toggle", "aria-pressed": "false" });
     this.host = element(
       "div",
       { class: "player" },
@@ -66,12 +67,12 @@ export class Player {
   pause(): void {
     cancelAnimationFrame(this.#frame);
     this.#frame = 0;
-    this.#play.textContent = "Play";
+    this.#play.textContent = t("Play");
   }
 
   #start(): void {
     if (this.#time >= this.#duration) this.#time = 0;
-    this.#play.textContent = "Pause";
+    this.#play.textContent = t("Pause");
     let before = performance.now();
     const step = (now: number) => {
       this.#frame = requestAnimationFrame(step);

@@ -1,7 +1,7 @@
 /** Poses of a tool from a table: a row each, in metres and radians. */
 
 import type { Pose } from "../../types.ts";
-import { parse } from "../../ui/quantity.ts";
+import { parse, SI } from "../../ui/quantity.ts";
 
 const POSITION = ["x", "y", "z"] as const;
 /** As the command line names the columns. */
@@ -40,7 +40,7 @@ function cellsOf(line: string): string[] {
 
 /** Where a first line names columns; null where it holds numbers. */
 function headed(cells: readonly string[]): Layout | null {
-  if (cells.every((cell) => parse(cell, "angle", false) !== null)) return null;
+  if (cells.every((cell) => parse(cell, "angle", SI) !== null)) return null;
   const names = cells.map((cell) => cell.toLowerCase().replace(/\W.*/, "")); // `x [m]`
   for (const [notation, orientation] of Object.entries(ORIENTATIONS)) {
     const columns = [...POSITION, ...orientation].map((name) => names.indexOf(name));
@@ -60,7 +60,7 @@ function counted(cells: readonly string[], line: number): Layout {
 function poseOf(cells: readonly string[], { notation, columns }: Layout, line: number): Pose {
   const numbers = columns.map((column, i) => {
     const turned = notation === "quaternion_xyzw" ? "number" : "angle";
-    const value = parse(cells[column] ?? "", i < 3 ? "length" : turned, false);
+    const value = parse(cells[column] ?? "", i < 3 ? "length" : turned, SI);
     if (value === null) throw new Error(`line ${line}: “${cells[column] ?? ""}” is no number`);
     return value;
   });

@@ -4,23 +4,26 @@ import "uplot/dist/uPlot.min.css";
 
 import uPlot from "uplot";
 
-import type { Joint } from "../../robot/model.ts";
+import { type Joint, kindOf } from "../../robot/model.ts";
 import { chosen, choosing, type State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import { t } from "../../texts/index.ts";
 import { Choice, element, toggle } from "../../ui/dom.ts";
-import { paint } from "../../view/colours.ts";
+import { inUnit } from "../../ui/quantity.ts";
+import { leftIn, shareOf } from "../../ui/pointer.ts";
+import { jointHue, paint } from "../../view/colours.ts";
 import type { TrajectoryAnswer } from "../../types.ts";
 import type { Curve, Derivative, Samples } from "./curve.ts";
-import { effortUnit, kindOf, unitsOf } from "./fields.ts";
-import { hue, Legend } from "./legend.ts";
+import { effortUnit, unitsOf } from "./fields.ts";
+import { Legend } from "./legend.ts";
 import type { Torques } from "./torques.ts";
 
 const QUANTITIES = [
-  { value: "position", text: "Position", per: "", limit: null },
-  { value: "velocity", text: "Velocity", per: "/s", limit: "joint_velocity" },
-  { value: "acceleration", text: "Acceleration", per: "/s²", limit: "joint_acceleration" },
-  { value: "jerk", text: "Jerk", per: "/s³", limit: "joint_jerk" },
-  { value: "torque", text: "Torque", per: "", limit: "joint_torque" },
+  { value: "position", text: t("Position"), per: "", limit: null },
+  { value: "velocity", text: t("Velocity"), per: "/s", limit: "joint_velocity" },
+  { value: "acceleration", text: t("Acceleration"), per: "/s²", limit: "joint_acceleration" },
+  { value: "jerk", text: t("Jerk"), per: "/s³", limit: "joint_jerk" },
+  { value: "torque", text: t("Torque"), per: "", limit: "joint_torque" },
 ] as const;
 type Quantity = (typeof QUANTITIES)[number]["value"];
 /** What is drawn where nothing else is chosen stands first. */
@@ -51,7 +54,7 @@ export class Profiles {
   #plot: uPlot | null = null;
   #drawn: Drawn | null = null;
   #time = 0;
-  #limits = toggle("All limits", "Scale the plot so that every limit is on it", () =>
+  #limits = toggle(t("All limits"), t("Scale the plot so that every limit is on it"), () =>
     this.#choose("trajectory.limits", this.#showsLimits ? null : "all"),
   );
   #observer: ResizeObserver;
@@ -61,7 +64,7 @@ export class Profiles {
     private readonly store: Store<State>,
     private readonly go: (time: number) => void,
   ) {
-    this.#choice = new Choice("Quantity", QUANTITIES, (quantity) =>
+    this.#choice = new Choice(t("Quantity"), QUANTITIES, (quantity) =>
       this.#choose("trajectory.plot", quantity === CHOICES[0] ? null : quantity),
     );
     this.#legend = new Legend(store, (index, isShown) => {
@@ -93,7 +96,7 @@ export class Profiles {
     this.draw();
   }
 
-  /** Anew: what is chosen, in the unit of angles and the colours of the page. */
+  /** Anew: what is chosen, in the units and the colours of the page. */
   draw(): void {
     this.#plot?.destroy();
     this.#plot = null;
@@ -101,13 +104,13 @@ export class Profiles {
     if (!this.#drawn) return;
     const { joints, torques } = this.#drawn;
     const { value, text, per } = this.#quantity;
-    this.#choice.allow("torque", torques ? null : "Ask for them under “Torques and payload”, and plan again");
+    this.#choice.allow("torque", torques ? null : t("Ask for them under “Torques and payload”, and plan again"));
     this.#choice.show(value);
     const units = new Set(joints.map(effortUnit));
-    const unit = value === "torque" ? [...units].join(" or ") : unitsOf(joints, this.store.value.degrees, per);
+    const unit = value === "torque" ? [...units].join(t(" or ")) : unitsOf(joints, this.store.value, per);
     this.#unit.textContent = `[${unit}]`;
     this.#canvas.setAttribute("role", "img");
-    this.#canvas.setAttribute("aria-label", `${text} of each joint over time; its limits are dashed`);
+    this.#canvas.setAttribute("aria-label", t("{text} of each joint over time; its limits are dashed", { text }));
     const samples = this.#values.sample();
     const series = joints.map((joint, i) => this.#lines(joint, i, samples));
     const data = [samples.times, ...series.flat()] as uPlot.AlignedData;
@@ -175,8 +178,7 @@ export class Profiles {
   }
 
   #factor(joint: Joint): number {
-    const isTurned = this.#quantity.value !== "torque" && kindOf(joint) === "angle";
-    return isTurned && this.store.value.degrees ? 180 / Math.PI : 1;
+    return this.#quantity.value === "torque" ? 1 : inUnit(1, kindOf(joint), this.store.value);
   }
 
   #options(joints: readonly Joint[]): uPlot.Options {
@@ -184,7 +186,7 @@ export class Profiles {
     const font = `12px ${getComputedStyle(this.host).fontFamily}`;
     const axis = { stroke: tone, font, grid: { stroke: paint("line"), width: 1 }, ticks: { show: false }, gap: 4 };
     const series = joints.flatMap((joint, i) => {
-      const stroke = paint(hue(i));
+      const stroke = paint(jointHue(i));
       const show = this.#legend.isShown(joint);
       const limit = { stroke, show, width: 1, dash: DASH, points: { show: false } };
       return [{ stroke, show, width: WIDTH, pxAlign: 0, points: { show: false } }, limit, limit];
@@ -204,7 +206,12 @@ export class Profiles {
       series: [{}, ...series],
       legend: { show: false },
       focus: { alpha: 0.2 },
-      cursor: { y: false, drag: { x: false, y: false }, points: { show: false } },
+      cursor: {
+        y: false,
+        drag: { x: false, y: false },
+        points: { show: false },
+        move: ({ over }, left, top) => [left * shareOf(over), top * shareOf(over)],
+      },
       hooks: { drawAxes: [(plot) => this.#drawEnds(plot)] },
     };
   }
@@ -227,9 +234,8 @@ export class Profiles {
   /** A click goes to its time, and so does every move of a pressed pointer. */
   #follow(over: HTMLElement): void {
     const go = (event: PointerEvent) => {
-      const x = event.clientX - over.getBoundingClientRect().left;
       const { duration } = this.#drawn!.curve;
-      this.go(Math.max(0, Math.min(duration, this.#plot!.posToVal(x, "x"))));
+      this.go(Math.max(0, Math.min(duration, this.#plot!.posToVal(leftIn(over, event), "x"))));
     };
     over.addEventListener("pointerdown", (event) => {
       over.setPointerCapture(event.pointerId);

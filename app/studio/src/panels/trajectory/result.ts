@@ -1,12 +1,16 @@
 /** What came of a plan: the player, the profiles, the audit, and the motion in the picture. */
 
 import type { Api } from "../../api.ts";
+import { t } from "../../texts/index.ts";
 import { element } from "../../ui/dom.ts";
+import { chosenOf, isSame, SI } from "../../ui/quantity.ts";
+import type { View } from "../../view/view.ts";
 import type { Plan } from "./answer.ts";
 import type { ClearancePlot } from "./clearance.ts";
 import { Curve } from "./curve.ts";
 import type { Draft } from "./draft.ts";
 import { drawings } from "./drawings.ts";
+import { Filming } from "./filming.ts";
 import { belongs, request } from "./motion.ts";
 import { Player } from "./player.ts";
 import { Profiles } from "./profiles.ts";
@@ -19,14 +23,15 @@ import { auditTable, failureBox, replacedLaws, timingTable } from "./verdict.ts"
 export class Result {
   readonly host: HTMLElement;
   #plan: Plan | null = null;
-  #degrees = false;
+  #units = SI;
   #curve: Curve | null = null;
   #player = new Player((time) => this.#move(time));
   #profiles: Profiles;
   #title = element("h2", { tabindex: -1 });
   #saving: Saving;
+  #filming: Filming;
   #ended = element("div");
-  #replaced = element("ul", { class: "replaced", "aria-label": "Laws that were replaced", hidden: true });
+  #replaced = element("ul", { class: "replaced", "aria-label": t("Laws that were replaced"), hidden: true });
   #drawings = element("div");
   #body = element("div", { class: "part" });
 
@@ -35,11 +40,20 @@ export class Result {
     private readonly api: Api,
     private readonly clearance: ClearancePlot,
     private readonly marks: MotionMarks | null,
+    view: View | null,
   ) {
     this.#saving = new Saving(api, () => {
-      const { motion, scene } = this.#plan!;
-      return { name: motion.robot, path: `${draft.chain.path}/trajectory`, body: request(motion, scene) };
+      const { motion, scene, others } = this.#plan!;
+      return { name: motion.robot, path: `${draft.chain.path}/trajectory`, body: request(motion, scene, others) };
     });
+    this.#filming = new Filming(view, () => ({
+      name: this.#plan!.motion.robot,
+      duration: this.#curve!.duration,
+      show: (time) => draft.goTo(this.#curve!.at(time)),
+      leave: () => {
+        if (this.#plan && belongs(this.#plan.motion, draft.chain)) this.#player.seek(this.#player.time);
+      },
+    }));
     this.#profiles = new Profiles(draft.store, (time) => this.#player.seek(time));
     clearance.go = (time) => this.#player.seek(time);
     this.host = element(
@@ -50,6 +64,7 @@ export class Result {
       this.#ended,
       this.#replaced,
       this.#player.host,
+      this.#filming.host,
       this.#profiles.host,
       clearance.host,
       this.#drawings,
@@ -69,10 +84,13 @@ export class Result {
       this.#curve = shown && new Curve(shown.answer);
       this.#player.load(this.#curve?.duration ?? 0);
     }
-    if (isOther || store.value.degrees !== this.#degrees) this.#tell();
-    this.#degrees = store.value.degrees;
+    const hasOtherUnits = !isSame(store.value, this.#units);
+    this.#units = chosenOf(store.value);
+    if (isOther || hasOtherUnits) this.#tell();
+    if (hasOtherUnits) this.clearance.draw();
     if (!isOther) return;
     this.#saving.problem.show(null);
+    this.#filming.forget();
     this.drawWay();
     void this.clearance.show(chain, shown, this.#curve);
     this.#drawings.replaceChildren(...(shown && this.#curve ? [drawings(this.api, chain, shown, this.#curve)] : []));
@@ -109,6 +127,7 @@ export class Result {
 
   stop(): void {
     this.#player.pause();
+    this.#filming.stop();
     this.#profiles.stop();
     this.clearance.stop();
   }
@@ -116,26 +135,30 @@ export class Result {
   #tell(): void {
     if (!this.#plan || !this.#curve) return this.#profiles.show(null, 0);
     const { answer } = this.#plan;
-    const { chain, degrees } = this.draft;
+    const { chain, units } = this.draft;
     const torques = answer.joint_torques ? new Torques(answer, this.#curve) : null;
     this.#profiles.show({ curve: this.#curve, torques, answer, joints: chain.joints }, this.#player.time);
     const go = (time: number) => this.#player.seek(time);
-    this.#title.textContent = `Motion of ${answer.duration.toFixed(3)} s`;
-    const failure = failureBox(answer, go, (configuration) => this.draft.goTo(configuration));
+    this.#title.textContent = t("Motion of {duration} s", { duration: answer.duration.toFixed(3) });
+    const failure = failureBox(answer, units, go, (configuration) => this.draft.goTo(configuration));
     const timing = timingTable(answer);
-    const choice = choiceText(answer, degrees);
+    const choice = choiceText(answer, units);
     const notes = [
       ...answer.notes,
-      ...answer.segments.flatMap(({ index, notes }) => notes.map((note) => `Segment ${index + 1}: ${note}`)),
+      ...answer.segments.flatMap(({ index, notes }) =>
+        notes.map((note) => t("Segment {index}: {note}", { index: index + 1, note })),
+      ),
     ];
     const replaced = replacedLaws(this.#plan.motion, answer.segments);
     this.#replaced.hidden = replaced.length === 0;
-    this.#replaced.replaceChildren(...replaced.map((text) => element("li", {}, `${text}; the notes say why.`)));
+    this.#replaced.replaceChildren(
+      ...replaced.map((text) => element("li", {}, t("{text}; the notes say why.", { text }))),
+    );
     this.#ended.hidden = failure === null;
     this.#ended.replaceChildren(...(failure ? [failure] : []));
     this.#body.replaceChildren(
       ...(choice ? [choice] : []),
-      auditTable(answer, chain.joints, degrees, go),
+      auditTable(answer, chain.joints, units, go),
       ...(timing ? [timing] : []),
       ...(notes.length ? [remarks(notes)] : []),
     );
@@ -152,7 +175,7 @@ function remarks(notes: string[]): HTMLElement {
   return element(
     "details",
     {},
-    element("summary", {}, `Notes (${notes.length})`),
+    element("summary", {}, t("Notes ({length})", { length: notes.length })),
     element("ul", { class: "remarks" }, ...notes.map((note) => element("li", {}, note))),
   );
 }

@@ -1,6 +1,7 @@
 /** A plan as a file: a table, or what a robot's controller reads; the service writes each. */
 
 import { type Api, asProblem, type Call } from "../../api.ts";
+import { t } from "../../texts/index.ts";
 import { button, element } from "../../ui/dom.ts";
 import { save } from "../../ui/files.ts";
 import { ProblemView } from "../../ui/problem.ts";
@@ -17,22 +18,22 @@ interface Form {
 const FORMS: readonly Form[] = [
   {
     text: "CSV",
-    title: "Times, positions, velocities and accelerations as a table, a row every sample period",
+    title: t("Times, positions, velocities and accelerations as a table, a row every sample period"),
     ...{ ending: "csv", type: "text/csv" },
   },
   {
-    text: "ROS, JSON",
-    title: "The message JointTrajectory of ROS 2, a point every sample period",
+    text: t("ROS, JSON"),
+    title: t("The message JointTrajectory of ROS 2, a point every sample period"),
     ...{ ending: "json", type: "application/json", format: "joint_trajectory" },
   },
   {
-    text: "ROS, YAML",
-    title: "The message JointTrajectory of ROS 2, with frames and units in comments",
+    text: t("ROS, YAML"),
+    title: t("The message JointTrajectory of ROS 2, with frames and units in comments"),
     ...{ ending: "yaml", type: "application/yaml", format: "joint_trajectory" },
   },
   {
-    text: "URScript",
-    title: "A program for an arm of Universal Robots: for its simulator first, and slowly",
+    text: t("URScript"),
+    title: t("A program for an arm of Universal Robots: for its simulator first, and slowly"),
     ...{ ending: "script", type: "text/x-urscript", format: "urscript" },
   },
 ];
@@ -52,8 +53,8 @@ export class Saving {
     });
     this.host = element(
       "div",
-      { class: "bar", role: "group", "aria-label": "Save as" },
-      element("span", { class: "field" }, "Save as"),
+      { class: "bar", role: "group", "aria-label": t("Save as") },
+      element("span", { class: "field" }, t("Save as")),
       ...buttons,
     );
   }

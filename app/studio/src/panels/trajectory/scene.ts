@@ -9,6 +9,8 @@ import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js
 
 import type { ShownChain } from "../../robot/chain.ts";
 import { asMatrix, isPose, position } from "../../robot/pose.ts";
+import { t } from "../../texts/index.ts";
+import { word } from "../../texts/words.ts";
 import { colour, type Hue } from "../../view/colours.ts";
 import { clear, label, put, triad } from "../../view/shapes.ts";
 import type { View } from "../../view/view.ts";
@@ -58,7 +60,7 @@ export class MotionMarks {
       for (const place of wayPoints(motion.path, planned, unit)) this.#places.add(place);
       if (!motion.approach) return this.follow(chain);
     }
-    this.#place(chain, motion.start, unit * (open === -1 ? OPEN : 1), "start");
+    this.#place(chain, motion.start, unit * (open === -1 ? OPEN : 1), t("start"));
     for (const [index, segment] of motion.path ? [] : motion.segments.entries()) {
       const all = places(segment);
       for (const [i, place] of all.entries()) {
@@ -75,7 +77,7 @@ export class MotionMarks {
     if (points) this.#way.add(line(points, "accent"));
     if (failure) {
       const mark = ball(unit * 0.13, "bad");
-      const text = label(failure.reason.replaceAll("_", " "), "failure");
+      const text = label(word(failure.reason), "failure");
       mark.position.fromArray(failure.position);
       text.position.fromArray(failure.position).add(new Vector3(0, 0, unit * 0.45));
       mark.name = "failure";

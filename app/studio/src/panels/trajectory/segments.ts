@@ -1,6 +1,8 @@
 /** The start and the segments in their order: each a line that opens into what can be changed about it. */
 
+import { t } from "../../texts/index.ts";
 import { button, element } from "../../ui/dom.ts";
+import { chosenOf, measured } from "../../ui/quantity.ts";
 import type { Draft } from "./draft.ts";
 import { Editor } from "./editor.ts";
 import { icon, placeFields, told } from "./fields.ts";
@@ -42,8 +44,8 @@ export class SegmentList {
       this.#list,
       element(
         "div",
-        { class: "bar adds", role: "group", "aria-label": "Add the present pose as" },
-        element("span", { class: "field" }, "Add the present pose as"),
+        { class: "bar adds", role: "group", "aria-label": t("Add the present pose as") },
+        element("span", { class: "field" }, t("Add the present pose as")),
         ...this.#add.values(),
       ),
     );
@@ -56,14 +58,14 @@ export class SegmentList {
 
   /** As the motion is now; lines that stay are not built anew, so that the focus stays too. */
   update(): void {
-    const { motion, chain, degrees } = this.draft;
+    const { motion, chain, units } = this.draft;
     const shape = JSON.stringify([
       motion.segments.map((segment) => [
         segment.type,
         places(segment).map((place) => Array.isArray(place)),
         segment.times !== undefined,
       ]),
-      [motion.robot, motion.base_frame, motion.tip_frame, this.#open, degrees],
+      [motion.robot, motion.base_frame, motion.tip_frame, this.#open, chosenOf(units)],
     ]);
     if (shape !== this.#shape) {
       this.#shape = shape;
@@ -73,10 +75,10 @@ export class SegmentList {
     for (const line of this.#lines) line.show();
     const last = motion.segments.at(-1);
     const titles: Record<SegmentType, string> = {
-      joint: "Joint target",
-      line: "Line",
-      circle: isOpen(last) ? "Circle target" : "Circle via",
-      spline: last?.type === "spline" ? "Waypoint" : "Spline",
+      joint: t("Joint target"),
+      line: t("Line"),
+      circle: isOpen(last) ? t("Circle target") : t("Circle via"),
+      spline: last?.type === "spline" ? t("Waypoint") : t("Spline"),
     };
     for (const [type, made] of this.#add) {
       made.textContent = titles[type];
@@ -130,23 +132,23 @@ export class SegmentList {
   #startLine(): Line {
     const { draft } = this;
     const fields = placeFields(draft.motion.start, {
-      label: "Start",
+      label: t("Start"),
       joints: draft.chain.joints,
-      degrees: () => draft.degrees,
+      units: () => draft.units,
       change: (place) => draft.set({ start: place as number[] }),
     });
     const small = { class: "button small" };
     const actions = element(
       "div",
       { class: "bar" },
-      button("Set to the present pose", () => draft.set({ start: draft.chain.configuration }), small),
-      button("Go there", () => draft.goTo(draft.motion.start), small),
+      button(t("Set to the present pose"), () => draft.set({ start: draft.chain.configuration }), small),
+      button(t("Go there"), () => draft.goTo(draft.motion.start), small),
     );
     const show = () => {
       fields.show(draft.motion.start);
-      return told(draft.motion.start, draft.chain.joints, draft.degrees);
+      return told(draft.motion.start, draft.chain.joints, draft.units);
     };
-    return this.#line(START, "Start", element("div", { class: "segment-body" }, fields.host, actions), [], show);
+    return this.#line(START, t("Start"), element("div", { class: "segment-body" }, fields.host, actions), [], show);
   }
 
   #segmentLine(index: number): Line {
@@ -156,9 +158,9 @@ export class SegmentList {
     const editor = this.#open === index ? new Editor(draft, index) : null;
     const number = index + 1;
     const tools = [
-      icon("↑", `Move segment ${number} up`, () => this.#move(index, -1), index === 0),
-      icon("↓", `Move segment ${number} down`, () => this.#move(index, 1), index === last),
-      icon("×", `Remove segment ${number}`, () => this.#remove(index)),
+      icon("↑", t("Move segment {number} up", { number }), () => this.#move(index, -1), index === 0),
+      icon("↓", t("Move segment {number} down", { number }), () => this.#move(index, 1), index === last),
+      icon("×", t("Remove segment {number}", { number }), () => this.#remove(index)),
     ];
     const show = () => {
       editor?.show();
@@ -191,18 +193,26 @@ export class SegmentList {
 }
 
 /** A segment in a line. */
-function summary(segment: Segment, { chain, degrees }: Draft): string {
-  const say = (place: Place) => told(place, chain.joints, degrees);
+function summary(segment: Segment, { chain, units }: Draft): string {
+  const say = (place: Place) => told(place, chain.joints, units);
   const { via, target, waypoints, blends, blend_radius, blend_time, blend_acceleration } = segment;
   if (waypoints)
     return waypoints.length === 1
-      ? `to ${say(waypoints[0]!)}`
-      : `${waypoints.length} waypoints${blends ? ", blended" : ""}, to ${say(waypoints.at(-1)!)}`;
-  if (via) return target ? `to ${say(target)}` : "its target is missing";
+      ? t("to {waypoints}", { waypoints: say(waypoints[0]!) })
+      : blends
+        ? t("{length} waypoints, blended, to {waypoints}", {
+            length: waypoints.length,
+            waypoints: say(waypoints.at(-1)!),
+          })
+        : t("{length} waypoints, to {waypoints}", { length: waypoints.length, waypoints: say(waypoints.at(-1)!) });
+  if (via) return target ? t("to {target}", { target: say(target) }) : t("its target is missing");
   const blend = [
-    blend_radius && `, blended at ${blend_radius} m`,
-    blend_time && `, blended in ${blend_time} s`,
-    blend_acceleration && `, blended with ${blend_acceleration} m/s²`,
+    blend_radius && t(", blended at {blend_radius}", { blend_radius: measured(blend_radius, "length", units, 6) }),
+    blend_time && t(", blended in {blend_time} s", { blend_time }),
+    blend_acceleration &&
+      t(", blended with {blend_acceleration}/s²", {
+        blend_acceleration: measured(blend_acceleration, "length", units, 6),
+      }),
   ].find(Boolean);
-  return `to ${say(target!)}${blend ?? ""}`;
+  return t("to {target}{blend}", { target: say(target!), blend: blend ?? "" });
 }

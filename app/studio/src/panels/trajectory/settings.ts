@@ -1,46 +1,48 @@
 /** Law and limits of the whole motion. */
 
-import type { Joint } from "../../robot/model.ts";
+import { type Joint, kindOf } from "../../robot/model.ts";
+import { t, within } from "../../texts/index.ts";
+import { word } from "../../texts/words.ts";
 import { DIRECTIONS } from "../../types.ts";
-import { element, toggle } from "../../ui/dom.ts";
+import { element, explained, toggle } from "../../ui/dom.ts";
 import { NumberField } from "../../ui/number.ts";
-import { format, type Kind } from "../../ui/quantity.ts";
+import { chosenOf, format, type Kind } from "../../ui/quantity.ts";
 import type { JointLimits } from "./answer.ts";
 import type { Draft } from "./draft.ts";
-import { choice, type Field, jointTable, kindOf, optional, unitsOf } from "./fields.ts";
+import { choice, type Field, jointTable, optional, unitsOf } from "./fields.ts";
 import { LAWS, type Motion, type NearSingularity, USUAL_LAW } from "./motion.ts";
 
 const NEAR: readonly { value: NearSingularity; text: string }[] = [
-  { value: "stop", text: "Stop" },
-  { value: "damp", text: "Damp the joints" },
-  { value: "slow_down", text: "Slow down" },
+  { value: "stop", text: t("Stop") },
+  { value: "damp", text: t("Damp the joints") },
+  { value: "slow_down", text: t("Slow down") },
 ];
 const NUMBERS = [
-  { name: "duration", title: "Duration", unit: "s", left: "shortest" },
-  { name: "velocity_scale", title: "Velocity scale", unit: "", left: "1" },
-  { name: "acceleration_scale", title: "Acceleration scale", unit: "", left: "1" },
-  { name: "sample_period", title: "Sample period", unit: "s", left: "0.01" },
-  { name: "path_tolerance", title: "Path tolerance", unit: "m", left: "0.0001" },
-  { name: "orientation_tolerance", title: "Turn tolerance", unit: "rad", left: "0.001" },
-  { name: "min_singular_value", title: "Singular below σ", unit: "", left: "0.01" },
+  { name: "duration", title: t("Duration"), unit: "s", left: t("shortest") },
+  { name: "velocity_scale", title: t("Velocity scale"), unit: "", left: 1 },
+  { name: "acceleration_scale", title: t("Acceleration scale"), unit: "", left: 1 },
+  { name: "sample_period", title: t("Sample period"), unit: "s", left: 0.01 },
+  { name: "path_tolerance", title: t("Path tolerance"), unit: "m", left: 0.0001 },
+  { name: "orientation_tolerance", title: t("Turn tolerance"), unit: "rad", left: 0.001 },
+  { name: "min_singular_value", title: t("Singular below σ"), unit: "", left: 0.01 },
 ] as const;
 const OF_THE_TIP = [
-  { name: "tip_velocity", title: "Tip velocity", unit: "m/s" },
-  { name: "tip_acceleration", title: "Tip acceleration", unit: "m/s²" },
-  { name: "tip_angular_velocity", title: "Tip turning", unit: "rad/s" },
-  { name: "tip_angular_acceleration", title: "its acceleration", unit: "rad/s²" },
+  { name: "tip_velocity", title: t("Tip velocity"), unit: "m/s" },
+  { name: "tip_acceleration", title: t("Tip acceleration"), unit: "m/s²" },
+  { name: "tip_angular_velocity", title: t("Tip turning"), unit: "rad/s" },
+  { name: "tip_angular_acceleration", title: t("its acceleration"), unit: "rad/s²" },
 ] as const;
 const OF_JOINTS = [
-  { name: "joint_velocity", title: "Velocity", per: "/s" },
-  { name: "joint_acceleration", title: "Acceleration", per: "/s²" },
-  { name: "joint_jerk", title: "Jerk", per: "/s³" },
+  { name: "joint_velocity", title: t("Velocity"), per: "/s" },
+  { name: "joint_acceleration", title: t("Acceleration"), per: "/s²" },
+  { name: "joint_jerk", title: t("Jerk"), per: "/s³" },
 ] as const;
 
 /** Where a limit is from while no plan has told it. */
 const UNKNOWN: Record<keyof JointLimits, string> = {
-  joint_velocity: "robot’s own",
-  joint_acceleration: "assumed",
-  joint_jerk: "assumed",
+  joint_velocity: t("robot’s own"),
+  joint_acceleration: t("assumed"),
+  joint_jerk: t("assumed"),
 };
 
 export class Settings {
@@ -55,16 +57,21 @@ export class Settings {
     this.host = element(
       "details",
       { class: "law" },
-      element("summary", {}, "Law and limits ", this.#summary),
+      element("summary", {}, t("Law and limits "), this.#summary),
       this.#body,
     );
   }
 
   /** As the motion is; with the limits of the joints that the last answer went by, or null. */
   update(used: JointLimits | null): void {
-    const { motion, chain, degrees } = this.draft;
+    const { motion, chain, units } = this.draft;
     this.#used = used && unscaled(used, motion);
-    const shape = JSON.stringify([chain.model.title, chain.joints.map(({ name }) => name), degrees, this.#used]);
+    const shape = JSON.stringify([
+      chain.model.title,
+      chain.joints.map(({ name }) => name),
+      chosenOf(units),
+      this.#used,
+    ]);
     if (shape !== this.#shape && !this.#body.contains(document.activeElement)) {
       this.#shape = shape;
       this.#build();
@@ -90,13 +97,13 @@ export class Settings {
   }
 
   #law(): HTMLElement {
-    const field = choice("Law of time", "Law of time", LAWS, (law) => this.draft.set({ law }));
+    const field = choice(t("Law of time"), t("Law of time"), LAWS, (law) => this.draft.set({ law }));
     return this.#follow(field, ({ law }) => law ?? USUAL_LAW);
   }
 
   #near(): HTMLElement {
     const change = (near_singularity: NearSingularity) => this.draft.set({ near_singularity });
-    const field = choice("Near a singularity", "Near a singularity", NEAR, change);
+    const field = choice(t("Near a singularity"), t("Near a singularity"), NEAR, change);
     return this.#follow(field, ({ near_singularity }) => near_singularity ?? "stop");
   }
 
@@ -108,14 +115,14 @@ export class Settings {
         const wanted = DIRECTIONS.filter((one) => (one === direction) !== task().includes(one));
         if (wanted.length) this.draft.set({ task: wanted.length < DIRECTIONS.length ? wanted : undefined });
       };
-      const made = toggle(direction, `Whether the way counts in ${direction}`, flip);
+      const made = toggle(direction, t("Whether the way counts in {direction}", { direction }), flip);
       this.#shows.push(() => made.setAttribute("aria-pressed", String(task().includes(direction))));
       return made;
     });
     return element(
       "div",
-      { class: "bar", role: "group", "aria-label": "Directions in which the way counts" },
-      element("span", { class: "field" }, "The way counts in"),
+      { class: "bar", role: "group", "aria-label": t("Directions in which the way counts") },
+      explained(element("span", { class: "field" }, t("The way counts in")), t("The way counts in")),
       ...toggles,
     );
   }
@@ -123,8 +130,8 @@ export class Settings {
   #timing(): HTMLElement {
     const flip = () => this.draft.set({ compare_timing: this.draft.motion.compare_timing ? undefined : true });
     const made = toggle(
-      "Compare with time-optimal",
-      "How long each way takes by its law, and how long at least within the same limits",
+      t("Compare with time-optimal"),
+      t("How long each way takes by its law, and how long at least within the same limits"),
       flip,
     );
     this.#shows.push(({ compare_timing }) => made.setAttribute("aria-pressed", String(compare_timing === true)));
@@ -133,15 +140,29 @@ export class Settings {
 
   #numbers(): HTMLElement[] {
     return NUMBERS.map(({ name, title, unit, left }) => {
-      const field = optional(title, title, unit, left, (value) => this.draft.set({ [name]: value }));
+      const field = optional(
+        title,
+        title,
+        unit,
+        left,
+        () => this.draft.units,
+        (value) => this.draft.set({ [name]: value }),
+      );
       return this.#follow(field, (motion) => motion[name]);
     });
   }
 
   #tip(): HTMLElement[] {
     return OF_THE_TIP.map(({ name, title, unit }) => {
-      const label = name === "tip_angular_acceleration" ? "Acceleration of the tip's turning" : title;
-      const field = optional(title, label, unit, "none", (value) => this.draft.limit({ [name]: value }));
+      const label = name === "tip_angular_acceleration" ? t("Acceleration of the tip's turning") : title;
+      const field = optional(
+        title,
+        label,
+        unit,
+        t("none"),
+        () => this.draft.units,
+        (value) => this.draft.limit({ [name]: value }),
+      );
       return this.#follow(field, ({ limits }) => limits?.[name]);
     });
   }
@@ -150,18 +171,18 @@ export class Settings {
   #joints(): HTMLElement {
     const { joints } = this.draft.chain;
     const columns = OF_JOINTS.map(({ name, title, per }) => ({
-      ...{ title, unit: unitsOf(joints, this.draft.degrees, per) },
+      ...{ title, unit: unitsOf(joints, this.draft.units, per) },
       control: (joint: Joint, index: number) =>
-        this.#jointLimit(name, `${joint.name}, ${title.toLowerCase()}`, joint.name, index, kindOf(joint)),
+        this.#jointLimit(name, `${joint.name}, ${within(title)}`, joint.name, index, kindOf(joint)),
     }));
-    return jointTable("Limits of joints", joints, columns);
+    return jointTable(t("Limits of joints"), joints, columns);
   }
 
   #jointLimit(name: keyof JointLimits, label: string, joint: string, index: number, kind: Kind): HTMLElement {
     const field = new NumberField({
       label,
       kind,
-      degrees: () => this.draft.degrees,
+      units: () => this.draft.units,
       decimals: 3,
       optional: true,
       change: (value) => {
@@ -171,7 +192,7 @@ export class Settings {
       },
     });
     const used = this.#used?.[name][index];
-    field.input.placeholder = used === undefined ? UNKNOWN[name] : format(used, kind, this.draft.degrees, 3);
+    field.input.placeholder = used === undefined ? UNKNOWN[name] : format(used, kind, this.draft.units, 3);
     this.#shows.push(({ limits }) => field.set(limits?.[name]?.[joint] ?? null));
     return field.input;
   }
@@ -190,13 +211,15 @@ function unscaled(limits: JointLimits, { velocity_scale = 1, acceleration_scale 
 function summary(motion: Motion): string {
   const { law = USUAL_LAW, velocity_scale, acceleration_scale, duration, limits, near_singularity } = motion;
   const said = [
-    LAWS.find(({ value }) => value === law)!.text.toLowerCase(),
-    velocity_scale !== undefined && `velocity × ${velocity_scale}`,
-    acceleration_scale !== undefined && `acceleration × ${acceleration_scale}`,
-    duration !== undefined && `in ${duration} s`,
-    near_singularity && near_singularity !== "stop" && `near a singularity ${near_singularity.replace("_", " ")}`,
-    Object.keys(limits ?? {}).some((name) => name !== "joint_torque") && "limits of its own",
-    motion.task && `counts in ${motion.task.join(" ")}`,
+    word(law),
+    velocity_scale !== undefined && t("velocity × {velocity_scale}", { velocity_scale }),
+    acceleration_scale !== undefined && t("acceleration × {acceleration_scale}", { acceleration_scale }),
+    duration !== undefined && t("in {duration} s", { duration }),
+    near_singularity &&
+      near_singularity !== "stop" &&
+      t("near a singularity {near_singularity}", { near_singularity: word(near_singularity) }),
+    Object.keys(limits ?? {}).some((name) => name !== "joint_torque") && t("limits of its own"),
+    motion.task && t("counts in {task}", { task: motion.task.join(" ") }),
   ];
   return said.filter(Boolean).join(" · ");
 }

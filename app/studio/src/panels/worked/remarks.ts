@@ -1,5 +1,6 @@
 /** Below the solution: whether the numbers agree with the service's, what the symbols stand for, and what was left out. */
 
+import { t } from "../../texts/index.ts";
 import { element } from "../../ui/dom.ts";
 import { formula } from "../../ui/mathematics.ts";
 import { scientific } from "../../ui/quantity.ts";
@@ -14,7 +15,7 @@ export class Remarks {
   readonly host: HTMLElement;
   #check = element("p", { class: "agreement", role: "status" });
   #legend = element("dl", { class: "symbols" });
-  #symbols = element("details", {}, element("summary", {}, "Symbols"), this.#legend);
+  #symbols = element("details", {}, element("summary", {}, t("Symbols")), this.#legend);
   #notes = element("ul", { class: "remarks" });
   #shown = "";
 
@@ -40,12 +41,20 @@ export class Remarks {
   #compare({ certificate, numeric_certificate: judged }: DeriveAnswer, difference: number): void {
     const agrees = difference < TOLERANCE;
     const formulas = certificate
-      ? ` The formulas hold at ${certificate.samples} random configurations, to ${scientific(certificate.max_error)}.`
+      ? t(" The formulas hold at {samples} random configurations, to {max_error}.", {
+          samples: certificate.samples,
+          max_error: scientific(certificate.max_error),
+        })
       : "";
     this.#check.dataset["tone"] = agrees ? "good" : "bad";
     this.#check.dataset["difference"] = String(difference);
     this.#check.textContent =
-      `The numbers here and the service's ${agrees ? "agree" : "differ"}: ${scientific(difference)}; ` +
-      `the service's and Pinocchio's: ${scientific(judged?.max_jacobian_error ?? 0)}.${formulas}`;
+      (agrees
+        ? t("The numbers here and the service's agree: {difference}; ", { difference: scientific(difference) })
+        : t("The numbers here and the service's differ: {difference}; ", { difference: scientific(difference) })) +
+      t("the service's and Pinocchio's: {max_jacobian_error}.{formulas}", {
+        max_jacobian_error: scientific(judged?.max_jacobian_error ?? 0),
+        formulas,
+      });
   }
 }

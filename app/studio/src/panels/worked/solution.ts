@@ -1,6 +1,7 @@
 /** The worked solution as lines to show: the service's words and formulas, each with the numbers that belong to it. */
 
 import type { Writing } from "../../state.ts";
+import { t } from "../../texts/index.ts";
 import type { ColumnFormulas, DeriveAnswer, MatrixFormula, SolutionNumbers } from "../../types.ts";
 
 /** A formula on a line of its own. */
@@ -17,6 +18,10 @@ export interface Line {
   numbers?: (all: SolutionNumbers) => number[][];
   /** A configuration worth going to, with what it is. */
   example?: { positions: number[]; title: string };
+  /** The row of the table whose link or joint it belongs to. */
+  row?: number | undefined;
+  /** Whether it is a matrix with a column for each joint, or a table with a row for each below its head. */
+  each?: "column" | "row";
 }
 
 export interface Section {
@@ -29,11 +34,15 @@ export interface Section {
 const LONG = 6000;
 
 export const PARTS: readonly { value: Writing["part"]; text: string; titles: readonly string[] }[] = [
-  { value: "transforms", text: "DH and Aᵢ", titles: ["Denavit-Hartenberg table", "Transforms between neighbours"] },
-  { value: "pose", text: "T⁰ᵢ", titles: ["Position of the tip", "Forward kinematics"] },
-  { value: "jacobian", text: "Jacobian", titles: ["Geometric Jacobian"] },
-  { value: "singular", text: "Singularities", titles: ["Determinant", "Singular configurations"] },
-  { value: "motion", text: "Motion", titles: [] },
+  {
+    value: "transforms",
+    text: t("DH and Aᵢ"),
+    titles: [t("Denavit-Hartenberg table"), t("Transforms between neighbours")],
+  },
+  { value: "pose", text: "T⁰ᵢ", titles: [t("Position of the tip"), t("Forward kinematics")] },
+  { value: "jacobian", text: t("Jacobian"), titles: [t("Geometric Jacobian")] },
+  { value: "singular", text: t("Singularities"), titles: [t("Determinant"), t("Singular configurations")] },
+  { value: "motion", text: t("Motion"), titles: [] },
 ];
 
 /** The sections of a part; the last part has what belongs to no other. */
@@ -46,18 +55,20 @@ export function sections(answer: DeriveAnswer, part: Writing["part"]): Section[]
 
 function section(answer: DeriveAnswer, title: string): Section {
   const step = answer.steps.find((one) => one.title === title);
-  const lines = LINES[title]?.(answer, step?.latex ?? []) ?? whole(step?.latex ?? [], title);
+  const lines = BY_TITLE.get(title)?.(answer, step?.latex ?? []) ?? whole(step?.latex ?? [], title);
   return { title, text: step?.text ?? "", lines };
 }
 
 /** Sections whose formulas have numbers; the others are what the service's step says. */
 const LINES: Record<string, (answer: DeriveAnswer, latex: string[]) => Line[]> = {
+  "Denavit-Hartenberg table": (_, latex) =>
+    whole(latex, t("Denavit-Hartenberg table")).map((table) => ({ ...table, each: "row" })),
   "Transforms between neighbours": ({ A }, latex) => [
-    ...whole(latex.slice(0, 1), "The rule"),
-    ...A.map((matrix, i) => line(`A_{${i + 1}}`, matrix, (all) => all.A[i]!)),
+    ...whole(latex.slice(0, 1), t("The rule")),
+    ...A.map((matrix, i) => line(`A_{${i + 1}}`, matrix, (all) => all.A[i]!, i)),
   ],
   "Forward kinematics": ({ T_0, T_base_tool }) => {
-    const lines = T_0.map((matrix, i) => line(`T^{0}_{${i + 1}}`, matrix, (all) => all.T_0[i]!));
+    const lines = T_0.map((matrix, i) => line(`T^{0}_{${i + 1}}`, matrix, (all) => all.T_0[i]!, i));
     if (T_base_tool && T_base_tool.latex === T_0.at(-1)?.latex) return lines;
     return [
       ...lines,
@@ -67,11 +78,13 @@ const LINES: Record<string, (answer: DeriveAnswer, latex: string[]) => Line[]> =
   "Geometric Jacobian": ({ jacobian, joint_names, convention }) => {
     const frame = (i: number) => (convention === "standard" ? i : i + 1);
     const columns = jacobian?.columns ?? [];
-    const matrix = line("J", jacobian?.matrix ?? unwritten("J"), (all) => all.jacobian);
+    const matrix: Line = line("J", jacobian?.matrix ?? unwritten("J"), (all) => all.jacobian);
     return [
       ...columns.flatMap((column, i) => columnLines(column, frame(i), i)),
       ...(columns.length ? [blocks(columns, frame)] : []),
-      ...(joint_names.length ? [{ ...matrix, isLong: (matrix.latex?.length ?? 0) > LONG }] : []),
+      ...(joint_names.length
+        ? [{ ...matrix, isLong: (matrix.latex?.length ?? 0) > LONG, each: "column" as const }]
+        : []),
     ];
   },
   Determinant: ({ determinant }, latex) =>
@@ -80,7 +93,7 @@ const LINES: Record<string, (answer: DeriveAnswer, latex: string[]) => Line[]> =
           {
             symbol: latex.length ? "" : "\\det J",
             latex: latex[0] ?? null,
-            name: "Determinant",
+            name: t("Determinant"),
             numbers: (all) => [[all.determinant ?? NaN]],
           },
         ]
@@ -88,36 +101,50 @@ const LINES: Record<string, (answer: DeriveAnswer, latex: string[]) => Line[]> =
   "Singular configurations": ({ singularities }, latex) =>
     latex.map((formula, i) => {
       const { example, example_singular_value: sigma } = singularities[i] ?? {};
-      const found: Line = { symbol: "", latex: formula, name: `Singular configuration ${i + 1}` };
+      const found: Line = { symbol: "", latex: formula, name: t("Singular configuration {i}", { i: i + 1 }) };
       return example
         ? { ...found, example: { positions: example, title: `σ_min = ${sigma?.toExponential(1) ?? "0"}` } }
         : found;
     }),
 };
 
+/** By the title as the service writes it in the language of the page, where its texts and the page's agree. */
+const BY_TITLE = new Map(Object.entries(LINES).map(([title, lines]) => [t(title), lines]));
+
 /** J by the names of what stands in its columns. */
 function blocks(columns: readonly ColumnFormulas[], frame: (index: number) => number): Line {
   const linear = columns.map(({ arm }, i) => (arm ? `z_{${frame(i)}} \\times p_{${frame(i)},E}` : `z_{${frame(i)}}`));
   const angular = columns.map(({ arm }, i) => (arm ? `z_{${frame(i)}}` : "0"));
   const latex = `\\begin{bmatrix} ${linear.join(" & ")} \\\\ ${angular.join(" & ")} \\end{bmatrix}`;
-  return { symbol: "J", latex, name: "J by its columns" };
+  return { symbol: "J", latex, name: t("J by its columns"), each: "column" };
 }
 
 function columnLines({ joint, axis, arm, linear }: ColumnFormulas, frame: number, index: number): Line[] {
   const z = `z_{${frame}}`;
   const column = (values: number[]) => values.map((value) => [value]);
-  const first = { ...line(z, axis, (all) => column(all.columns[index]!.axis)), name: `z of ${joint}` };
+  const first = {
+    ...line(z, axis, (all) => column(all.columns[index]!.axis), index),
+    name: t("z of {joint}", { joint }),
+  };
   if (!arm) return [first];
   const p = `p_{${frame},E}`;
   return [
     first,
-    { ...line(p, arm, (all) => column(all.columns[index]!.arm)), name: `p of ${joint}` },
-    { ...line(`${z} \\times ${p}`, linear, (all) => column(all.columns[index]!.linear)), name: `z × p of ${joint}` },
+    { ...line(p, arm, (all) => column(all.columns[index]!.arm), index), name: t("p of {joint}", { joint }) },
+    {
+      ...line(`${z} \\times ${p}`, linear, (all) => column(all.columns[index]!.linear), index),
+      name: t("z × p of {joint}", { joint }),
+    },
   ];
 }
 
-function line(symbol: string, { name, latex }: MatrixFormula, numbers: (all: SolutionNumbers) => number[][]): Line {
-  return { symbol, latex, name, numbers };
+function line(
+  symbol: string,
+  { name, latex }: MatrixFormula,
+  numbers: NonNullable<Line["numbers"]>,
+  row?: number,
+): Line {
+  return { symbol, latex, name, numbers, row };
 }
 
 /** Formulas as the service wrote them, with both of their sides. */

@@ -4,10 +4,12 @@ import {
   Box3,
   BufferAttribute,
   BufferGeometry,
+  type Camera,
   Group,
   LineBasicMaterial,
   LineLoop,
   type Matrix4,
+  OrthographicCamera,
   Plane,
   Points,
   PointsMaterial,
@@ -20,7 +22,7 @@ import type { WorkspaceSummary } from "../../types.ts";
 import { colour } from "../../view/colours.ts";
 import { shade } from "../../view/shades.ts";
 import { clear, put } from "../../view/shapes.ts";
-import type { View } from "../../view/view.ts";
+import { FIELD, type View } from "../../view/view.ts";
 
 export type Axis = "x" | "y" | "z";
 
@@ -74,14 +76,12 @@ export class Cloud {
     const material = new PointsMaterial({
       vertexColors: true,
       sizeAttenuation: !isCloud,
-      // three.js takes the size at a distance for that under a field of view of 90°.
-      size: isCloud
-        ? rows > MANY
-          ? 2
-          : 3
-        : (0.7 * summary.voxels.size) / Math.tan((this.view.camera.fov * Math.PI) / 360),
+      size: rows > MANY ? 2 : 3,
     });
-    this.#group.add(new Points(this.#geometry, material));
+    const points = new Points(this.#geometry, material);
+    if (!isCloud)
+      points.onBeforeRender = (_, __, camera) => (material.size = this.#sizeOf(summary.voxels.size, camera));
+    this.#group.add(points);
     const bounds = summary.bounding_box;
     this.#geometry.computeBoundingSphere();
     this.#ball = rows ? this.#geometry.boundingSphere : null;
@@ -95,7 +95,7 @@ export class Cloud {
     this.#section = section;
     put(this.#group, base);
     this.#cut();
-    if (isNew) this.view.surround(this.#ball?.clone().applyMatrix4(base) ?? null);
+    if (isNew) this.view.surround("workspace", this.#ball?.clone().applyMatrix4(base) ?? null);
     this.view.draw();
   }
 
@@ -105,13 +105,20 @@ export class Cloud {
     this.#geometry = null;
     this.#base = null;
     this.#box = this.#ball = null;
-    this.view.surround(null);
+    this.view.surround("workspace", null);
   }
 
   close(): void {
     this.clear();
     this.view.scene.remove(this.#group);
     this.view.draw();
+  }
+
+  /** A voxel's size for three.js: at a distance, for a field of view of 90°, or in parallel projection in pixels. */
+  #sizeOf(voxel: number, camera: Camera): number {
+    const size = 0.7 * voxel;
+    if (!(camera instanceof OrthographicCamera)) return size / Math.tan((FIELD * Math.PI) / 360);
+    return (size * this.view.canvas.clientHeight) / (camera.top - camera.bottom);
   }
 
   #cut(): void {

@@ -4,11 +4,13 @@ import { asProblem } from "../../api.ts";
 import "../../styles/workspace.css";
 
 import { shownChain } from "../../robot/chain.ts";
-import { sceneField } from "../../scene/objects.ts";
+import { surroundings } from "../../scene/objects.ts";
 import { choosing } from "../../state.ts";
+import { t } from "../../texts/index.ts";
 import type { JobInfo } from "../../types.ts";
 import { titled } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
+import { UNITS } from "../../ui/quantity.ts";
 import { RequestView } from "../../ui/request.ts";
 import { whileKept } from "../kept.ts";
 import type { Panel, Studio } from "../panel.ts";
@@ -19,7 +21,7 @@ import { Settings } from "./settings.ts";
 
 export const workspacePanel: Panel = {
   id: "workspace",
-  title: "Workspace",
+  title: t("Workspace"),
   open: (host, studio) =>
     whileKept(host, studio, () => {
       const panel = new WorkspacePanel(host, studio);
@@ -45,8 +47,8 @@ class WorkspacePanel {
     private readonly studio: Studio,
   ) {
     const { store, api } = studio;
-    this.#request = new RequestView(api, "the job");
-    const resultRequest = new RequestView(api, "its result");
+    this.#request = new RequestView(api, t("the job"));
+    const resultRequest = new RequestView(api, t("its result"));
     this.#settings = new Settings(store);
     this.#progress = new Progress(
       () => void this.#guarded(() => this.#begin()),
@@ -68,16 +70,17 @@ class WorkspacePanel {
       },
     });
     host.append(
-      titled("Workspace", [this.#settings.kinds.host], this.#settings.host, this.#progress.host, this.#problem.host),
+      titled(t("Workspace"), [this.#settings.kinds.host], this.#settings.host, this.#progress.host, this.#problem.host),
       ...this.#outcome.hosts,
       this.#request.host,
       resultRequest.host,
     );
     this.#stops = [
-      store.watch(["options"], () => this.#settings.update()),
+      store.watch(["options", ...UNITS], () => this.#settings.update()),
       store.watch(["options"], ({ options }) => this.#follow(options[JOB] ?? null)),
       store.watch(["model"], () => this.#outcome.draw()),
-      store.watch(["options", "positions", "dark"], () => this.#outcome.place()),
+      store.watch(["options", "positions", "dark", ...UNITS], () => this.#outcome.place()),
+      store.watch(UNITS, () => this.#outcome.measure()),
     ];
   }
 
@@ -106,7 +109,7 @@ class WorkspacePanel {
     const { value } = this.studio.store;
     const chain = shownChain(value);
     if (!chain?.path) return;
-    const call = { ...this.#settings.call, ...chain.ends, ...sceneField(value.scene) };
+    const call = { ...this.#settings.call, ...chain.ends, ...surroundings(value.scene, chain.others) };
     const job = await this.#request.api.post<JobInfo>(`${chain.path}/workspace`, call);
     this.#remember(job.id);
   }

@@ -2,6 +2,7 @@
 
 import { type Api, asProblem, Latest, NO_ANSWER, Problem } from "../../api.ts";
 import { type Table, readTable } from "../../npy.ts";
+import { t } from "../../texts/index.ts";
 import type { JobInfo, WorkspaceSummary } from "../../types.ts";
 
 export interface Result {
@@ -18,8 +19,8 @@ const LOOK = 500; // [ms]
 const RETRY = 1000; // after the service has refused to tell events, [ms]
 const LOST = new Problem(
   NO_ANSWER,
-  "The service has fallen silent",
-  "The job may be running all the same: as soon as the service answers, its progress goes on here.",
+  t("The service has fallen silent"),
+  t("The job may be running all the same: as soon as the service answers, its progress goes on here."),
 );
 
 /** What the one who follows a job is told. */

@@ -2,6 +2,7 @@
 
 import { Color } from "three";
 
+import { t } from "../../texts/index.ts";
 import { element } from "../../ui/dom.ts";
 import { rounded } from "../../ui/quantity.ts";
 import { shade } from "../../view/shades.ts";
@@ -27,7 +28,10 @@ export class Legend {
 
   show(title: string, { lower, upper }: Range): void {
     this.#title.textContent = title;
-    this.#scale.setAttribute("aria-label", `Colours from ${rounded(lower)} to ${rounded(upper)}`);
+    this.#scale.setAttribute(
+      "aria-label",
+      t("Colours from {lower} to {upper}", { lower: rounded(lower), upper: rounded(upper) }),
+    );
     const values = TICKS.map((share) => lower + share * (upper - lower));
     this.#ticks.replaceChildren(...values.map((value) => element("span", {}, rounded(value))));
   }

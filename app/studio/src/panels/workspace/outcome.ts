@@ -1,5 +1,6 @@
 /** The result of a job on the screen: its cloud with a scale of colours and a section, and its numbers. */
 
+import { t } from "../../texts/index.ts";
 import type { WorkspaceSummary } from "../../types.ts";
 import { button, element, section } from "../../ui/dom.ts";
 import type { Studio } from "../panel.ts";
@@ -27,8 +28,8 @@ export class Outcome {
     const goToBest = (summary: WorkspaceSummary) => this.#goToBest(summary);
     this.#section = new SectionControls(studio.store);
     this.#results = new Results(studio.api, { ...actions, goToBest });
-    this.#picture = section("Picture", this.#legend.host, this.#section.host);
-    this.#numbers = section("Result", this.#elsewhere, this.#results.host);
+    this.#picture = section(t("Picture"), this.#legend.host, this.#section.host);
+    this.#numbers = section(t("Result"), this.#elsewhere, this.#results.host);
     this.#cloud = studio.view && new Cloud(studio.view);
     this.hosts = [this.#picture, this.#numbers];
   }
@@ -57,8 +58,16 @@ export class Outcome {
     const { title, range } = meaning(result);
     this.#legend.show(title, range);
     this.#cloud?.show(table, summary, range);
-    this.#results.show(result, model.chain(summary.base_frame, summary.tip_frame));
+    this.measure();
     this.place();
+  }
+
+  /** The numbers, in the units of the page. */
+  measure(): void {
+    const { model } = this.studio.store.value;
+    const summary = this.#result?.summary;
+    if (!summary || model?.name !== summary.robot) return;
+    this.#results.show(this.#result!, model.chain(summary.base_frame, summary.tip_frame), this.studio.store.value);
   }
 
   /** Where the base frame is, and where the cloud is cut. */
@@ -75,8 +84,8 @@ export class Outcome {
 
   #offer(robot: string): void {
     this.#elsewhere.replaceChildren(
-      element("span", {}, `The last workspace is that of ${robot}.`),
-      button(`Show ${robot}`, () => this.studio.store.set({ robot, draft: null, base: null, tip: null })),
+      element("span", {}, t("The last workspace is that of {robot}.", { robot })),
+      button(t("Show {robot}", { robot }), () => this.studio.store.set({ robot, draft: null, base: null, tip: null })),
     );
   }
 

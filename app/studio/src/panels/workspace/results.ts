@@ -2,10 +2,11 @@
 
 import type { Api } from "../../api.ts";
 import type { Joint } from "../../robot/model.ts";
+import { language, t } from "../../texts/index.ts";
 import type { WorkspaceSummary } from "../../types.ts";
 import { button, element } from "../../ui/dom.ts";
 import { save } from "../../ui/files.ts";
-import { fixed, rounded } from "../../ui/quantity.ts";
+import { column, lengthText, rounded, type Units, withUnit } from "../../ui/quantity.ts";
 import type { Range } from "./cloud.ts";
 import { NPY, pathOf, type Result } from "./job.ts";
 
@@ -17,54 +18,87 @@ const FEW = 0.01;
 /** Between what the colours are spread, and what they tell. */
 export function meaning({ summary, table }: Result): { title: string; range: Range } {
   if (summary.kind === "dexterity")
-    return { title: "Share of the orientations reached", range: { lower: 0, upper: 1 } };
+    return { title: t("Share of the orientations reached"), range: { lower: 0, upper: 1 } };
   const range = { lower: Infinity, upper: -Infinity };
   for (let k = table.columns - 1; k < table.values.length; k += table.columns) {
     range.lower = Math.min(range.lower, table.values[k]!);
     range.upper = Math.max(range.upper, table.values[k]!);
   }
-  const best = summary.kind === "grid" ? "Best manipulability" : "Manipulability";
-  return { title: `${best} w = √det(JJᵀ)`, range: table.rows ? range : { lower: 0, upper: 0 } };
+  const best = summary.kind === "grid" ? t("Best manipulability") : t("Manipulability");
+  return { title: t("{best} w = √det(JJᵀ)", { best }), range: table.rows ? range : { lower: 0, upper: 0 } };
 }
 
 type Fact = [title: string, value: string, hint?: string];
 
 /** The numbers of a summary, to be read. */
-export function facts(summary: WorkspaceSummary, joints: readonly Joint[]): Fact[] {
+export function facts(summary: WorkspaceSummary, joints: readonly Joint[], units: Units): Fact[] {
   const { voxels, reach, bounding_box: box, measure, dexterity } = summary;
   const unit = POWERS[voxels.dimensions] ?? "";
   const turns = joints.length > 0 && joints.every(({ type }) => type !== "prismatic");
   const measureUnit = turns ? ` ${POWERS[measure.directions.length] ?? ""}` : "";
-  const size = ["", "Length", "Area", "Volume"][voxels.dimensions] ?? "";
+  const size = ["", t("Length"), t("Area"), t("Volume")][voxels.dimensions] ?? "";
+  const shown = (value: number) => column(value, "length", units, 3);
+  const length = (value: number) => lengthText(value, units);
+  const span = (from: number, to: number) =>
+    withUnit(t("{from} to {to}", { from: shown(from), to: shown(to) }), "length", units);
   const found: (Fact | null)[] = [
-    reach && ["Reach", `${fixed(reach.min, 3)} to ${fixed(reach.max, 3)} m`, "Distances from the base frame's origin"],
-    ...(box
-      ? [..."xyz"].map((axis, i): Fact => [axis, `${fixed(box.lower[i]!, 3)} to ${fixed(box.upper[i]!, 3)} m`])
-      : []),
+    reach && [t("Reach"), span(reach.min, reach.max), t("Distances from the base frame's origin")],
+    ...(box ? [..."xyz"].map((axis, i): Fact => [axis, span(box.lower[i]!, box.upper[i]!)]) : []),
     size !== "" && voxels.count
-      ? [size, `${rounded(voxels.inner_volume)} to ${rounded(voxels.volume)} ${unit}`, "Inner voxels, and all of them"]
-      : null,
-    ["Voxels", `${voxels.count.toLocaleString("en")} of edge ${rounded(voxels.size)} m`],
-    voxels.late_share === null ? null : ["Found late", late(voxels.late_share), LATE],
-    measure.max === null || measure.mean === null
-      ? null
-      : ["Manipulability", `${rounded(measure.mean)} on average, ${rounded(measure.max)}${measureUnit} at best`],
-    dexterity && dexterity.mean_share !== null
       ? [
-          "Dexterity",
-          `${percent(dexterity.mean_share)} on average, ${percent(dexterity.max_share ?? 0)} at best; ` +
-            `all of ${dexterity.orientations} in ${rounded(dexterity.full_volume)} ${unit}`,
+          size,
+          t("{inner_volume} to {volume} {unit}", {
+            inner_volume: rounded(voxels.inner_volume),
+            volume: rounded(voxels.volume),
+            unit,
+          }),
+          t("Inner voxels, and all of them"),
         ]
       : null,
-    ["Pinocchio", `differs by ${rounded(summary.certificate.max_position_error)} m at most`],
+    [
+      t("Voxels"),
+      t("{count} of edge {size}", { count: voxels.count.toLocaleString(language), size: length(voxels.size) }),
+    ],
+    voxels.late_share === null ? null : [t("Found late"), late(voxels.late_share), LATE],
+    measure.max === null || measure.mean === null
+      ? null
+      : [
+          t("Manipulability"),
+          t("{mean} on average, {max}{measureUnit} at best", {
+            mean: rounded(measure.mean),
+            max: rounded(measure.max),
+            measureUnit,
+          }),
+        ],
+    dexterity && dexterity.mean_share !== null
+      ? [
+          t("Dexterity"),
+          t("{mean_share} on average, {max_share} at best; all of {orientations} in {full_volume} {unit}", {
+            mean_share: percent(dexterity.mean_share),
+            max_share: percent(dexterity.max_share ?? 0),
+            orientations: dexterity.orientations,
+            full_volume: rounded(dexterity.full_volume),
+            unit,
+          }),
+        ]
+      : null,
+    [
+      t("Pinocchio"),
+      t("differs by {max_position_error} at most", {
+        max_position_error: length(summary.certificate.max_position_error),
+      }),
+    ],
   ];
   return found.filter((fact): fact is Fact => fact !== null);
 }
 
-const LATE = "Voxels that only the last tenth of the samples found";
+const LATE = t("Voxels that only the last tenth of the samples found");
 
 function late(share: number): string {
-  return `${percent(share)} of the voxels${share > FEW ? ": more samples would find more" : ""}`;
+  return t("{share} of the voxels{share2}", {
+    share: percent(share),
+    share2: share > FEW ? t(": more samples would find more") : "",
+  });
 }
 
 function percent(share: number): string {
@@ -88,21 +122,27 @@ export class Results {
     private readonly actions: Actions,
   ) {}
 
-  show({ id, summary, table, npy }: Result, joints: readonly Joint[]): void {
+  show({ id, summary, table, npy }: Result, joints: readonly Joint[], units: Units): void {
     const name = `${summary.robot}-workspace`;
     const picture = button("SVG", () => void this.#savePicture(picture, id, name), {
-      title: "A picture of three projections",
+      title: t("A picture of three projections"),
     });
     this.host.replaceChildren(
       element(
         "p",
         { class: "muted small" },
-        `${summary.tip_frame} in ${summary.base_frame} of ${summary.robot}, from ${summary.samples.toLocaleString("en")} samples${freeOf(summary)}.`,
+        t("{tip_frame} in {base_frame} of {robot}, from {samples} samples{summary}.", {
+          tip_frame: summary.tip_frame,
+          base_frame: summary.base_frame,
+          robot: summary.robot,
+          samples: summary.samples.toLocaleString(language),
+          summary: freeOf(summary),
+        }),
       ),
       element(
         "dl",
         { class: "facts workspace-facts" },
-        ...facts(summary, joints).flatMap(([title, value, hint]) => [
+        ...facts(summary, joints, units).flatMap(([title, value, hint]) => [
           element("dt", { title: hint ?? "" }, title),
           element("dd", {}, value),
         ]),
@@ -113,17 +153,17 @@ export class Results {
       element(
         "div",
         { class: "bar" },
-        button("npy", () => save(`${name}.npy`, NPY, npy), { title: "All points, for numpy.load" }),
+        button(t("npy"), () => save(`${name}.npy`, NPY, npy), { title: t("All points, for numpy.load") }),
         button("JSON", () => save(`${name}.json`, "application/json", JSON.stringify(summary, null, 2)), {
-          title: "The summary",
+          title: t("The summary"),
         }),
         picture,
         element("span", { class: "spring" }),
         summary.measure.joint_positions &&
-          button("Best configuration", () => this.actions.goToBest(summary), {
-            title: "Where the manipulability is largest",
+          button(t("Best configuration"), () => this.actions.goToBest(summary), {
+            title: t("Where the manipulability is largest"),
           }),
-        button("Remove", () => this.actions.remove(), { class: "button danger", title: "Also from the service" }),
+        button(t("Remove"), () => this.actions.remove(), { class: "button danger", title: t("Also from the service") }),
       ),
     );
     this.host.dataset["points"] = String(table.rows);
@@ -148,5 +188,5 @@ export class Results {
 
 /** In a scene: how many of them touch nothing, which alone count. */
 function freeOf({ samples_free: free }: WorkspaceSummary): string {
-  return free == null ? "" : `, of which ${free.toLocaleString("en")} touch nothing`;
+  return free == null ? "" : t(", of which {free} touch nothing", { free: free.toLocaleString(language) });
 }

@@ -2,13 +2,14 @@
 
 import { chosen, choosing, type State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import { t } from "../../texts/index.ts";
 import type { WorkspaceSummary } from "../../types.ts";
 import { Choice, element, toggle } from "../../ui/dom.ts";
-import { fixed } from "../../ui/quantity.ts";
+import { column, withUnit } from "../../ui/quantity.ts";
 import type { Axis, Section } from "./cloud.ts";
 
 const CUTS = [
-  { value: "whole", text: "Whole" },
+  { value: "whole", text: t("Whole") },
   { value: "x", text: "x" },
   { value: "y", text: "y" },
   { value: "z", text: "z" },
@@ -26,17 +27,17 @@ export class SectionControls {
 
   constructor(private readonly store: Store<State>) {
     const set = (option: string, value: string | null) => store.set(choosing(store.value, option, value));
-    this.#cuts = new Choice("Section across", CUTS, (cut) => {
+    this.#cuts = new Choice(t("Section across"), CUTS, (cut) => {
       const middle = choosing(store.value, "workspace.at", null);
       store.set(choosing({ ...store.value, ...middle }, "workspace.section", cut === "whole" ? null : cut));
     });
     this.#slider = element("input", {
       type: "range",
       step: "any",
-      "aria-label": "Place of the section",
+      "aria-label": t("Place of the section"),
       oninput: () => set("workspace.at", this.#slider.value),
     });
-    this.#slice = toggle("Slice", "Only what lies in the plane, one voxel thick", () =>
+    this.#slice = toggle(t("Slice"), t("Only what lies in the plane, one voxel thick"), () =>
       set("workspace.side", this.#side === "slice" ? null : "slice"),
     );
     this.host = element(
@@ -74,7 +75,8 @@ export class SectionControls {
     this.#slider.min = String(least);
     this.#slider.max = String(most);
     if (Number(this.#slider.value) !== at) this.#slider.value = String(at);
-    this.#place.textContent = `${axis} = ${fixed(at, 2)} m`;
+    const units = this.store.value;
+    this.#place.textContent = `${axis} = ${withUnit(column(at, "length", units, 2), "length", units)}`;
     return { axis, at, thickness: this.#side === "slice" ? this.#summary!.voxels.size : null };
   }
 

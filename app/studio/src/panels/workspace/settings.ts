@@ -2,22 +2,28 @@
 
 import { chosen, choosing, type State } from "../../state.ts";
 import type { Store } from "../../store.ts";
+import { language, t } from "../../texts/index.ts";
 import { Choice, element } from "../../ui/dom.ts";
 import { NumberField } from "../../ui/number.ts";
+import { unitOf } from "../../ui/quantity.ts";
 
 const KINDS = [
-  { value: "cloud", text: "Cloud", hint: "A point for each sample, coloured by manipulability." },
-  { value: "grid", text: "Grid", hint: "A point for each voxel that samples fall into, with the best manipulability." },
+  { value: "cloud", text: t("Cloud"), hint: t("A point for each sample, coloured by manipulability.") },
+  {
+    value: "grid",
+    text: t("Grid"),
+    hint: t("A point for each voxel that samples fall into, with the best manipulability."),
+  },
   {
     value: "dexterity",
-    text: "Dexterity",
-    hint: "Of each voxel the share of 32 orientations that inverse kinematics reaches at its centre. Takes a while.",
+    text: t("Dexterity"),
+    hint: t("Of each voxel the share of 32 orientations that inverse kinematics reaches at its centre. Takes a while."),
   },
 ] as const;
 const SAMPLES = ["100000", "10000", "30000", "300000", "1000000"] as const;
 const SEQUENCES = [
-  { value: "random", text: "Random" },
-  { value: "low_discrepancy", text: "Even" },
+  { value: "random", text: t("Random") },
+  { value: "low_discrepancy", text: t("Even") },
 ] as const;
 
 const values = <T extends string>(options: readonly { value: T }[]): T[] => options.map(({ value }) => value);
@@ -29,15 +35,16 @@ export class Settings {
   #samples: HTMLSelectElement;
   #sequences: Choice<(typeof SEQUENCES)[number]["value"]>;
   #voxel: NumberField;
+  #unit = element("span", { class: "unit" });
 
   constructor(private readonly store: Store<State>) {
     const choose = (option: string, usual: string) => (value: string) =>
       store.set(choosing(store.value, option, value === usual ? null : value));
-    this.kinds = new Choice("What is computed", KINDS, choose("workspace.kind", "cloud"));
-    this.#sequences = new Choice("Sequence of the samples", SEQUENCES, choose("workspace.sequence", "random"));
+    this.kinds = new Choice(t("What is computed"), KINDS, choose("workspace.kind", "cloud"));
+    this.#sequences = new Choice(t("Sequence of the samples"), SEQUENCES, choose("workspace.sequence", "random"));
     const options = [...SAMPLES]
       .sort((a, b) => Number(a) - Number(b))
-      .map((value) => element("option", { value }, Number(value).toLocaleString("en")));
+      .map((value) => element("option", { value }, Number(value).toLocaleString(language)));
     const take = choose("workspace.samples", SAMPLES[0]);
     this.#samples = element(
       "select",
@@ -45,13 +52,13 @@ export class Settings {
       ...options,
     );
     this.#voxel = new NumberField({
-      label: "Edge of a voxel",
+      label: t("Edge of a voxel"),
       kind: "length",
-      degrees: () => false,
+      units: () => store.value,
       optional: true,
       change: (edge) => store.set(choosing(store.value, "workspace.voxel", edge === null ? null : String(edge))),
     });
-    this.#voxel.input.placeholder = "automatic";
+    this.#voxel.input.placeholder = t("automatic");
     this.host = element(
       "div",
       { class: "part" },
@@ -59,10 +66,10 @@ export class Settings {
       element(
         "div",
         { class: "sampling" },
-        element("label", { for: "samples" }, "Samples"),
+        element("label", { for: "samples" }, t("Samples")),
         element("span", { class: "bar" }, this.#samples, this.#sequences.host),
-        element("span", {}, "Voxel edge"),
-        element("span", { class: "entry" }, this.#voxel.input, element("span", { class: "unit" }, "m")),
+        element("span", {}, t("Voxel edge")),
+        element("span", { class: "entry" }, this.#voxel.input, this.#unit),
       ),
     );
   }
@@ -74,6 +81,7 @@ export class Settings {
     this.#hint.textContent = KINDS.find(({ value }) => value === kind)!.hint;
     this.#sequences.show(sequence);
     this.#samples.value = samples;
+    this.#unit.textContent = unitOf("length", this.store.value);
     this.#voxel.set(voxel);
   }
 
