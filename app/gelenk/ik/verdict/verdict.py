@@ -53,7 +53,7 @@ _STOPPED: dict[StopReason, tuple[Status, str]] = {
     "iterations": ("not_converged", "{away} away after {after}; try another start, method or step size"),
 }
 """Verdict and reason by why one method stopped."""
-_NOT_TRIED = "the time limit ended the call before this target's turn"
+_UNANSWERED = "the time limit ended the call before this target was answered"
 
 
 def explain(
@@ -77,7 +77,7 @@ def explain(
     reason = f"none of {counted(starts, 'start')} came nearer than {away}"
     reach = problem.reach if is_too_far else None
     if not tried:
-        reason = _NOT_TRIED
+        reason = _UNANSWERED
     elif len(problem.chain) == 0:
         status, reason = "unreachable", f"the chain has no joints: its tip stays {away} away"
     elif reach is not None:
@@ -115,7 +115,7 @@ def verdict_on_path(
     these errors, [m] and [rad]; `is_too_far` tells whether the target is beyond reach by distance alone.
     """
     if not path.trace:
-        return UnsolvedTarget("not_converged", _NOT_TRIED, end, *_pair(errors))
+        return UnsolvedTarget("not_converged", _UNANSWERED, end, *_pair(errors))
     away = _far(problem.task, errors)
     if is_too_far and (reach := problem.reach):
         status: Status = "unreachable"
