@@ -180,7 +180,7 @@ def _middleware(app: Application, settings: Settings, metrics: Metrics, audit: A
     if settings.api_keys:
         checks.append(KeyCheck(Keyring(settings.api_keys)))
     directory = RouteTable(iter_route_contexts(app.routes))
-    return Middleware(app.answer, directory, settings.root_path, checks, metrics, audit)
+    return Middleware(app, directory, settings.root_path, checks, metrics, audit)
 
 
 async def _start(readiness: Readiness, pool: WorkerPool) -> None:

@@ -5,7 +5,7 @@ Only a few names are imported before tracing is switched on; the exporter is an 
 
 import asyncio
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeAlias
@@ -18,6 +18,7 @@ from gelenk.http.access.audit_log import AuditLog, log_request
 from gelenk.http.access.metrics import Metrics
 from gelenk.http.access.request_context import RequestContext
 from gelenk.http.access.route_table import RouteTable
+from gelenk.http.messages.routes import Application
 from gelenk.logs import REQUEST_ID
 from gelenk.operations.outcome import REQUEST_COUNTS
 
@@ -43,7 +44,7 @@ class Middleware:
     The first refusal counts; the metrics count refused requests too. `root_path` is the path prefix of a proxy.
     """
 
-    app: ASGIApp
+    app: Application
     directory: RouteTable
     root_path: str
     checks: Sequence[AccessRule]
@@ -53,7 +54,7 @@ class Middleware:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve a request or the lifespan events; refuse a WebSocket."""
         if scope["type"] == "lifespan":
-            await self.app(scope, receive, send)
+            await self.app.answer(scope, receive, send)
             return
         if scope["type"] != "http":
             await send({"type": "websocket.close", "code": 1008})
@@ -65,22 +66,20 @@ class Middleware:
         REQUEST_ID.set(exchange.request_id)
         REQUEST_COUNTS.set(None)
 
-        async def answer(message: Message) -> None:
-            if message["type"] == "http.response.start":
-                exchange.status = message["status"]
-                own = (b"x-request-id", exchange.request_id.encode())
-                headers = [*message.get("headers", ()), own, *exchange.answer_headers]
-                message["headers"] = headers + _lacking(tuple([name for name, _ in headers]))
-                if exchange.is_audited:
-                    await asyncio.to_thread(
-                        self.audit.write, exchange, dict(headers).get(b"location", b"").decode("latin-1") or None
-                    )
-            await send(message)
-
         self.metrics.begin()
         try:
-            refusal = self._refusal(exchange)
-            await (refusal or self.app)(scope, receive, answer)
+            response = self._refusal(exchange)
+            if response is None:
+                route = self.app.route_of(exchange.operation.id, exchange.robot, scope)
+                if route is None:
+                    await self.app.answer(scope, receive, self._completing(exchange, send))
+                    return
+                response = await route.response(scope, receive, send)
+            if response is not None:
+                response.raw_headers = self._headers(exchange, response.status_code, response.raw_headers)
+                if exchange.is_audited:
+                    await self._audit(exchange, response.raw_headers)
+                await response(scope, receive, send)
         finally:
             if exchange.is_audited and not exchange.status:
                 # The client has left, or the request failed: what it wrote may remain.
@@ -89,6 +88,28 @@ class Middleware:
             exchange.counts = REQUEST_COUNTS.get()
             self.metrics.end(exchange)
             log_request(exchange)
+
+    def _completing(self, exchange: RequestContext, send: Send) -> Send:
+        """Return what sends a response of FastAPI, which it makes out of our sight."""
+
+        async def completed(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                message["headers"] = self._headers(exchange, message["status"], message.get("headers", ()))
+                if exchange.is_audited:
+                    await self._audit(exchange, message["headers"])
+            await send(message)
+
+        return completed
+
+    def _headers(self, exchange: RequestContext, status: int, own: Iterable[tuple[bytes, bytes]]) -> Headers:
+        """Note that a response starts, and return all its headers."""
+        exchange.status = status
+        headers = [*own, (b"x-request-id", exchange.request_id.encode()), *exchange.answer_headers]
+        return headers + _lacking(tuple([name for name, _ in headers]))
+
+    async def _audit(self, exchange: RequestContext, headers: Headers) -> None:
+        location = dict(headers).get(b"location", b"").decode("latin-1") or None
+        await asyncio.to_thread(self.audit.write, exchange, location)
 
     def _refusal(self, exchange: RequestContext) -> Response | None:
         for check in self.checks:

@@ -46,16 +46,13 @@ class RequestContext:
 
     @classmethod
     def of(cls, scope: AsgiScope, operation: Route, robot: str | None) -> "RequestContext":
-        """Build the context of a request that has just arrived.
-
-        Puts in the scope its id, for problems, and the operation and the robot, for the application.
-        """
+        """Build the context of a request that has just arrived, and put its id in the scope, for problems."""
         headers = dict(scope["headers"])
         given = headers.get(b"x-request-id")
         request_id = (
             given.decode("ascii") if given and _WELL_FORMED.fullmatch(given) else getrandbits(128).to_bytes(16).hex()
         )
-        scope["request_id"], scope["gelenk.operation"] = request_id, (operation.id, robot)
+        scope["request_id"] = request_id
         can_be_job = b"prefer" in headers and isinstance(operation, Endpoint) and operation.job
         if can_be_job and wants_answer_later(scope["headers"]):
             operation = replace(operation, scope=Scope.WRITE)  # a job is stored

@@ -37,16 +37,20 @@ class DocumentedRoute(APIRoute):
         if scope["method"] not in (self.methods or ()):
             await super().handle(scope, receive, send)
             return
+        if (response := await self.response(scope, receive, send)) is not None:
+            await response(scope, receive, send)
+
+    async def response(self, scope: Scope, receive: Receive, send: Send) -> Response | None:
+        """Return the response to a request for this path and method; None if its client has left."""
         request = BoundedRequest(scope, receive, send, self._max_body_bytes, scope["app"].bodies)
         try:
-            response = await self._handler(request)
+            return await self._handler(request)
         except ClientDisconnect:
-            return
+            return None
         except Exception as error:
-            response = problems.answer(request, error)
+            return problems.answer(request, error)
         finally:
             request.release()
-        await response(scope, receive, send)
 
 
 class Application(FastAPI):
@@ -54,13 +58,13 @@ class Application(FastAPI):
 
     `operations` are their routes by id; in their paths only the robot varies. Any other request, also a wrong method
     or an unknown operation, goes through FastAPI, and so do all requests if they are traced (`is_traced`). Requests
-    arrive at `entry`, which finds the operation, checks that the caller may call it, and leads to `answer`.
+    arrive at `entry`, which finds the operation, checks that the caller may call it, and calls its route or `answer`.
     """
 
     def __init__(self, bodies: Bodies, is_traced: bool = False, **description: Any) -> None:
         super().__init__(**description)
         self.bodies, self._is_traced = bodies, is_traced
-        self.operations: dict[str | None, DocumentedRoute] = {}
+        self.operations: dict[str, DocumentedRoute] = {}
         self.entry: ASGIApp = self.answer
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -69,19 +73,21 @@ class Application(FastAPI):
             scope = prefixed(scope, self.root_path)
         await self.entry(scope, receive, send)
 
+    def route_of(self, operation: str, robot: str | None, scope: Scope) -> DocumentedRoute | None:
+        """Return the route of an operation, and put in the scope what it needs; None if FastAPI is to answer."""
+        route = None if self._is_traced else self.operations.get(operation)
+        if route is not None:
+            scope["root_path"], scope["app"] = self.root_path, self
+            scope["path_params"] = {} if robot is None else {"robot": robot}
+        return route
+
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer a request that has passed the checks; HEAD is GET without the body."""
+        """Let FastAPI answer a request that has passed the checks; HEAD is GET without the body."""
         if self.root_path and scope.get("path") == self.root_path:  # links are relative to the folder
             await RedirectResponse(f"{self.root_path}/")(scope, receive, send)
             return
         if scope["type"] == "http" and scope["method"] == "HEAD":
             scope = {**scope, "method": "GET"}
-        operation, robot = scope.get("gelenk.operation", (None, None))
-        if (route := self.operations.get(operation)) and not self._is_traced:
-            scope["root_path"], scope["app"] = self.root_path, self
-            scope["path_params"] = {} if robot is None else {"robot": robot}
-            await route.handle(scope, receive, send)
-            return
         await asyncio.sleep(0)  # From here on it is in a task, which what FastAPI uses asks for.
         await super().__call__(scope, receive, send)
 
