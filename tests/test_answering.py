@@ -23,10 +23,10 @@ class Wire(asyncio.Transport):
 
     def __init__(self) -> None:
         super().__init__({"sockname": ("127.0.0.1", 80), "peername": ("127.0.0.1", 9)})
-        self.sent, self.is_closed = b"", False
+        self.sent, self.writes, self.is_closed = b"", 0, False
 
     def write(self, data: Any) -> None:
-        self.sent += bytes(data)
+        self.sent, self.writes = self.sent + bytes(data), self.writes + 1
 
     def is_closing(self) -> bool:
         return self.is_closed
@@ -55,14 +55,20 @@ def connected(app: App, *, bounded: bool = True) -> tuple[Any, Wire]:
     return protocol, wire
 
 
-def answering(headers: Headers, body: bytes = b"ok", status: int = 200, wait: float | None = None) -> App:
+def answering(
+    headers: Headers, body: bytes = b"ok", status: int = 200, wait: float | None = None, whole: bool = False
+) -> App:
     async def app(_: Any, receive: Any, send: Any) -> None:
         while (await receive()).get("more_body"):
             pass
         if wait is not None:
             await asyncio.sleep(wait)
-        await send({"type": "http.response.start", "status": status, "headers": headers})
-        await send({"type": "http.response.body", "body": body})
+        head: dict[str, Any] = {"type": "http.response.start", "status": status, "headers": headers}
+        if whole:
+            head["whole"] = body
+        await send(head)
+        if not whole or "whole" in head:
+            await send({"type": "http.response.body", "body": body})
 
     return app
 
@@ -99,6 +105,7 @@ HEADS: list[Headers] = [
     [(b"transfer-encoding", b"chunked")],
     [(b"content-length", b"3")],
     [(b"content-length", b"1")],
+    [(b"content-length", b"0")],
     [LENGTH, (b"x-bad", b"a\r\nb: c")],
     [LENGTH, (b"x-bad", b"\x7f")],
     [LENGTH, (b"x bad", b"a")],
@@ -108,11 +115,41 @@ HEADS: list[Headers] = [
 @pytest.mark.parametrize("headers", HEADS, ids=str)
 def test_the_bytes_are_those_of_the_underlying_server(headers: Headers) -> None:
     async def run() -> None:
-        for status, body in ((200, b"ok"), (204, b"ok"), (404, b"ok")):
+        for status, body in ((200, b"ok"), (204, b"ok"), (404, b"ok"), (200, b"")):
             for request in (GET, POST, GET.replace(b"GET", b"HEAD"), GET.replace(b"1.1", b"1.0"), GET + POST):
-                app = answering(headers, body, status)
-                ours = await exchanged(*connected(app), request)
-                assert ours == await exchanged(*connected(app, bounded=False), request)
+                theirs = await exchanged(*connected(answering(headers, body, status), bounded=False), request)
+                for whole in (False, True):
+                    assert theirs == await exchanged(*connected(answering(headers, body, status, whole=whole)), request)
+
+    asyncio.run(run())
+
+
+TARGETS = (b"/", b"/a%20b/%C3%A4?x=%20", b"/a?", b"/?a=b?c", b"//a/b", b"*", b"a:1")
+
+
+@pytest.mark.parametrize("target", TARGETS, ids=str)
+def test_a_request_is_described_as_by_the_underlying_server(target: bytes) -> None:
+    async def run() -> None:
+        async def app(scope: Any, receive: Any, send: Any) -> None:
+            known = repr(sorted((name, value) for name, value in scope.items() if name != "state")).encode()
+            await answering([(b"content-length", b"%d" % len(known))], known)(scope, receive, send)
+
+        for method in (b"GET", b"POST", b"HEAD", b"OPTIONS", b"CONNECT"):
+            for version in (b"HTTP/1.0", b"HTTP/1.1"):
+                for field in (b"", b"Connection: keep-alive\r\n", b"Connection: upgrade\r\nUpgrade: websocket\r\n"):
+                    request = method + b" " + target + b" " + version + b"\r\nHost: x\r\n" + field + b"\r\n"
+                    ours, theirs = [
+                        await exchanged(*connected(app, bounded=bounded), request) for bounded in (True, False)
+                    ]
+                    assert ours == theirs or ours[:12] == theirs[:12] == b"HTTP/1.1 400"
+
+    asyncio.run(run())
+
+
+def test_a_body_that_comes_with_its_head_is_sent_with_it() -> None:
+    async def run() -> None:
+        protocol, wire = connected(answering([LENGTH], whole=True))
+        assert (await exchanged(protocol, wire, POST + POST)).count(b"\r\n\r\nok") == wire.writes == 2
 
     asyncio.run(run())
 

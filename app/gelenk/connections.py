@@ -14,11 +14,13 @@ from heapq import nsmallest
 from http import HTTPStatus
 from random import uniform
 from typing import Any
+from urllib.parse import unquote
 
 import orjson
+from httptools import parse_url
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol, RequestResponseCycle
 
-from gelenk.answering import answered
+from gelenk.answering import Exchange, answered
 
 AT_ONCE = ("/healthz", "/readyz", "/metrics")
 """Paths that never wait and are never refused: monitoring must see the service when it is busy."""
@@ -100,15 +102,15 @@ class Gate:
         for connection in self.connections:
             connection.end_with_answer()
 
-    def enter(self, begin: Callable[[], None]) -> bool:
+    def enter(self, begin: Callable[[RequestResponseCycle], None], cycle: RequestResponseCycle) -> bool:
         """Start a request now or after those before it; return False if too many wait."""
         if self._begun < _AT_A_TIME:
             if not self._begun:
                 asyncio.get_running_loop().call_soon(self._turn)
             self._begun += 1
-            begin()
+            begin(cycle)
         elif len(self._waiting) < self.bounds.waiting:
-            self._waiting.append(begin)
+            self._waiting.append(partial(begin, cycle))
         else:
             self.refused += 1
             return False
@@ -158,7 +160,7 @@ class BoundedProtocol(HttpToolsProtocol):
         self._in_message = self._in_head = False
         self._stage = self._other_bytes = 0
         self._ends: float | None = None
-        self._arriving: Callable[[], None] | None = None
+        self._arriving: Exchange | None = None
 
     @property
     def waits_for_client(self) -> bool:
@@ -187,7 +189,9 @@ class BoundedProtocol(HttpToolsProtocol):
         """Parse bytes that have arrived; those outside a body are counted, except in the read that ends its stage."""
         stage, body_bytes = self._stage + (not self._in_message), self._body_bytes
         super().data_received(data)
-        if stage == self._stage:
+        if stage != self._stage:
+            self._other_bytes = self._chunks = 0
+        else:
             self._other_bytes += len(data) - (self._body_bytes - body_bytes)
             most = self._gate.bounds.head_bytes
             if self._other_bytes > most + self._chunks * _CHUNK_BYTES:
@@ -196,32 +200,54 @@ class BoundedProtocol(HttpToolsProtocol):
                 self._refuse(status, "head-too-large", f"{what} may have {most} bytes in all")
         self._begin_request()  # though its body is not complete
 
-    def _begin_stage(self, *, in_head: bool = False, in_body: bool = False) -> None:
-        self._stage, self._in_head, self._in_message = self._stage + 1, in_head, in_head or in_body
-        self._other_bytes = self._chunks = 0
-
     def on_message_begin(self) -> None:
         """Note that the first byte of a request has arrived."""
         super().on_message_begin()
         self.since = self.loop.time()
-        self._begin_stage(in_head=True)
+        self._stage, self._in_head, self._in_message = self._stage + 1, True, True
 
     def on_header(self, name: bytes, value: bytes) -> None:
         """Store a header field; a trailer field is dropped, since the headers have been acted upon."""
         if self._in_head:
             name = name.lower()
-            self.expect_100_continue |= name == b"expect" and value.lower() == b"100-continue"
+            if name == b"expect" and value.lower() == b"100-continue":
+                self.expect_100_continue = True
             self.headers.append((name, value))
 
     def on_headers_complete(self) -> None:
-        """Process the complete head; if its target names a host, that one counts (RFC 9112, 3.2.2)."""
+        """Prepare the request that the complete head describes; if its target names a host, that one counts.
+
+        (RFC 9112, 3.2.2.) The server does the same after asking for WebSockets and other things that are not in use.
+        """
         self.since, self._body_bytes = self.loop.time(), 0
-        self._begin_stage(in_body=True)
-        if target := _ABSOLUTE.fullmatch(self.url):
-            host, rest = target.groups()
+        self._stage, self._in_head = self._stage + 1, False
+        if self.url[:1] != b"/" and (absolute := _ABSOLUTE.fullmatch(self.url)):
+            host, rest = absolute.groups()
             self.url = rest if rest.startswith(b"/") else b"/" + rest
             self.headers[:] = [(name, host if name == b"host" else value) for name, value in self.headers]
-        super().on_headers_complete()
+        target, version, before = parse_url(self.url), self.parser.get_http_version(), self.cycle
+        path = target.path.decode("ascii")
+        self.scope["method"], self.scope["http_version"] = self.parser.get_method().decode("ascii"), version
+        self.scope["path"], self.scope["raw_path"] = unquote(path) if "%" in path else path, target.path
+        self.scope["query_string"] = target.query or b""
+        self.cycle = Exchange(
+            self.scope,
+            self.transport,
+            self.flow,
+            self.logger,
+            self.access_logger,
+            self.access_log,
+            self.server_state.default_headers,
+            asyncio.Event(),
+            self.expect_100_continue,
+            version != "1.0" and self.parser.should_keep_alive(),
+            self.on_response_complete,
+        )
+        if before is None or before.response_complete:
+            self._arriving = self.cycle  # its body may be among the bytes at hand
+        else:
+            self.flow.pause_reading()
+            self.pipeline.appendleft((self.cycle, self.app))
 
     def on_chunk_header(self) -> None:
         """Count a chunk of the body."""
@@ -234,7 +260,7 @@ class BoundedProtocol(HttpToolsProtocol):
 
     def on_message_complete(self) -> None:
         """Note that the request is complete."""
-        self._begin_stage()
+        self._stage, self._in_message = self._stage + 1, False
         super().on_message_complete()
         self._begin_request()
 
@@ -249,32 +275,28 @@ class BoundedProtocol(HttpToolsProtocol):
             return
         self.flow.resume_reading()
         if self.pipeline:  # soon and not now, or a hundred would be a hundred calls deep
-            self.loop.call_soon(self._start, *self.pipeline.pop())
+            self.loop.call_soon(self._start, self.pipeline.pop()[0])
         seconds = self.cycle.scope["state"].get("retry_after")
         if self.cycle.response_complete and seconds is not None:
             self._pause(seconds)
 
-    def _start_asgi_task(self, cycle: RequestResponseCycle, app: Any) -> None:
-        self._arriving = partial(self._start, cycle, app)  # its body may be among the bytes at hand
-
     def _begin_request(self) -> None:
         if self._arriving is not None:
-            begin, self._arriving = self._arriving, None
-            begin()
+            cycle, self._arriving = self._arriving, None
+            self._start(cycle)
 
-    def _start(self, cycle: RequestResponseCycle, app: Any) -> None:
+    def _start(self, cycle: RequestResponseCycle) -> None:
         if self.transport.is_closing() and not cycle.disconnected:  # nobody would get the answer
             return
         if self._gate.is_stopping:
             self.end_with_answer()
-        begin = partial(self._answer, cycle, app)
         if cycle.scope["path"].endswith(AT_ONCE):
-            begin()
-        elif not self._gate.enter(begin):
+            self._answer(cycle)
+        elif not self._gate.enter(self._answer, cycle):
             self._turn_away(cycle)
 
-    def _answer(self, cycle: RequestResponseCycle, app: Any) -> None:
-        if (task := answered(cycle, app, self.loop)) is not None:
+    def _answer(self, cycle: RequestResponseCycle) -> None:
+        if (task := answered(cycle, self.app, self.loop)) is not None:
             self.tasks.add(task)
             task.add_done_callback(self.tasks.discard)
 

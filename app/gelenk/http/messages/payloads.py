@@ -202,9 +202,12 @@ class JsonResponse(Response):
             self.raw_headers += [(k.lower().encode("latin-1"), v.encode("latin-1")) for k, v in headers.items()]
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:  # noqa: ARG002
-        """Send the response."""
-        await send({"type": "http.response.start", "status": self.status_code, "headers": self.raw_headers})
-        await send({"type": "http.response.body", "body": self.body})
+        """Send the response; a server that can takes the body together with the head."""
+        status, headers, body = self.status_code, self.raw_headers, self.body
+        head = {"type": "http.response.start", "status": status, "headers": headers, "whole": body}
+        await send(head)
+        if "whole" in head:
+            await send({"type": "http.response.body", "body": body})
 
 
 def csv_response(columns: Sequence[str], array: Array, headers: dict[str, str]) -> Response:
