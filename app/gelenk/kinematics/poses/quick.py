@@ -1,7 +1,7 @@
 """The pose of a chain's tip at one configuration, judged, in two calls of compiled code.
 
 Preparing a call from Python takes longer than its arithmetic. So what stays the same from one request to the next is
-looked up once for all, and Pinocchio's pose is compared where Pinocchio leaves it.
+looked up once for all.
 """
 
 from collections.abc import Sequence
@@ -9,9 +9,8 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-import pinocchio as pin
 
-from gelenk.kinematics.judge.judge import agreed_pose
+from gelenk.kinematics.judge.own_pose import OwnPose
 from gelenk.kinematics.judge.placements import expand
 from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.kinematics.simd.kernels import chain_poses
@@ -19,7 +18,7 @@ from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain, FlatChain
 from gelenk.robot.compilation import compiled
 from gelenk.robot.configuration import MAX_MAGNITUDE
-from gelenk.robot.notations import pose_errors, quaternions_xyzw_from_rotations
+from gelenk.robot.notations import quaternions_xyzw_from_rotations
 from gelenk.robot.robot import RobotModel
 
 _KEPT = 64
@@ -35,11 +34,8 @@ class QuickPose:
         self._pose = poses_in(self._found)
         given = (*chain.flat, expansion.offset, expansion.matrix, qs, full_qs)
         self._placing: tuple[Any, ...] = (*given, *self._pose, self._found[None, 12:])
-        self._count, self._q, self._full_q = len(chain), qs[0], full_qs[0]
-        self._workspace, self._lock = (robot.model, robot.data), robot.lock
-        self._tip = robot.frame_id(chain.tip_frame)
-        self._base = None if chain.base_frame == robot.description.root else robot.frame_id(chain.base_frame)
-        self._compared = (*self._pose, *_arrays(robot.data.oMf[self._tip]))
+        self._count, self._q, self._lock = len(chain), qs[0], robot.lock
+        self._own = OwnPose(robot, chain, full_qs[0], self._pose)
 
     def __call__(self, q: Sequence[float]) -> tuple[Array, PoseCertificate] | None:
         """Return T_base_tip at a configuration, and how far it is from Pinocchio's.
@@ -53,15 +49,8 @@ class QuickPose:
             self._q[:] = q
             if not _placed(*self._placing):
                 return None
-            pin.forwardKinematics(*self._workspace, self._full_q)
-            pin.updateFramePlacement(*self._workspace, self._tip)
-            errors = pose_errors(*(self._compared if self._base is None else self._compared_in(self._base)))
-            found = self._found.copy()
-        return found, PoseCertificate(1, *agreed_pose(*errors), 0)
-
-    def _compared_in(self, base: int) -> tuple[Array, ...]:
-        T_world_base, data = pin.updateFramePlacement(*self._workspace, base), self._workspace[1]
-        return *self._pose, *_arrays(T_world_base.actInv(data.oMf[self._tip]))
+            errors = self._own.errors()
+            return self._found.copy(), PoseCertificate(1, *errors, 0)
 
 
 quick_pose = lru_cache(_KEPT)(QuickPose)
@@ -71,11 +60,6 @@ quick_pose = lru_cache(_KEPT)(QuickPose)
 def poses_in(numbers: Array) -> tuple[Array, Array]:
     """Return views of the position, (1, 3), and the rotation, (1, 3, 3), among the numbers of a `QuickPose`."""
     return numbers[None, :3], numbers[3:12].reshape(1, 3, 3)
-
-
-def _arrays(placement: pin.SE3) -> tuple[Array, Array]:
-    """Return views of a position, (1, 3), and a rotation, (1, 3, 3), which change with it."""
-    return placement.translation[None], placement.rotation[None]
 
 
 @compiled
