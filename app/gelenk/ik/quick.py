@@ -1,30 +1,39 @@
-"""One solution for each of a few targets by search, judged, in two calls of compiled code.
+"""One solution for a target by search, judged, in two calls of compiled code.
 
-Preparing a call from Python takes longer than its arithmetic. So what stays the same from one request to the next is
-looked up once for all.
+Preparing a call from Python takes longer than its arithmetic. So all numbers of a search stay in one piece of memory,
+from one request to the next, and Pinocchio's pose is compared where Pinocchio leaves it.
 """
 
-from functools import lru_cache
+from collections.abc import Sequence
+from functools import lru_cache, partial
+from struct import Struct
 from typing import Any
 
 import numpy as np
 
-from gelenk.ik.search.bounds import limits_of, make_goal
+from gelenk.ik.search.bounds import limits_of, make_goal, mid_range
 from gelenk.ik.search.iteration import Goal
 from gelenk.ik.search.kernels import search_few
 from gelenk.ik.search.task import Task
-from gelenk.ik.verdict.judge import accept
+from gelenk.ik.verdict.judge import recompute
 from gelenk.ik.verdict.result import InverseKinematics, by_search
-from gelenk.kinematics.judge.judge import agreed_pose, poses_at, sample
+from gelenk.kinematics.judge.own_pose import OwnPose
 from gelenk.kinematics.judge.placements import expand, walk_to
+from gelenk.kinematics.simd.block import Block, table
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain, FlatChain
 from gelenk.robot.compilation import compiled
+from gelenk.robot.notations import turn_by_quaternions_xyzw
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 
 _KEPT = 64
 """Searches kept ready; each keeps its robot."""
+(
+    _CHOICES, _TOLERANCES, _PLACEMENTS, _JOINTS, _DRIVES, _BOUNDS, _WEIGHTS, _LIMITS, _OFFSET, _MATRIX, _BASE, _TIP,
+    _SEEDS, _QUATERNION, _POSITION, _ROTATION, _OWN_POSITION, _OWN_ROTATION, _FULL_Q, _Q, _ERRORS, _OUTCOMES,
+) = range(22)  # fmt: skip
+"""The arrays of a search, in the order in which they are in memory."""
 
 
 class QuickSearch:
@@ -40,35 +49,55 @@ class QuickSearch:
         starts: int,
         random_seed: int,
     ) -> None:
-        expansion = robot.expansion(chain)
+        n, nq, expansion = len(chain), robot.model.nq, robot.expansion(chain)
         goal = make_goal(chain, task, tolerances, respect_limits, starts, random_seed)
-        self._robot, self._chain, self._sizes = robot, chain, (len(chain), len(expansion.offset))
-        self._walks = walk_to(robot, chain.base_frame), walk_to(robot, chain.tip_frame)
-        self._search: tuple[Any, ...] = (*chain.flat, *goal, expansion.offset, expansion.matrix)
-        self._task: tuple[Any, ...] = (task.weights, task.kind, task.axis)
-        self._bounds: tuple[Any, ...] = (*tolerances, limits_of(chain, respect_limits))
-
-    def __call__(self, targets: Poses, seeds: Array) -> InverseKinematics | None:
-        """Return the solutions of N targets, from one seed for all or one each; None if any has none.
-
-        Raises CertificationFailed if Pinocchio's own poses at the solutions are others.
-        """
-        goals, goal_Rs = targets.positions, targets.rotations
-        count, (n, nq) = len(goals), self._sizes
-        qs, full_qs, outcomes = np.empty((count, n)), np.empty((count, nq)), np.empty((3, count), np.int64)
-        searched: tuple[Any, ...] = (*self._search, goals, goal_Rs, seeds, qs, full_qs, outcomes)
-        if not _searched(*searched):
-            return None
-        own = poses_at(self._robot, self._chain, self._chain.tip_frame, full_qs)
-        good, errors = np.empty(count, np.bool_), np.empty((2, count))
-        judged: tuple[Any, ...] = (
-            *(*self._walks, full_qs, sample(count), own.positions, own.rotations),
-            *(*self._task, goals, goal_Rs, *self._bounds, qs, errors, good),
+        walks = walk_to(robot, chain.base_frame), walk_to(robot, chain.tip_frame)
+        sizes = len(chain.flat.joints), n, nq, *map(len, walks)
+        constant = (
+            np.array([*sizes, goal.kind, goal.axis, starts, random_seed]),
+            np.array([*tolerances, goal.chord_tolerance, goal.slack]),
+            *(*chain.flat, goal.bounds, goal.weights, limits_of(chain, respect_limits)),
+            *(expansion.offset, expansion.matrix, *walks),
         )
-        agreed_pose(*accept(*judged))
-        if False in good.tolist():  # for a few, lists are faster than arrays
-            return None
-        return InverseKinematics(qs, errors[0], errors[1], outcomes[1], outcomes[0], *by_search(count))
+        seeds, pose = np.array([mid_range(chain)] * 2), (np.zeros((1, 3)), np.zeros((1, 3, 3)))
+        found = np.zeros((1, n)), np.zeros((2, 1)), np.zeros((3, 1), np.int64)
+        block = Block((*constant, seeds, np.zeros((1, 4)), *pose, *pose, np.zeros((1, nq)), *found))
+        views, numbers, places = block.views, memoryview(block.numbers.data), block.integers.tolist()
+        self._memory, self._seed, self._count = (block.numbers, block.integers), views[_SEEDS][1], n
+        self._lock = robot.lock
+        self._own = OwnPose(robot, chain, views[_FULL_Q][0], (views[_OWN_POSITION], views[_OWN_ROTATION]))
+        self._writers = {
+            7: partial(Struct("7d").pack_into, numbers[places[_QUATERNION] :], 0),
+            12: partial(Struct("12d").pack_into, numbers[places[_POSITION] :], 0),
+        }
+        self._found = partial(Struct(f"{n + 2}d3q").unpack_from, numbers[places[_Q] :])
+
+    def __call__(self, target: Sequence[float], seed: Array | None) -> tuple[Any, ...] | None:
+        """Return the solution from a seed, shape (n,), or the middle of the ranges if that is None; None if none.
+
+        The target is a unit quaternion x y z w and a position, or a position and a rotation row by row: 7 or 12
+        numbers. Those of the solution are the configuration, its errors [m] and [rad], and the outcome, see
+        `search_few`. Raises CertificationFailed if Pinocchio's own pose there is another.
+        """
+        with self._lock:
+            self._writers[len(target)](*target)
+            if seed is not None:
+                self._seed[:] = seed
+            if not _searched(*self._memory, len(target) == 7, seed is not None):
+                return None
+            self._own.errors()
+            return self._found()
+
+    def of_each(self, targets: Poses, seeds: Array) -> InverseKinematics | None:
+        """Return the solutions of N targets, from one seed for all or one each; None if any has none."""
+        found = []
+        for i, target in enumerate(np.hstack((targets.positions, targets.rotations.reshape(-1, 9))).tolist()):
+            if (numbers := self(target, seeds[i if len(seeds) > 1 else 0])) is None:
+                return None
+            found.append(numbers)
+        n, rows = self._count, np.array(found).reshape(-1, self._count + 5)
+        restarts, iterations, _ = rows[:, n + 2 :].T.astype(np.int64)
+        return InverseKinematics(rows[:, :n], rows[:, n], rows[:, n + 1], iterations, restarts, *by_search(len(found)))
 
 
 quick_search = lru_cache(_KEPT)(QuickSearch)
@@ -76,32 +105,32 @@ quick_search = lru_cache(_KEPT)(QuickSearch)
 
 
 @compiled
-def _searched(
-    placements: Array,
-    joints: Indices,
-    drives: Array,
-    bounds: Array,
-    weights: Array,
-    kind: int,
-    axis: int,
-    position_tolerance: float,
-    chord_tolerance: float,
-    slack: float,
-    starts: int,
-    random_seed: int,
-    offset: Array,
-    matrix: Array,
-    positions: Array,
-    rotations: Array,
-    seeds: Array,
-    qs: Array,
-    full_qs: Array,
-    outcomes: Indices,
-) -> bool:
-    """Fill in the results of `search_few`, and Pinocchio's configurations, see `expand`, if all targets are solved."""
-    flat = FlatChain(placements, joints, drives)
-    goal = Goal(bounds, weights, kind, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
-    if not search_few(flat, goal, positions, rotations, seeds, qs, outcomes):
+def _searched(numbers: Array, at: Indices, by_quaternion: bool, is_seeded: bool) -> bool:
+    """Fill in a solution, see `search_few` and `recompute`, with Pinocchio's configuration and the pose there.
+
+    The arguments are the memory, as numbers and as integers, in which form of the target and which of the seeds count.
+    """
+    c, t = at[_CHOICES], at[_TOLERANCES]
+    joints, n, nq, to_base, to_tip, kind, axis = at[c], at[c + 1], at[c + 2], at[c + 3], at[c + 4], at[c + 5], at[c + 6]
+    flat = FlatChain(
+        table(numbers, at[_PLACEMENTS], (joints + 1, 12)),
+        table(at, at[_JOINTS], (joints, 2)),
+        table(numbers, at[_DRIVES], (joints, 2)),
+    )
+    bounds, weights = table(numbers, at[_BOUNDS], (6, n)), table(numbers, at[_WEIGHTS], (6,))
+    tolerances = numbers[t], numbers[t + 1]
+    goal = Goal(bounds, weights, kind, axis, tolerances[0], numbers[t + 2], numbers[t + 3], at[c + 7], at[c + 8])
+    position, rotation = table(numbers, at[_POSITION], (1, 3)), table(numbers, at[_ROTATION], (1, 3, 3))
+    if by_quaternion:
+        turn_by_quaternions_xyzw(table(numbers, at[_QUATERNION], (1, 4)), rotation)
+    seed = table(numbers, at[_SEEDS] + n * is_seeded, (1, n))
+    q, errors = table(numbers, at[_Q], (1, n)), table(numbers, at[_ERRORS], (2, 1))
+    if not search_few(flat, goal, position, rotation, seed, q, table(at, at[_OUTCOMES], (3, 1))):
         return False
-    expand(offset, matrix, qs, full_qs)
-    return True
+    full_q, good = table(numbers, at[_FULL_Q], (1, nq)), np.empty(1, np.bool_)
+    expand(table(numbers, at[_OFFSET], (nq,)), table(numbers, at[_MATRIX], (nq, n)), q, full_q)
+    walks = table(numbers, at[_BASE], (to_base, 12)), table(numbers, at[_TIP], (to_tip, 12))
+    task, limits = (weights, kind, axis), table(numbers, at[_LIMITS], (2, n))
+    own = recompute(*walks, full_q, task, position, rotation, tolerances, limits, q, errors, good)
+    table(numbers, at[_OWN_POSITION], (1, 3))[:], table(numbers, at[_OWN_ROTATION], (1, 3, 3))[:] = own
+    return bool(good[0])

@@ -165,7 +165,7 @@ def solve_quickly(problem: TargetProblem, starts: int, *, by_form: bool = False)
         return None
     respect_limits, random_seed = options.respect_limits, options.random_seed
     quick = quick_search(problem.robot, chain, options.task, problem.tolerances, respect_limits, starts, random_seed)
-    return quick(problem.targets, problem.seeds)
+    return quick.of_each(problem.targets, problem.seeds)
 
 
 def _one(problem: TargetProblem) -> InverseKinematics:

@@ -127,7 +127,7 @@ def _searches() -> None:
         poses = jacobians(robot, chain, qs, representation=representation, derivatives=True).poses
     problem = TargetProblem(robot, chain, poses, qs, Options(most=1))
     search(problem, max_iterations=100)
-    quick_search(robot, chain, problem.task, problem.tolerances, True, 1, 0)(poses, qs)
+    quick_search(robot, chain, problem.task, problem.tolerances, True, 1, 0).of_each(poses, qs)
     solutions_by_distance(chain.flat, problem.goal(2), target_rows(poses), qs, qs, 0, 1)
     all_branches(problem, 0)
     start_of(problem, 0, 1)

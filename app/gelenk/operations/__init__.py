@@ -6,6 +6,7 @@
 - `WARM_UP`: what must be known about a robot before the event loop can answer.
 
 `operation` finds these by the endpoint's name. `outcome`: what `run` returns. `rows`: numbers as JSON and CSV.
+`ik_plain`: what most calls of `ik` want.
 `pose_arrays`: converts poses between payloads and arrays. `cells`: the bodies that may touch, for a call or a job.
 The other modules read and build what several operations share.
 """

@@ -8,22 +8,20 @@ from gelenk.collision.cell import Cell
 from gelenk.contract.ik import MAX_STEPWISE, MAX_TARGETS, InverseRequest
 from gelenk.ik.closed.closed_form import closed_form, is_looked_at, look_at
 from gelenk.ik.search.problem import TargetProblem
-from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS
 from gelenk.ik.search.task import Task
 from gelenk.ik.solve import solve, solve_quickly
 from gelenk.ik.verdict.result import InverseKinematics
 from gelenk.operations.cells import cell_of, has_cell
 from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolved_headers
 from gelenk.operations.ik_contacts import certify_table, contacts_of
-from gelenk.operations.ik_request import TargetLimits, has_table, parse, task_of
+from gelenk.operations.ik_plain import plain_outcome
+from gelenk.operations.ik_request import PLAIN, TargetLimits, has_table, parse, starts_of, task_of
 from gelenk.operations.outcome import Limits, Outcome, RequestCounts, WarmUp
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.compilation import is_awaited
 from gelenk.store.records import LoadedRobot
 
-_QUICK_STARTS = 64
-"""Starts of seven joints that take the event loop about 0.1 ms; a target that needs more goes to a worker."""
 _QUICK_TARGETS = 8
 _SHARE_OF_TIME = 0.8
 """Share of a request's time for a search with a time limit: sending its result takes time too."""
@@ -42,9 +40,10 @@ def run(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome:
 
 def attempt(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome | None:
     """Try the operation with a few starts; return None if they do not suffice."""
+    if (plain := plain_outcome(loaded.robot, call, limits)) is not None:
+        return plain[0]
     problem = parse(loaded.robot, call, _bounds(limits))
-    budget = max(1, (call.max_iterations or MAX_ITERATIONS) // ITERATIONS_PER_START)
-    starts = min(budget, max(1, _QUICK_STARTS * 7 // max(7, len(problem.chain))))
+    starts = starts_of(problem.chain, call.max_iterations)
     result = solve_quickly(problem, starts, by_form=call.method == "analytic")
     return None if result is None else _outcome(problem, call, result)
 
@@ -55,7 +54,7 @@ def _bounds(limits: Limits) -> TargetLimits:
 
 def is_heavy(call: InverseRequest) -> bool:
     """Check whether a request takes the event loop more than about a millisecond."""
-    one_by_search = (
+    one_by_search = call.model_fields_set <= PLAIN or (
         not has_cell(call)
         and call.method in {"auto", "analytic"}
         and call.elbow_angle is None

@@ -10,6 +10,7 @@ from gelenk.contract.ik import MAX_TRACE, InverseRequest
 from gelenk.errors import InvalidField, TooLarge, counted, quoted
 from gelenk.ik.search.bounds import mid_range
 from gelenk.ik.search.problem import DescentRule, Objective, Options, TargetProblem
+from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.ik.search.words import DIRECTIONS, Direction, StepMethod
 from gelenk.operations.cells import has_cell
@@ -20,9 +21,11 @@ from gelenk.robot.configuration import MAX_MAGNITUDE, configurations, one_config
 from gelenk.robot.robot import RobotModel
 
 _TOLERANCES = {"position_tolerance", "orientation_tolerance"}
-_PLAIN = {"targets", "seeds", "base_frame", "tip_frame", "respect_limits", "random_seed", "pose_format"} | _TOLERANCES
+PLAIN = {"targets", "seeds", "base_frame", "tip_frame", "respect_limits", "random_seed", "pose_format"} | _TOLERANCES
 """Fields that go with any others: a call that sets no more, as most do, is not searched for what does not."""
 _VARIED = attrgetter("position_tolerance", "orientation_tolerance", "respect_limits", "random_seed")
+_QUICK_STARTS = 64
+"""Starts of seven joints that take the event loop about 0.1 ms; a target that needs more goes to a worker."""
 NUMBERS_OF_CONTACT = 9
 """Numbers about the contacts of a solution."""
 NUMBERS_OF_STEPS = 1000
@@ -41,7 +44,7 @@ def parse(
     robot: RobotModel, call: InverseRequest, bounds: TargetLimits, time_limit: float | None = None
 ) -> TargetProblem:
     """Return the problem to solve, within a time limit, [s], if given; raises InvalidInput or TooLarge."""
-    is_plain = call.model_fields_set <= _PLAIN
+    is_plain = call.model_fields_set <= PLAIN
     if not is_plain:
         _check_options(call)
     chain = robot.chain(call.base_frame, call.tip_frame)
@@ -50,10 +53,11 @@ def parse(
     targets = poses_from(call.targets, "targets", None if task_of(call).has_rotations else np.eye(3))
     _check_size(call, len(targets), len(chain), bounds)
     options = _plain_options(*_VARIED(call)) if is_plain else options_of(chain, call, time_limit)
-    return TargetProblem(robot, chain, targets, _seeds(chain, call, len(targets)), options)
+    return TargetProblem(robot, chain, targets, seeds_of(chain, call, len(targets)), options)
 
 
-def _seeds(chain: Chain, call: InverseRequest, count: int) -> Array:
+def seeds_of(chain: Chain, call: InverseRequest, count: int) -> Array:
+    """Return the seeds for a number of targets, shape (1 or N, n), [rad or m]; raises InvalidField."""
     if call.seeds is None and call.posture is not None:
         # A search for a configuration near a posture starts there.
         return one_configuration(chain, call.posture, "posture")
@@ -107,6 +111,12 @@ def options_of(chain: Chain, call: InverseRequest, time_limit: float | None) -> 
         trace=call.trace,
         fixed_joints=call.fixed_joints or {},
     )
+
+
+def starts_of(chain: Chain, max_iterations: int | None) -> int:
+    """Return how many starts a target may have before it takes the event loop too long."""
+    budget = max(1, (max_iterations or MAX_ITERATIONS) // ITERATIONS_PER_START)
+    return min(budget, max(1, _QUICK_STARTS * 7 // max(7, len(chain))))
 
 
 def task_of(call: InverseRequest) -> Task:

@@ -105,13 +105,37 @@ def accept(
 ) -> tuple[float, float, float]:
     """Recompute the poses of a `Testimony`, and return the `pose_errors` of those that Pinocchio has itself.
 
+    For what is filled in see `recompute`. All in one call, because each one from Python takes longer than its
+    arithmetic.
+    """
+    task, tolerances = (weights, kind, axis), (position_tolerance, orientation_tolerance)
+    positions, Rs = recompute(base, tip, full_qs, task, goals, goal_Rs, tolerances, limits, qs, errors, good)
+    return pose_errors(positions[rows], Rs[rows], own_positions, own_Rs)
+
+
+@compiled
+def recompute(
+    base: Array,
+    tip: Array,
+    full_qs: Array,
+    task: tuple[Array, int, int],
+    goals: Array,
+    goal_Rs: Array,
+    tolerances: tuple[float, float],
+    limits: Array,
+    qs: Array,
+    errors: Array,
+    good: Flags,
+) -> tuple[Array, Array]:
+    """Return the poses over the placements of Pinocchio's model; shape (N, 3) and (N, 3, 3). For compiled callers.
+
     Fill in the `task_errors`, shape (2, N), and which of the configurations, (N, n), are within the tolerances and the
-    limits, (N,). All in one call, because each one from Python takes longer than its arithmetic.
+    limits, (N,).
     """
     positions, Rs = relative_poses(base, tip, full_qs)
-    errors[:] = task_errors(weights, kind, axis, goals, goal_Rs, positions, Rs)
+    errors[:] = task_errors(task[0], task[1], task[2], goals, goal_Rs, positions, Rs)
     for i in range(len(qs)):
-        good[i] = errors[0, i] <= position_tolerance and errors[1, i] <= orientation_tolerance
+        good[i] = errors[0, i] <= tolerances[0] and errors[1, i] <= tolerances[1]
         for j in range(qs.shape[1]):
             good[i] &= limits[0, j] - _WITHIN <= qs[i, j] <= limits[1, j] + _WITHIN
-    return pose_errors(positions[rows], Rs[rows], own_positions, own_Rs)
+    return positions, Rs
