@@ -18,15 +18,24 @@ from gelenk.connections import BoundedProtocol, ConnectionLimits, Gate
 
 HOST = "127.0.0.1"
 GET = b"GET / HTTP/1.1\r\nHost: x\r\n\r\n"
-QUICK = ConnectionLimits(head_seconds=0.6, body_seconds=0.8, stalled_seconds=1.0)
+USUAL = ConnectionLimits()
+QUICK = ConnectionLimits(head_seconds=1.5, body_seconds=1.5, stalled_seconds=1.5)
+"""For tests of what takes too long: whoever is quick must be so on a busy machine too."""
 
 
 class Application:
-    """Answers with the length of the body; at other paths slowly, hugely, or never."""
+    """Answers with the length of the body; at other paths slowly, hugely, or when it may.
+
+    Attributes:
+        begun: Paths of the requests whose body has come, in order.
+        left: How many clients have left before that.
+        may_end: Set when `/waits`, `/held` and `/halves` may be answered, of which `/held` holds up all others.
+    """
 
     def __init__(self) -> None:
-        self.at_work = self.most_at_work = 0
+        self.begun: list[str] = []
         self.left = 0
+        self.may_end = threading.Event()
         self.headers: list[tuple[bytes, bytes]] = []
         self.path = ""
 
@@ -41,15 +50,18 @@ class Application:
                 return
             size, more = size + len(message.get("body", b"")), message.get("more_body", False)
         body = str(size).encode()
+        self.begun.append(scope["path"])
         match scope["path"]:
             case "/slow":
-                await asyncio.sleep(1.0)
+                await asyncio.sleep(3.0)
+            case "/waits":
+                await asyncio.to_thread(self.may_end.wait, 60.0)
             case "/busy":
                 time.sleep(0.01)
             case "/held":
-                time.sleep(0.5)
+                self.may_end.wait(60.0)
             case "/full":
-                scope["state"]["retry_after"] = 3
+                scope["state"]["retry_after"] = 8
             case "/endless":
                 while not scope["state"].get("stopping"):
                     await asyncio.sleep(0.02)
@@ -60,12 +72,12 @@ class Application:
         )
         if scope["path"] == "/halves":
             await send({"type": "http.response.body", "body": body[:0], "more_body": True})
-            await asyncio.sleep(1.0)
+            await asyncio.to_thread(self.may_end.wait, 60.0)
         await send({"type": "http.response.body", "body": body})
 
 
 @contextmanager
-def serving(bounds: ConnectionLimits = QUICK) -> Iterator[tuple[int, Gate, Application, uvicorn.Server]]:
+def serving(bounds: ConnectionLimits = USUAL) -> Iterator[tuple[int, Gate, Application, uvicorn.Server]]:
     gate, app = Gate(bounds), Application()
     with served(app, gate) as (port, server):
         yield port, gate, app, server
@@ -142,11 +154,11 @@ def still_answers(port: int) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("start", [b"", b"G", b"GET / HTTP/1.1\r\nHost: x\r\n", b"\r\n"])
 def test_a_head_that_does_not_come_is_not_waited_for(start: bytes) -> None:
-    with serving() as (port, gate, _, _), connected(port) as connection:
+    began = time.monotonic()
+    with serving(QUICK) as (port, gate, _, _), connected(port) as connection:
         connection.sendall(start)
-        began = time.monotonic()
         found = answer(connection)
-        assert 0.5 < time.monotonic() - began < 10.0
+        assert QUICK.head_seconds < time.monotonic() - began < 30.0
         if start.strip():
             check_problem(found, 408, "request-too-slow")
         else:
@@ -157,20 +169,20 @@ def test_a_head_that_does_not_come_is_not_waited_for(start: bytes) -> None:
 
 @pytest.mark.slow
 def test_a_head_that_trickles_in_gets_no_more_time_for_it() -> None:
-    with serving() as (port, gate, _, _), connected(port) as connection:
+    with serving(QUICK) as (port, gate, _, _), connected(port) as connection:
         began = time.monotonic()
         with pytest.raises(OSError):
             connection.sendall(b"GET / HTTP/1.1\r\n")
-            while time.monotonic() - began < 10.0:
+            while time.monotonic() - began < 30.0:
                 connection.sendall(b"X: y\r\n")
                 time.sleep(0.1)
-        assert time.monotonic() - began < 10.0
+        assert time.monotonic() - began < 30.0
         wait_for(lambda: gate.closed == 1)
 
 
 @pytest.mark.slow
 def test_a_second_request_has_the_same_time() -> None:
-    with serving() as (port, _, _, _), connected(port) as connection:
+    with serving(QUICK) as (port, _, _, _), connected(port) as connection:
         connection.sendall(GET)
         assert answer(connection)[0] == 200
         connection.sendall(b"GET /")
@@ -179,7 +191,7 @@ def test_a_second_request_has_the_same_time() -> None:
 
 @pytest.mark.slow
 def test_half_a_body_is_not_waited_for_and_whoever_reads_it_is_told() -> None:
-    with serving() as (port, gate, app, _), connected(port) as connection:
+    with serving(QUICK) as (port, gate, app, _), connected(port) as connection:
         connection.sendall(b"POST / HTTP/1.1\r\nContent-Length: 10\r\n\r\n12345")
         check_problem(answer(connection), 408, "request-too-slow")
         wait_for(lambda: app.left == 1)
@@ -202,7 +214,7 @@ def test_a_long_body_has_time_while_it_keeps_coming() -> None:
 
 @pytest.mark.slow
 def test_who_takes_nothing_of_an_answer_is_cut_off() -> None:
-    with serving() as (port, gate, _, _), connected(port) as connection:
+    with serving(QUICK) as (port, gate, _, _), connected(port) as connection:
         connection.sendall(GET.replace(b"/ ", b"/huge "))
         wait_for(lambda: gate.closed == 1)
         wait_for(lambda: not gate.connections)
@@ -211,18 +223,19 @@ def test_who_takes_nothing_of_an_answer_is_cut_off() -> None:
 
 @pytest.mark.slow
 def test_who_takes_an_answer_slowly_gets_it() -> None:
-    with serving() as (port, gate, _, _), connected(port) as connection:
+    with serving(QUICK) as (port, gate, _, _), connected(port) as connection:
         connection.sendall(GET.replace(b"/ ", b"/huge "))
-        received = 0
+        began, received = time.monotonic(), 0
         while received < 50_000_000:
-            received += len(connection.recv(2_500_000))
-            time.sleep(0.05)
+            received += len(connection.recv(1_000_000))
+            time.sleep(0.1)
+        assert time.monotonic() - began > 2 * QUICK.stalled_seconds
         assert gate.closed == 0
 
 
 @pytest.mark.slow
 def test_a_long_computation_is_not_the_clients_fault() -> None:
-    with serving() as (port, gate, _, _), connected(port) as connection:
+    with serving(QUICK) as (port, gate, _, _), connected(port) as connection:
         connection.sendall(GET.replace(b"/ ", b"/slow "))
         assert answer(connection)[0] == 200
         assert gate.closed == 0
@@ -287,7 +300,7 @@ def test_a_body_in_chunks_of_a_byte_is_within_bounds() -> None:
 
 
 def test_large_bodies_with_the_next_request_behind_them_are_no_large_head() -> None:
-    with serving(ConnectionLimits()) as (port, _, _, _), connected(port) as connection:
+    with serving() as (port, _, _, _), connected(port) as connection:
         post = b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 200000\r\n\r\n" + bytes(200_000)
         for _ in range(5):
             connection.sendall(post + b"GET / HT")
@@ -348,27 +361,30 @@ def test_of_few_connections_most_stay_where_one_has_to_go() -> None:
 @pytest.mark.slow
 def test_of_a_crowd_that_comes_at_once_the_newest_stay() -> None:
     """All are let in within a turn of the event loop, in which those that have to go are still there."""
-    with serving(ConnectionLimits(connections=16)) as (port, gate, _, _), ExitStack() as crowd:
+    with serving(ConnectionLimits(connections=16)) as (port, gate, app, _), ExitStack() as crowd:
         watching = crowd.enter_context(connected(port))
         watching.sendall(GET.replace(b"/ ", b"/held "))
+        wait_for(lambda: app.begun)
         newest = [crowd.enter_context(connected(port)) for _ in range(100)][-10:]
         for connection in newest:
             connection.sendall(GET)
+        app.may_end.set()
         assert [answer(connection)[0] for connection in newest] == [200] * 10
         wait_for(lambda: 10 <= len(gate.connections) <= 16)
 
 
 @pytest.mark.slow
 def test_where_all_are_at_work_a_new_connection_is_told_so() -> None:
-    with serving(ConnectionLimits(connections=3)) as (port, _, _, _):
+    with serving(ConnectionLimits(connections=3)) as (port, _, app, _):
         working = [connected(port) for _ in range(3)]
         for connection in working:
-            connection.sendall(GET.replace(b"/ ", b"/slow "))
-        time.sleep(0.3)
+            connection.sendall(GET.replace(b"/ ", b"/waits "))
+        wait_for(lambda: len(app.begun) == 3)
         with connected(port) as one_more:
             found = answer(one_more)
             check_problem(found, 503, "service-busy")
             assert found[1]["retry-after"] == "1"
+        app.may_end.set()
         assert [answer(connection)[0] for connection in working] == [200] * 3
         for connection in working:
             connection.close()
@@ -377,23 +393,27 @@ def test_where_all_are_at_work_a_new_connection_is_told_so() -> None:
 @pytest.mark.slow
 def test_too_many_requests_at_once_are_refused_at_once_and_health_is_answered() -> None:
     """Each takes 10 ms of the event loop, and a hundred may wait; whoever watches does not wait for them."""
-    with serving(ConnectionLimits(waiting=100)) as (port, gate, _, _), connected(port) as watching:
+    with (
+        serving(ConnectionLimits(waiting=100)) as (port, gate, app, _),
+        connected(port) as first,
+        connected(port) as watching,
+    ):
         connections = [connected(port) for _ in range(160)]
-        wait_for(lambda: len(gate.connections) == 161)
+        wait_for(lambda: len(gate.connections) == 162)
+        first.sendall(GET.replace(b"/ ", b"/held "))
+        wait_for(lambda: app.begun)
         for connection in connections:
             connection.sendall(GET.replace(b"/ ", b"/busy "))
-        began = time.monotonic()
         watching.sendall(GET.replace(b"/ ", b"/healthz "))
+        app.may_end.set()  # all of them have come by now, however slowly they were sent
         assert answer(watching)[0] == 200
-        waited = time.monotonic() - began
         found = [answer(connection) for connection in connections]
-        whole = time.monotonic() - began
         refused = [one for one in found if one[0] == 503]
         assert gate.refused == len(refused) > 0
         for one in refused:
             check_problem(one, 503, "service-busy")
         assert len(found) - len(refused) >= 100
-        assert waited < 0.6 * whole
+        assert app.begun.index("/healthz") < 60
         for connection in connections:
             connection.sendall(GET)
             assert answer(connection)[0] == 200
@@ -403,16 +423,16 @@ def test_too_many_requests_at_once_are_refused_at_once_and_health_is_answered() 
 @pytest.mark.slow
 def test_who_asks_again_sooner_than_told_is_not_read_from_until_then_nearly() -> None:
     """By an application that says for how long: it is no work to refuse whom nobody listens to."""
-    with serving(ConnectionLimits()) as (port, _, _, _), connected(port) as connection, connected(port) as other:
-        connection.sendall(GET.replace(b"/ ", b"/full "))
+    with serving() as (port, _, app, _), connected(port) as connection, connected(port) as other:
         began = time.monotonic()
+        connection.sendall(GET.replace(b"/ ", b"/full "))
         assert answer(connection)[0] == 200
         connection.sendall(GET)
-        other.sendall(GET)
+        other.sendall(GET.replace(b"/ ", b"/other "))
         assert answer(other)[0] == 200
-        answered = time.monotonic() - began
+        assert app.begun == ["/full", "/other"]
         assert answer(connection)[0] == 200
-        assert answered + 0.1 < 2.2 < time.monotonic() - began
+        assert time.monotonic() - began > 0.75 * 8
 
 
 @pytest.mark.slow
@@ -432,11 +452,12 @@ def test_pipelined_requests_that_are_refused_end_the_connection() -> None:
 @pytest.mark.slow
 def test_whose_answer_has_begun_when_the_end_comes_may_ask_again_and_is_told() -> None:
     """The head of that answer did not say that it is the last one of its connection: it must not be."""
-    with serving(ConnectionLimits()) as (port, gate, _, _), connected(port) as connection:
+    with serving() as (port, gate, app, _), connected(port) as connection:
         connection.sendall(GET.replace(b"/ ", b"/halves "))
         head = connection.recv(65536)
         assert head.startswith(b"HTTP/1.1 200") and b"close" not in head
         gate.stop()
+        app.may_end.set()
         assert connection.recv(65536) == b"0"
         connection.sendall(GET)
         found = answer(connection)
@@ -445,17 +466,19 @@ def test_whose_answer_has_begun_when_the_end_comes_may_ask_again_and_is_told() -
 
 @pytest.mark.slow
 def test_a_shutdown_waits_for_answers_and_hardly_for_clients() -> None:
-    with serving(ConnectionLimits()) as (port, gate, app, server):
+    with serving() as (port, gate, app, server):
         idle, slow, half, endless, head = (connected(port) for _ in range(5))
-        slow.sendall(GET.replace(b"/ ", b"/slow "))
+        slow.sendall(GET.replace(b"/ ", b"/waits "))
         half.sendall(b"POST / HTTP/1.1\r\nContent-Length: 10\r\n\r\n12345")
         endless.sendall(GET.replace(b"/ ", b"/endless "))
         head.sendall(b"GET /")
         wait_for(lambda: len(gate.connections) == 5)
-        time.sleep(0.2)
+        wait_for(lambda: sum(one.cycle is not None for one in gate.connections) == 3)
+        wait_for(lambda: any(one._in_head for one in gate.connections))
         began = time.monotonic()
         server.should_exit = True
         assert answer(endless)[0] == 200
+        app.may_end.set()
         assert answer(slow)[0] == 200
         assert answer(idle)[0] == answer(head)[0] == 0
         check_problem(answer(half), 408, "request-too-slow")
