@@ -31,7 +31,7 @@ from gelenk.settings import Settings
 from tests.jobs.parts import gone, made_by, of_parts, told
 from tests.jobs.ray_cluster import cluster, head, node, signalled
 from tests.jobs.workers import Workers
-from tests.speed import times_as_slow
+from tests.speed import is_within
 from tests.test_serve import HOST, free_port
 
 NPY = "application/x-npy"
@@ -250,7 +250,7 @@ def answered(client: TestClient, url: str, call: dict[str, Any]) -> tuple[bytes,
 def test_a_part_whose_process_is_killed_is_computed_again(runner: Runner, tmp_path: Path) -> None:
     marks = tmp_path / "marks"
     marks.mkdir()
-    job = submitted(runner, "mark", [str(marks)] * 12)
+    job = submitted(runner, "mark", [str(marks)] * 40)
     killed: set[int] = set()
     deadline = time.monotonic() + SOON
     while len(killed) < 2:
@@ -261,7 +261,7 @@ def test_a_part_whose_process_is_killed_is_computed_again(runner: Runner, tmp_pa
             os.kill(pid, signal.SIGKILL)
             killed.add(pid)
     assert ended(runner, job).state == "succeeded"
-    assert runner.result(job.id, "result.txt").read_text() == repr([7] * 12)
+    assert runner.result(job.id, "result.txt").read_text() == repr([7] * 40)
     assert len(list(marks.iterdir())) > len(killed), "other processes have taken their place"
 
 
@@ -348,9 +348,9 @@ def test_no_job_hangs_on_a_part_of_the_cluster_that_is_lost(
             assert time.monotonic() < deadline, runner.failure
             time.sleep(0.05)
         signalled(ray_head if what == "head" else nodes[0], how)
-        deadline = time.monotonic() + 30.0 * times_as_slow()
+        lost = time.monotonic()
         while (now := runner.store.get(job.id)).state == "running":
-            assert time.monotonic() < deadline, now
+            assert is_within(time.monotonic() - lost, 30.0), now
             time.sleep(0.05)
         assert now.state in {"succeeded", "queued"}
         assert (now.state == "queued") <= (runner.failure is not None)

@@ -37,11 +37,12 @@ def store(tmp_path: Path) -> Iterator[JobStore]:
 
 
 def test_a_job_is_what_it_was_made(store: JobStore) -> None:
+    began = time.time()
     job, is_new = store.add("workspace", "digest", {})
     assert is_new
     assert store.get(job.id) == job
     assert (job.state, job.progress, job.started, job.finished, job.failure) == ("queued", 0.0, None, None, None)
-    assert abs(job.created - time.time()) < 5.0
+    assert began <= job.created <= time.time()
     running = store.change(job.id, state="running", started=time.time(), progress=0.25)
     assert store.get(job.id) == running
     assert (running.state, running.progress) == ("running", 0.25)
@@ -219,7 +220,7 @@ def test_what_is_over_is_put_in_order(tmp_path: Path, monkeypatch: pytest.Monkey
         for job in (old, rested, new):
             store.parts(job).write("all-0", b"part")
             store.change(job, state="cancelled")
-        for job, age in ((old, 101.0), (rested, 99.0)):
+        for job, age in ((old, 101.0), (rested, 61.0)):
             with sqlite3.connect(tmp_path / ".database" / "jobs.sqlite") as table:
                 table.execute("UPDATE jobs SET finished = ? WHERE id = ?", (time.time() - age, job.id))
             table.close()

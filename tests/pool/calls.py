@@ -27,9 +27,10 @@ def sleep(seconds: float) -> float:
     return seconds
 
 
-def mark_after(call: tuple[float, str]) -> None:
-    time.sleep(call[0])
-    Path(call[1]).touch()
+def wait(mark: str) -> None:
+    """Take as long as a file is not there."""
+    while not Path(mark).exists():
+        time.sleep(0.01)
 
 
 def die(how: signal.Signals) -> None:

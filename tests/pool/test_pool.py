@@ -259,60 +259,66 @@ def test_a_process_killed_between_calls_costs_no_call() -> None:
 
 
 @pytest.mark.slow
-def test_who_leaves_takes_the_work_along(tmp_path: Path) -> None:
-    mark = tmp_path / "done"
-
+def test_who_leaves_takes_the_work_along() -> None:
     async def test(pool: WorkerPool) -> None:
         (pid,) = pool.pids
-        call = asyncio.create_task(pool.run(calls.mark_after, (1.0, str(mark)), LONG))
+        call = asyncio.create_task(pool.run(calls.sleep, 600.0, LONG))
         await at_work(pool, 1)
         call.cancel()
         with pytest.raises(asyncio.CancelledError):
             await call
         assert await pool.run(calls.own_pid, None, LONG) != pid
-        await asyncio.sleep(1.2)
-        assert not mark.exists()
+        async with asyncio.timeout(LONG):
+            while not gone(pid):
+                await asyncio.sleep(0.005)
 
     with_pool(test, 1)
 
 
-def test_who_leaves_the_queue_costs_nothing() -> None:
+def test_who_leaves_the_queue_costs_nothing(tmp_path: Path) -> None:
+    mark = tmp_path / "mark"
+
     async def test(pool: WorkerPool) -> None:
-        first = asyncio.create_task(pool.run(calls.sleep, 0.5, LONG))
+        first = asyncio.create_task(pool.run(calls.wait, str(mark), LONG))
         await at_work(pool, 1)
         second = asyncio.create_task(pool.run(calls.sleep, 60.0, LONG))
         third = asyncio.create_task(pool.run(calls.double, 3, LONG))
         await asyncio.sleep(0.05)
         assert len(pool.requests.turns) == 2
         second.cancel()
+        mark.touch()
         assert await third == 6
-        assert await first == 0.5
+        await first
         assert (len(pool.requests.turns), pool.requests.restarts) == (0, 0)
 
     with_pool(test, 1)
 
 
 @pytest.mark.slow
-def test_a_full_queue_refuses_at_once_and_says_when() -> None:
+def test_a_full_queue_refuses_at_once_and_says_when(tmp_path: Path) -> None:
+    mark = tmp_path / "mark"
+
     async def test(pool: WorkerPool) -> None:
-        running = [asyncio.create_task(pool.run(calls.sleep, 0.5, LONG)) for _ in range(3)]
+        running = [asyncio.create_task(pool.run(calls.wait, str(mark), LONG)) for _ in range(3)]
         await at_work(pool, 1)
         with pytest.raises(ServiceBusy) as refused:
             await pool.run(calls.double, 1, LONG)
         assert not any(task.done() for task in running), "it has waited for none of them"
         assert refused.value.retry_after >= 1
         assert pool.refused == 1
-        assert await asyncio.gather(*running) == [0.5] * 3
+        mark.touch()
+        await asyncio.gather(*running)
 
     with_pool(test, 1, waiting=2)
 
 
 @pytest.mark.slow
-def test_a_crowd_is_told_to_come_back_over_a_longer_time_the_larger_it_is() -> None:
+def test_a_crowd_is_told_to_come_back_over_a_longer_time_the_larger_it_is(tmp_path: Path) -> None:
+    mark = tmp_path / "mark"
+
     async def test(pool: WorkerPool) -> None:
-        for _ in range(5):
-            await pool.run(calls.sleep, 0.2, LONG)
-        running = [asyncio.create_task(pool.run(calls.sleep, 0.5, LONG)) for _ in range(3)]
+        pool.requests.seconds_a_call = 0.2
+        running = [asyncio.create_task(pool.run(calls.wait, str(mark), LONG)) for _ in range(3)]
         await at_work(pool, 1)
         told = []
         for _ in range(200):
@@ -321,32 +327,39 @@ def test_a_crowd_is_told_to_come_back_over_a_longer_time_the_larger_it_is() -> N
             told.append(refused.value.retry_after)
         assert told[0] <= 2 < told[-1] <= 10
         assert told == sorted(told)
+        mark.touch()
         await asyncio.gather(*running)
 
     with_pool(test, 1, waiting=2)
 
 
-def test_whether_there_is_room_is_told_beforehand() -> None:
+def test_whether_there_is_room_is_told_beforehand(tmp_path: Path) -> None:
+    mark = tmp_path / "mark"
+
     async def test(pool: WorkerPool) -> None:
         pool.check_room()
-        running = asyncio.create_task(pool.run(calls.sleep, 0.2, LONG))
+        running = asyncio.create_task(pool.run(calls.wait, str(mark), LONG))
         await at_work(pool, 1)
         with pytest.raises(ServiceBusy):
             pool.check_room()
-        assert await running == 0.2
+        mark.touch()
+        await running
         pool.check_room()
         assert pool.refused == 1
 
     with_pool(test, 1, waiting=0)
 
 
-def test_a_turn_that_does_not_come_in_time_is_given_up() -> None:
+def test_a_turn_that_does_not_come_in_time_is_given_up(tmp_path: Path) -> None:
+    mark = tmp_path / "mark"
+
     async def test(pool: WorkerPool) -> None:
-        running = asyncio.create_task(pool.run(calls.sleep, 0.5, LONG))
+        running = asyncio.create_task(pool.run(calls.wait, str(mark), LONG))
         await at_work(pool, 1)
         with pytest.raises(ServiceBusy):
             await pool.run(calls.double, 1, 0.1)
-        assert await running == 0.5
+        mark.touch()
+        await running
         assert (len(pool.requests.turns), pool.requests.restarts) == (0, 0)
 
     with_pool(test, 1)
@@ -358,7 +371,7 @@ def test_what_the_start_takes_is_no_part_of_the_wait_for_a_turn(monkeypatch: pyt
     start = WorkerProcess.start
 
     def slow(*arguments: Any) -> Any:
-        time.sleep(1.0)
+        time.sleep(4.0)
         return start(*arguments)
 
     monkeypatch.setattr(WorkerProcess, "start", slow)
@@ -368,7 +381,7 @@ def test_what_the_start_takes_is_no_part_of_the_wait_for_a_turn(monkeypatch: pyt
         starting = asyncio.create_task(pool.start())
         await asyncio.sleep(0.0)
         assert pool.is_starting
-        assert await pool.run(calls.sleep, 0.0, 0.5) == 0.0
+        assert await pool.run(calls.sleep, 0.0, 3.0) == 0.0
         await starting
         assert not pool.is_starting
         pool.close()
@@ -413,7 +426,7 @@ def test_who_comes_late_need_not_wait_for_who_has_all_processes() -> None:
 def test_a_process_that_is_kept_for_a_client_who_has_left_is_taken() -> None:
     async def test(pool: WorkerPool) -> None:
         assert await pool.run(calls.double, 1, LONG, "light") == 2
-        heavy = [asyncio.create_task(pool.run(calls.sleep, 6.0, LONG, "heavy")) for _ in range(2)]
+        heavy = [asyncio.create_task(pool.run(calls.sleep, LONG, LONG, "heavy")) for _ in range(2)]
         await at_work(pool, 1)
         assert len(pool.requests.turns) == 1
         await at_work(pool, 2)
