@@ -1,5 +1,7 @@
 """The fastest motion through waypoints in one call: what the steps one by one give, or nothing."""
 
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -29,6 +31,19 @@ def test_the_motion_is_that_of_the_steps_one_by_one(seed: int) -> None:
     assert found is not None
     np.testing.assert_array_equal(found.breaks, expected.breaks)
     np.testing.assert_array_equal(found.coefficients, expected.coefficients)
+    assert found.breaks.flags.writeable, "else all that examines it would be compiled once more"
+    assert found.coefficients.flags.writeable
+
+
+@pytest.mark.slow
+def test_the_first_request_for_one_does_not_wait_for_a_compiler() -> None:
+    """In a new process, which has called nothing but the warm-up."""
+    program = (
+        "from gelenk.kinematics.warm_up import warm_up; from gelenk.trajectory.joints import ways; warm_up();"
+        "print(len(ways._planned.signatures))"
+    )
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=500, check=True)
+    assert run.stdout == "1\n"
 
 
 @pytest.mark.parametrize(

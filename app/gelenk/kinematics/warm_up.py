@@ -156,14 +156,15 @@ def _closed_forms() -> None:
 
 
 def _motions() -> None:
-    """Plan and audit a movement of the joints and the fastest motion along a spline; find a point of a path."""
+    """Plan and audit a movement of the joints and the fastest motions along a spline; find a point of a path."""
     robot, chain, qs = _small_arm()
     torque = torque_limits(mechanism(robot, chain), np.full(3, 1e3), np.zeros(3), None)
     limits, start = replace(SegmentLimits(*np.ones((3, 3))), torque=torque), qs[0]
     move = Segment("joint", "jerk_limited", limits, configuration=start + 0.5)
     points = start + np.array([[0.2], [0.3]])
     way = Segment("spline", "time_optimal", limits, configurations=points, stated_jerk=limits.jerk)
-    plan(robot, chain, TrajectoryProblem(start, (move, way))).motion.rates_at(np.zeros(1))
+    free = replace(way, limits=replace(limits, torque=None))
+    plan(robot, chain, TrajectoryProblem(start, (move, way, free))).motion.rates_at(np.zeros(1))
     plan_batch(robot, chain, qs, qs + 0.5, move)
     robot_6, six = _six_joints()
     poses, along = forward_kinematics(robot_6, six, np.full((1, 6), 0.4)).poses, SegmentLimits(*np.ones((3, 6)))

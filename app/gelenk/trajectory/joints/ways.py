@@ -16,8 +16,6 @@ from gelenk.trajectory.problem.problem import Segment
 from gelenk.trajectory.timing.nodes import LARGEST_PATH, even_counts, measures
 from gelenk.trajectory.timing.time_optimal import INTERVALS, MARGIN, is_usual, unlimited
 
-_NOTHING = np.empty(0), np.empty((0, 0, 0))
-
 
 def fastest_way(chain: Chain, start: Array, segment: Segment) -> PiecewisePolynomial | None:
     """Return the motion that `JointSpline` plans from a start of shape (n,), [rad or m], through waypoints.
@@ -38,24 +36,25 @@ def _planned(
     start: Array, waypoints: Array, limits: Array, lower: Array, upper: Array, conditions: Array
 ) -> tuple[Array, Array]:
     """Return breaks and coefficients of the motion, none where a check fails."""
+    nothing = np.empty(0), np.empty((0, 0, 0))  # global arrays are read-only, and so would be those of the motion
     positions = np.empty((len(waypoints) + 1, len(start)))
     positions[0], positions[1:] = start, waypoints
     is_fine = len(waypoints) > 0 and (np.abs(positions) <= LARGEST).all()
     is_fine = is_fine and (limits >= SMALLEST).all() and (limits <= LARGEST).all()
     is_fine = is_fine and (waypoints >= lower - WITHIN).all() and (waypoints <= upper + WITHIN).all()
     if not is_fine:
-        return _NOTHING
+        return nothing
     times, lengths, steps = spacing(positions, limits[0])
     if not (are_distinct(lengths, steps).all() and are_apart(times, NEAREST, RESOLVED)):
-        return _NOTHING
+        return nothing
     rest = np.zeros(len(start))
     pieces = clamped(times, positions, rest, rest, conditions)[-1]
     path = measures(times, pieces)
     if not (swings_within(np.diff(times), pieces, lower, upper) and is_usual(path)):
-        return _NOTHING
+        return nothing
     most = limits[:2] * (1.0 - MARGIN)
     counts = even_counts(path.breaks, path.travels, most[0], INTERVALS // 2)
     if counts.sum() * len(start) > LARGEST_PATH:
-        return _NOTHING
+        return nothing
     found, _, motion = unlimited(path, counts, most, INTERVALS)
-    return (found, motion) if np.isfinite(found[-1]) else _NOTHING
+    return (found, motion) if np.isfinite(found[-1]) else nothing
