@@ -131,23 +131,39 @@ def test_a_stream_keeps_alive_and_ends_when_its_job_is_cancelled(
     monkeypatch.setattr(jobs_module, "HEARTBEAT_SECONDS", 0.0)
     monkeypatch.setattr(jobs_module, "LOOK_SECONDS", 0.02)
     location = posted(client, LONG)
-    # The test client gives a stream as a whole: it is another thread that cancels meanwhile.
-    later = threading.Timer(0.5, lambda: client.delete(location))
-    later.start()
-    text = client.get(f"{location}/events").text
-    later.join()
-    assert ": still there\n\n" in text
-    last = events(text)[-1]
+    cancelled: list[str] = []
+
+    def hear(told: list[str]) -> bool:
+        if ": still there\n\n" in told and not cancelled:
+            cancelled.append(client.delete(location).json()["state"])
+        return True
+
+    last = events("".join(streamed(client, location, hear)))[-1]
+    assert cancelled == ["cancelled"]
     assert last["event"] == "finished"
     assert json.loads(last["data"])["state"] == "cancelled"
 
 
 def test_a_stream_whose_client_leaves_ends(client: TestClient) -> None:
-    """Straight at the application: after the first event the client is gone, and so is what has served it."""
+    """After the first event the client is gone, and so is what has served it."""
     location = posted(client, LONG)
-    sent: list[Any] = []
+    first, *rest = streamed(client, location, lambda told: not told)
+    assert first.startswith("event: progress\n")
+    assert len(rest) < 4
+    assert client.delete(location).json()["state"] == "cancelled"
+
+
+def streamed(client: TestClient, location: str, stays: Callable[[list[str]], bool]) -> list[str]:
+    """What is told of a job, straight by the application, to a client that stays as long as it likes what was told."""
+    told: list[str] = []
     scope = {"type": "http", "method": "GET", "path": f"{location}/events", "root_path": "", "query_string": b""}
-    scope |= {"headers": [], "scheme": "http", "server": ("test", 80), "client": ("test", 1), "http_version": "1.1"}
+    scope |= {
+        "headers": [(b"host", b"127.0.0.1")],
+        "scheme": "http",
+        "server": ("test", 80),
+        "client": ("test", 1),
+        "http_version": "1.1",
+    }
 
     async def watch() -> None:
         asked = False
@@ -157,18 +173,18 @@ def test_a_stream_whose_client_leaves_ends(client: TestClient) -> None:
             if not asked:
                 asked = True
                 return {"type": "http.request", "body": b"", "more_body": False}
-            while len(sent) < 2:
+            while stays(told):
                 await asyncio.sleep(0.01)
             return {"type": "http.disconnect"}
 
         async def send(message: Any) -> None:
-            sent.append(message)
+            if "body" in message:
+                told.append(message["body"].decode())
 
         await asyncio.wait_for(client.app(scope, receive, send), 60.0)
 
     asyncio.run(watch())
-    assert len(sent) < 6
-    assert client.delete(location).json()["state"] == "cancelled"
+    return told
 
 
 def test_a_cancelled_job_has_no_result_and_is_removed_the_second_time(client: TestClient) -> None:
@@ -242,7 +258,7 @@ def test_a_failed_job_answers_with_its_problem(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_job_goes_on_after_the_end_of_the_service(tmp_path: Path) -> None:
-    call = {"kind": "dexterity", "samples": 20_000, "voxel_size": 0.1, "orientations": 10, "job_id": "mine"}
+    call = {**LONG, "job_id": "mine"}
     settings = Settings(data_dir=tmp_path, job_processes=1)
     with TestClient(create_app(settings)) as client:
         before = running(client, posted(client, call))["progress"]
