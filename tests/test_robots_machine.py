@@ -115,6 +115,10 @@ def test_every_worker_knows_what_a_dictionary_knows(running: str) -> None:
     run_state_machine_as_test(
         Robots,
         settings=settings(
-            max_examples=50, stateful_step_count=15, deadline=None, suppress_health_check=list(HealthCheck)
+            max_examples=50,
+            stateful_step_count=15,
+            deadline=None,
+            derandomize=True,
+            suppress_health_check=list(HealthCheck),
         ),
     )

@@ -7,7 +7,7 @@ from functools import reduce
 from random import Random
 
 import pytest
-from hypothesis import given, settings, strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 from gelenk.dh.derive.algebra import (
     LENGTH,
@@ -86,7 +86,7 @@ POLYNOMIAL = st.lists(TERM, min_size=1, max_size=3).map(total)
 
 
 @given(POLYNOMIAL)
-@settings(max_examples=100, deadline=None, derandomize=True)
+@settings(max_examples=100, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 def test_reducing_leaves_the_function_and_one_wave_a_group(polynomial: Polynomial) -> None:
     short = reduced(polynomial, group)
     for q in CONFIGURATIONS:
@@ -97,14 +97,14 @@ def test_reducing_leaves_the_function_and_one_wave_a_group(polynomial: Polynomia
 
 
 @given(POLYNOMIAL)
-@settings(max_examples=100, deadline=None, derandomize=True)
+@settings(max_examples=100, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 def test_a_reduced_polynomial_is_zero_only_where_the_function_is(polynomial: Polynomial) -> None:
     assert bool(reduced(polynomial, group)) != is_zero(polynomial)
     assert not reduced(polynomial - reduced(polynomial, group), group)
 
 
 @given(st.lists(WAVE, min_size=1, max_size=2, unique=True).map(total), st.sampled_from([1, 2, 3]))
-@settings(max_examples=50, deadline=None, derandomize=True)
+@settings(max_examples=50, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 def test_derivatives_by_a_complex_step(polynomial: Polynomial, index: int) -> None:
     for q in CONFIGURATIONS:
         stepped = [angle + (1e-20j if k == index else 0.0) for k, angle in enumerate(q)]

@@ -91,7 +91,7 @@ TREES = st.lists(st.tuples(st.lists(NAMES, max_size=MAX_FOLDERS + 3), FILES), ma
 @pytest.mark.slow
 @given(tree=TREES, used=st.integers(0, 40), data=st.data())
 @pytest.mark.filterwarnings("ignore:Duplicate name")
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 def test_any_archive_is_kept_or_refused_leaving_no_more_than_is_used(
     tmp_path_factory: pytest.TempPathFactory, tree: list[tuple[list[str], str]], used: int, data: st.DataObject
 ) -> None:

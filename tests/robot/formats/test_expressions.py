@@ -4,7 +4,7 @@ import math
 import time
 
 import pytest
-from hypothesis import given, settings, strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 from gelenk.robot.formats.expressions import evaluate
 from gelenk.robot.formats.functions import MATH, PYTHON
@@ -34,7 +34,7 @@ EXPRESSIONS = st.recursive(
 )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 @given(EXPRESSIONS)
 def test_numbers_are_those_of_python(text: str) -> None:
     try:
