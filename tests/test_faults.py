@@ -162,12 +162,13 @@ def test_a_search_ends_before_its_request_would_be_ended(running: tuple[int, str
 
     def search(count: int) -> tuple[list[dict[str, Any]], float]:
         began = time.monotonic()
-        status, answer = get(path, "POST", {**slow(60.0), "targets": LOST[:count]})
+        status, answer = get(path, "POST", {**slow(60.0), "targets": LOST[:1] * count})
         assert status == 200
         return answer["results"], time.monotonic() - began
 
-    _, seconds = search(100)
-    results, seconds = search(int(100 * 20.0 / seconds))  # 20 s of work, however fast the machine is
+    # Much more than it has time for, however fast the machine is, and slow in the moment in which that is measured.
+    seconds = min(search(100)[1] for _ in range(3))
+    results, seconds = search(int(100 * 60.0 / seconds))
     assert seconds < 30.0  # of the 60 that it was given
     assert "solved" not in {result["status"] for result in results}
     assert "time_limit" in {result.get("stop_reason") for result in results}

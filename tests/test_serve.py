@@ -140,9 +140,11 @@ def test_a_request_in_flight_finishes(tmp_path: Path, stop: signal.Signals) -> N
         f"Content-Length: {len(body)}\r\nConnection: close\r\n\r\n"
     ).encode()
     with service(tmp_path) as (run, url):
-        with socket.create_connection((HOST, int(url.rsplit(":", 1)[1])), timeout=60) as connection:
+        port = int(url.rsplit(":", 1)[1])
+        with socket.create_connection((HOST, port), timeout=60) as connection:
             connection.sendall(head + body[:10])
-            time.sleep(0.3)
+            while not is_read(port):
+                time.sleep(0.05)
             run.send_signal(stop)
             time.sleep(0.5)
             assert run.poll() is None
@@ -153,6 +155,13 @@ def test_a_request_in_flight_finishes(tmp_path: Path, stop: signal.Signals) -> N
         assert answer.startswith(b"HTTP/1.1 200")
         assert b'"position":[1.7' in answer
         run.wait(timeout=60)
+
+
+def is_read(port: int) -> bool:
+    """Whether a connection has been let in, and all that has come on those of a port has been read."""
+    table = [line.split() for line in Path("/proc/net/tcp").read_text().splitlines()[1:]]
+    ours = [row for row in table if row[1].endswith(f":{port:04X}") and row[3] == "01"]
+    return bool(ours) and all(row[4].endswith(":00000000") and row[9] != "0" for row in ours)
 
 
 @pytest.mark.slow

@@ -225,14 +225,19 @@ def test_a_call_that_is_cancelled_leaves_nothing_behind(monkeypatch: pytest.Monk
 
 
 def test_a_pause_is_cancelled_too() -> None:
-    async def ask(url: str) -> None:
-        async with AsyncClient(url) as gelenk:
-            with pytest.raises(TimeoutError):
-                await asyncio.wait_for(gelenk.robots(), 0.5)
+    async def ask(service: Scripted) -> None:
+        async with AsyncClient(service.url) as gelenk:
+            asked = asyncio.create_task(gelenk.robots())
+            while not service.visits:
+                await asyncio.sleep(0.01)
+            await asyncio.sleep(0.5)  # by then it waits to ask again
+            asked.cancel()
+            with pytest.raises(asyncio.CancelledError):
+                await asked
 
     with scripted(refuses("503 Service Unavailable", "service-busy", retry_after=30)) as service:
         begin = time.monotonic()
-        asyncio.run(ask(service.url))
+        asyncio.run(ask(service))
         assert time.monotonic() - begin < 20
         assert len(service.visits) == 1
 

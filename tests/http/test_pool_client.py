@@ -18,7 +18,7 @@ from gelenk.http.workers.pool_client import PoolClient, client_of
 from gelenk.main import create_app
 from gelenk.settings import Settings
 
-SLOW = {"targets": [{"position": [9.0, 0.0, 0.0], "rotation_vector": [0, 0, 0]}] * 2000, "solutions": "all"}
+SLOW = {"targets": [{"position": [9.0, 0.0, 0.0], "rotation_vector": [0, 0, 0]}] * 10_000, "solutions": "all"}
 
 
 def scope(**more: Any) -> Request:
@@ -64,7 +64,7 @@ def test_a_client_with_its_share_at_work_is_told_so(tmp_path: Path) -> None:
     answers: list[Any] = []
     with TestClient(create_app(settings), client=("10.0.0.7", 50000)) as one:
         slow = threading.Thread(
-            target=lambda: answers.append(one.post("/v1/robots/panda/ik", json={**SLOW, "time_limit": 3.0}))
+            target=lambda: answers.append(one.post("/v1/robots/panda/ik", json={**SLOW, "time_limit": 6.0}))
         )
         slow.start()
         until = time.monotonic() + 60

@@ -216,10 +216,11 @@ def test_a_kill_at_any_moment_leaves_the_old_scene_or_the_new(scenes: Scenes) ->
         command = [sys.executable, "-c", WRITER, str(scenes.root), str(last + 1)]
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as writer:
             assert writer.stdout is not None
-            writer.stdout.readline()
-            time.sleep(chance.uniform(0.2, 0.8))
+            said = [writer.stdout.readline() for _ in range(chance.randint(10, 40))]
+            time.sleep(chance.uniform(0.0, 0.05))
             writer.send_signal(signal.SIGKILL)
-            lines = [line.split() for line in writer.stdout.read().splitlines(keepends=True) if line.endswith("\n")]
+            said += writer.stdout.readlines()
+        lines = [line.split() for line in said if line.endswith("\n")]
         scenes.prepare()
         told = [int(number) for what, number in lines if what == "cell"]
         now = scenes.get("cell")
