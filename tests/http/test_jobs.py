@@ -88,7 +88,7 @@ def test_a_clock_that_is_set_disturbs_no_job(client: TestClient, monkeypatch: py
     assert job["state"] == "succeeded"
     assert job["created"] <= job["started"] <= job["finished"]
     assert client.get(f"{location}/result").status_code == 200
-    call = {"targets": [{"position": [0.4, 0.1, 0.5], "rpy": [3.0, 0.2, 0.4]}], "time_limit": 1.0}
+    call = {"targets": [{"position": [0.4, 0.1, 0.5], "rpy": [3.0, 0.2, 0.4]}], "time_limit": 30.0}
     answer = client.post("/v1/robots/panda/ik", json={**call, "tip_frame": "panda_link8"})
     assert answer.json()["results"][0]["status"] == "solved"
 

@@ -36,14 +36,15 @@ def test_the_motion_is_that_of_the_steps_one_by_one(seed: int) -> None:
 
 
 @pytest.mark.slow
-def test_the_first_request_for_one_does_not_wait_for_a_compiler() -> None:
+def test_the_first_request_for_a_motion_does_not_wait_for_a_compiler() -> None:
     """In a new process, which has called nothing but the warm-up."""
     program = (
-        "from gelenk.kinematics.warm_up import warm_up; from gelenk.trajectory.joints import ways; warm_up();"
-        "print(len(ways._planned.signatures))"
+        "from gelenk.kinematics.warm_up import warm_up; from gelenk.trajectory.joints.ways import _planned;"
+        "from gelenk.trajectory.laws.jerk_profiles import least_times, profiles; warm_up();"
+        "print(*(len(kernel.signatures) for kernel in (_planned, least_times, profiles)))"
     )
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=500, check=True)
-    assert run.stdout == "1\n"
+    assert run.stdout == "1 1 1\n"
 
 
 @pytest.mark.parametrize(

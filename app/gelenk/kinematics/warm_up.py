@@ -64,6 +64,7 @@ from gelenk.trajectory.audit.pieces import pieces_of
 from gelenk.trajectory.batch import plan_batch
 from gelenk.trajectory.follow.kernels.nearest import nearest
 from gelenk.trajectory.follow.ladder import Metric, Rungs, way_up
+from gelenk.trajectory.laws.jerk_limited import jerk_limited
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.paths.corners import blended_lines
 from gelenk.trajectory.paths.rotation_splines import rotation_spline
@@ -166,6 +167,7 @@ def _motions() -> None:
     free = replace(way, limits=replace(limits, torque=None))
     plan(robot, chain, TrajectoryProblem(start, (move, way, free))).motion.rates_at(np.zeros(1))
     plan_batch(robot, chain, qs, qs + 0.5, move)
+    jerk_limited(np.zeros((3, 3)), np.eye(3), np.ones((3, 3)))
     robot_6, six = _six_joints()
     poses, along = forward_kinematics(robot_6, six, np.full((1, 6), 0.4)).poses, SegmentLimits(*np.ones((3, 6)))
     goal = poses.matrices()[0]
