@@ -131,7 +131,7 @@ class Candidates(NamedTuple):
 _AXIS, _POINT, _SQUARE, _LEVEL, _ALONG, _ACROSS, _SOLVE, _CENTRE, _LEVER = 0, 3, 6, 8, 9, 10, 11, 13, 14
 
 
-@unmanaged
+@inlined
 def compose(
     plan: SubproblemPlan, target: Array, seed: Array, elbow_angle: float, found: Candidates, space: Scratch
 ) -> int:
@@ -188,7 +188,7 @@ def _about(plan: SubproblemPlan, i: int, turn: Turn, a: Vector) -> Vector:
     return plus(o, 1.0, turned_by(row(plan.axes, i), turn, minus(a, o)))
 
 
-@unmanaged
+@inlined
 def _decoupled(plan: SubproblemPlan, M: Motion, seed: Array, found: Candidates) -> int:
     """Find the joints that position the wrist point, then for each solution the turns of the wrist."""
     centre = row(plan.lines, _CENTRE)
@@ -206,7 +206,7 @@ def _decoupled(plan: SubproblemPlan, M: Motion, seed: Array, found: Candidates) 
     return count
 
 
-@unmanaged
+@inlined
 def _with_wrist(plan: SubproblemPlan, M: Motion, way: int, seed: Array, found: Candidates, count: int) -> int:
     """Combine one positioning of the wrist point with all turns of the wrist; return the new number of candidates."""
     last, left = len(plan.axes) - 1, len(plan.axes) - plan.placed
@@ -247,7 +247,7 @@ def _few_turns(plan: SubproblemPlan, a: Vector, y: Vector, square: Vector, value
         values[last] = angle_onto(row(plan.axes, last), square, y)
 
 
-@unmanaged
+@inlined
 def _three_turns(
     plan: SubproblemPlan, i: int, a: Vector, y: Vector, square: Vector, second: bool, seed: Array, values: Array
 ) -> tuple[int, int]:
@@ -297,7 +297,7 @@ def _by_lean(b: Vector, g: Vector, f: Vector, side: float, lean: float) -> Vecto
     return plus(scaled(part, beside), along * side * rest, aside)
 
 
-@unmanaged
+@inlined
 def _positions(plan: SubproblemPlan, start: Vector, goal: Vector, seed: Array, found: Candidates) -> int:
     """Solve E_1 E_2 E_3 start = goal for the joints in the order of elimination; the third may be missing.
 
@@ -326,7 +326,7 @@ def _positions(plan: SubproblemPlan, start: Vector, goal: Vector, seed: Array, f
     return _finished(plan, start, goal, seed, ways, found)
 
 
-@unmanaged
+@inlined
 def _third(plan: SubproblemPlan, start: Vector, o2: Vector) -> _Third:
     zero = (0.0, 0.0, 0.0)
     if plan.placed < 3:
@@ -399,7 +399,7 @@ def _quadratic_roots(plan: SubproblemPlan, f: Quadratic, found: Candidates) -> i
     return turns_of_quadratic(f, found.roots)
 
 
-@unmanaged
+@inlined
 def _by_turn(
     plan: SubproblemPlan,
     reached: _Third,
@@ -516,7 +516,7 @@ def _by_slide(plan: SubproblemPlan, reached: _Third, k1: float, k2: float, seed:
     return count
 
 
-@unmanaged
+@inlined
 def _finished(plan: SubproblemPlan, start: Vector, goal: Vector, seed: Array, ways: int, found: Candidates) -> int:
     """Solve joint 1 for each solution of the others, and set free joints to the seed's values."""
     L, slides = plan.lines, plan.slides
@@ -552,7 +552,7 @@ def _moved(slides: int, h: Vector, o: Vector, q: float, turn: Array, p: Vector) 
     return plus(o, 1.0, turned_by(h, (turn[0], turn[1]), minus(p, o)))
 
 
-@unmanaged
+@inlined
 def _parallel(plan: SubproblemPlan, M: Motion, seed: Array, found: Candidates) -> int:
     """Solve joints 1 and 5 by heights along h, of a point on the last axis and of its direction; then 6, 2, 3 and 4.
 
@@ -597,7 +597,7 @@ def _parallel(plan: SubproblemPlan, M: Motion, seed: Array, found: Candidates) -
     return count
 
 
-@unmanaged
+@inlined
 def _in_plane(
     plan: SubproblemPlan,
     M: Motion,
@@ -678,7 +678,7 @@ def _reaches(plan: SubproblemPlan, M: Motion, first: Turn, fifth: Turn) -> tuple
     return mean, math.hypot(along, across), math.atan2(across, along)
 
 
-@unmanaged
+@inlined
 def _planar(
     plan: SubproblemPlan,
     M: Motion,
