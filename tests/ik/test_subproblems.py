@@ -17,6 +17,7 @@ from scipy.spatial.transform import Rotation
 from gelenk.ik.closed import subproblems
 from gelenk.ik.closed.subproblems import (
     Quadratic,
+    angle_of,
     angle_onto,
     product,
     roots_of_quartic,
@@ -86,6 +87,22 @@ def swept(f: Quadratic) -> Array:
 
 def as_vector(a: Array) -> Vector:
     return float(a[0]), float(a[1]), float(a[2])
+
+
+def test_the_angle_of_a_turn_of_any_length_is_right_to_rounding() -> None:
+    rng = np.random.default_rng(3)
+    angles = np.concatenate((rng.uniform(-np.pi, np.pi, 5000), np.arange(-8, 9) * (np.pi / 8), 10.0 ** -np.arange(300)))
+    turns = 10.0 ** rng.uniform(-20, 20, len(angles)) * np.array([np.cos(angles), np.sin(angles)])
+    found = np.array([angle_of(turn) for turn in zip(*turns.tolist(), strict=True)])
+    exact = np.arctan2(turns[1], turns[0])
+    np.testing.assert_allclose(found, exact, rtol=3e-16, atol=0.0)
+
+
+def test_the_angle_of_a_turn_along_an_axis_is_exact_and_that_of_none_is_zero() -> None:
+    for cosine, sine in ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (0.0, 0.0)):
+        assert angle_of((cosine, sine)) == math.atan2(sine, cosine)
+    assert math.isnan(angle_of((math.nan, 1.0)))
+    assert math.isnan(angle_of((1.0, math.nan)))
 
 
 def test_one_vector_is_turned_onto_another() -> None:

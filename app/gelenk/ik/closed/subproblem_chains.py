@@ -539,7 +539,7 @@ def _finished(plan: SubproblemPlan, start: Vector, goal: Vector, seed: Array, wa
             found.marks[1, way] |= 1 << plan.order[0]
         else:
             turns[0, 0], turns[0, 1] = turn_onto(h1, minus(p, o1), reach)
-            values[0] = math.atan2(turns[0, 1], turns[0, 0])
+            values[0] = angle_of((turns[0, 0], turns[0, 1]))
     return ways
 
 
