@@ -20,6 +20,7 @@ from gelenk.kinematics.simd.lanes import (
     load,
     max_lanes,
     min_lanes,
+    part,
     rint_lanes,
     sqrt_lanes,
     store,
@@ -69,6 +70,22 @@ def test_a_mask_tells_its_lanes_as_bits() -> None:
 
     numbers = np.array([-1.0, 2.0, 3.0, -4.0, 5.0, 6.0, np.nan, -8.0])
     assert negative(numbers) == 0b10001001
+
+
+def test_a_part_of_a_flat_array_is_a_view_in_any_shape() -> None:
+    @unmanaged
+    def fill(numbers: Array, n: int) -> None:
+        row, cube = part(numbers, 2, (n,)), part(numbers, 5, (2, n, 4))
+        for i in range(n):
+            row[i] = i + 1.0
+            for j in range(4):
+                cube[0, i, j], cube[1, i, j] = 10.0 * i + j, -10.0 * i - j
+
+    numbers, expected = np.full(32, np.nan), np.full(32, np.nan)
+    fill(numbers, 3)
+    first = 10.0 * np.arange(3)[:, None] + np.arange(4)
+    expected[2:5], expected[5:29] = [1.0, 2.0, 3.0], np.concatenate((first.ravel(), -first.ravel()))
+    np.testing.assert_array_equal(numbers, expected)
 
 
 @pytest.mark.parametrize("largest", [1.0, np.pi, 100.0, 1e4, 1e6])

@@ -14,8 +14,8 @@ from gelenk.ik.closed.closed_form import ClosedForm
 from gelenk.ik.closed.elimination import Scratch
 from gelenk.ik.closed.subproblem_chains import ELBOW, GENERAL, MOST, Candidates, SubproblemPlan
 from gelenk.ik.search.bounds import limits_of, make_goal
-from gelenk.ik.search.iteration import STATE_ROWS, Goal, Work
-from gelenk.kinematics.simd.lanes import LANES
+from gelenk.ik.search.iteration import STATE_ROWS, Goal, Work, workspace
+from gelenk.kinematics.simd.lanes import LANES, part
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import FlatChain
 from gelenk.robot.compilation import compiled, exclusive, inlined
@@ -64,8 +64,9 @@ def _laid_out(flat: FlatChain, plan: SubproblemPlan, goal: Goal, limits: Array) 
     n, m = limits.shape[1], len(flat.joints)
     singles = np.zeros(_HEAD)
     integers = [n, m, plan.kind, plan.backwards, plan.form, plan.placed]
-    singles[:10].view(np.int64)[:] = [*integers, goal.kind, goal.axis, goal.starts, goal.random_seed]
-    singles[10:14] = plan.reach, goal.position_tolerance, goal.chord_tolerance, goal.slack
+    integers += [goal.kind, goal.axis, goal.starts, goal.random_seed, workspace(flat, n).coupled]
+    singles[:11].view(np.int64)[:] = integers
+    singles[11:15] = plan.reach, goal.position_tolerance, goal.chord_tolerance, goal.slack
     arrays = (*flat, plan.axes, plan.points, plan.slides, plan.order, plan.lines, plan.zero)
     memory = np.zeros(_ends(n, m)[-1])
     return np.concatenate(
@@ -85,22 +86,23 @@ def _nearest(numbers: Array, T: Array, seed: Array, q: Array) -> int:
     c = b + 6 * n
     d = c + n + 3
     e = d + 48 + 12
+    f = e + 6 * n + 6
     flat = FlatChain(
-        numbers[_HEAD:a].reshape(m + 1, 12), integers[a : a + 2 * m].reshape(m, 2), numbers[a + 2 * m : b].reshape(m, 2)
-    )
+        part(numbers, _HEAD, (m + 1, 12)), part(integers, a, (m, 2)), part(numbers, a + 2 * m, (m, 2))
+    )  # fmt: skip
     plan = SubproblemPlan(
         integers[2], integers[3], integers[4], integers[5],
-        numbers[b : b + 3 * n].reshape(n, 3), numbers[b + 3 * n : c].reshape(n, 3), integers[c : c + n],
-        integers[c + n : d], numbers[d : d + 48].reshape(16, 3), numbers[d + 48 : e], numbers[10],
-        numbers[:0].reshape(0, 0),
+        part(numbers, b, (n, 3)), part(numbers, b + 3 * n, (n, 3)), part(integers, c, (n,)),
+        part(integers, c + n, (3,)), part(numbers, d, (16, 3)), part(numbers, d + 48, (12,)), numbers[11],
+        part(numbers, 0, (0, 0)),
     )  # fmt: skip
     goal = Goal(
-        numbers[e : e + 6 * n].reshape(6, n), numbers[e + 6 * n : e + 6 * n + 6], integers[6], integers[7],
-        numbers[11], numbers[12], numbers[13], integers[8], integers[9],
+        part(numbers, e, (6, n)), part(numbers, e + 6 * n, (6,)), integers[6], integers[7],
+        numbers[12], numbers[13], numbers[14], integers[8], integers[9],
     )  # fmt: skip
-    limits = numbers[e + 6 * n + 6 : e + 8 * n + 6].reshape(2, n)
-    found, kept, work, target = _memory(flat, n, numbers[e + 8 * n + 6 :])
-    none, table = numbers[:0], numbers[:0].reshape(0, 0)
+    limits = part(numbers, f, (2, n))
+    found, kept, work, target = _memory(n, m, integers[10] != 0, numbers[f + 2 * n :])
+    none, table = numbers[:0], part(numbers, 0, (0, 0))
     space = Scratch(
         table, table, table, table, table, none, none, table, table, none, none, table, none, integers[:0], table
     )  # fmt: skip
@@ -130,25 +132,24 @@ def _ends(n: int, m: int) -> tuple[int, int, int, int, int, int, int, int, int, 
 
 
 @inlined
-def _memory(flat: FlatChain, n: int, reals: Array) -> tuple[Candidates, _Kept, Work, Array]:
+def _memory(n: int, m: int, coupled: bool, reals: Array) -> tuple[Candidates, _Kept, Work, Array]:
     """Divide the memory for one target, and the target itself; shape (12,)."""
-    m = len(flat.joints)
-    coupled = m != n
-    for i in range(m):
-        coupled |= flat.joints[i, 1] != i or flat.drives[i, 0] != 1.0
     a, b, c, d, e, f, g, h, i, _ = _ends(n, m)
     integers = reals[i:].view(np.int64)
     none, whole = reals[:0], integers[:0]
     k = 2 * MOST + 2 * _ROWS
     found = Candidates(
-        reals[_SMALL:a].reshape(MOST, n), integers[:MOST], integers[MOST : 2 * MOST], reals[12:20],
-        reals[20:44].reshape(8, 3), reals[44:_SMALL].reshape(8, 3, 2),
-        integers[k : k + 16].reshape(2, 8), integers[k + 16 : k + 17],
+        part(reals, _SMALL, (MOST, n)), part(integers, 0, (MOST,)), part(integers, MOST, (MOST,)),
+        part(reals, 12, (8,)), part(reals, 20, (8, 3)), part(reals, 44, (8, 3, 2)),
+        part(integers, k, (2, 8)), part(integers, k + 16, (1,)),
     )  # fmt: skip
     kept = _Kept(
-        reals[a : a + _ROWS * n].reshape(_ROWS, n), reals[b - 2 * _ROWS : b - _ROWS], reals[b - _ROWS : b],
-        integers[2 * MOST : k].reshape(2, _ROWS), reals[b:c].reshape(DIRECTIONS, DIRECTIONS + 1),
-        reals[c:d], integers[k + 17 : k + 23],
+        part(reals, a, (_ROWS, n)), part(reals, b - 2 * _ROWS, (_ROWS,)), part(reals, b - _ROWS, (_ROWS,)),
+        part(integers, 2 * MOST, (2, _ROWS)), part(reals, b, (DIRECTIONS, DIRECTIONS + 1)),
+        part(reals, c, (d - c,)), part(integers, k + 17, (DIRECTIONS,)),
     )  # fmt: skip
-    work = Work(reals[d:e], reals[e:f], reals[f:g], reals[g:h], reals[h:i], none, none, whole, whole, coupled)
-    return found, kept, work, reals[:12]
+    work = Work(
+        part(reals, d, (e - d,)), part(reals, e, (f - e,)), part(reals, f, (g - f,)), part(reals, g, (h - g,)),
+        part(reals, h, (i - h,)), none, none, whole, whole, coupled,
+    )  # fmt: skip
+    return found, kept, work, part(reals, 0, (12,))
