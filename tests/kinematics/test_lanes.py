@@ -28,7 +28,7 @@ from gelenk.kinematics.simd.lanes import (
 )
 from gelenk.kinematics.warm_up import warm_up
 from gelenk.robot.arrays import Array
-from gelenk.robot.compilation import _OPTIONS, inlined, unmanaged
+from gelenk.robot.compilation import _OPTIONS, compiled, inlined, unmanaged
 
 EXPRESSIONS: dict[str, tuple[Any, Any]] = {
     "sum": (lambda a, b: a + b, lambda a, b: a + b),
@@ -119,3 +119,13 @@ def test_a_kernel_computes_in_the_widest_registers(kernel: Any) -> None:
     single = re.findall(r"v?(?:fn?m\w+|mul|add)sd[^\n]*%xmm", assembly)
     assert len(packed) > 50
     assert len(single) < len(packed) / 10
+
+
+def test_an_array_of_a_kernel_begins_at_a_register() -> None:
+    """Else each of its registers may be in two lines of the cache."""
+
+    @compiled
+    def some() -> tuple[Array, Array, Array]:
+        return np.empty(9), np.zeros((3, 5)), np.empty(200)
+
+    assert all(array.ctypes.data % (LANES * 8) == 0 for _ in range(20) for array in some())

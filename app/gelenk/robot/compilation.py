@@ -15,7 +15,7 @@ from typing import Any, TypeVar, cast
 
 import llvmlite.binding
 import numba
-from numba.core import codegen, event
+from numba.core import codegen, cpu, event
 from numba.core.caching import UserProvidedCacheLocator
 from platformdirs import user_cache_path
 
@@ -155,6 +155,8 @@ class _PackedLibrary(codegen.JITCodeLibrary):
 
 
 codegen.JITCPUCodegen._library_class = _PackedLibrary
+# Eight doubles from two lines of the cache take twice as long to load as from one.
+cpu.CPUContext.get_preferred_array_alignment = lambda *_: 64  # type: ignore[method-assign]
 _SETTINGS: Any = numba.config
 _PACKAGE = Path(__file__).parents[1]
 _DIGESTS = kernel_digests()
