@@ -457,6 +457,7 @@ def test_pinocchio_has_a_say(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def wrong(*args: object) -> Examined:
         found = examined(*args)  # type: ignore[arg-type]
+        assert found is not None
         return found._replace(poses=Poses(found.poses.positions + 1e-6, found.poses.rotations))
 
     monkeypatch.setattr("gelenk.trajectory.audit.audit.examined", wrong)

@@ -12,6 +12,7 @@ from gelenk.trajectory.audit.joints import joint_figures
 from gelenk.trajectory.audit.kernels import smallest_singular_values, tip_rates
 from gelenk.trajectory.audit.pieces import Pieces, enough, pieces_of, positions_at, spread_times, travels
 from gelenk.trajectory.audit.tip import smallest_singular_value, tip_peaks
+from gelenk.trajectory.audit.worst import worst
 from tests.robots import robot
 from tests.trajectory.test_audit import some_motion
 
@@ -170,3 +171,14 @@ def test_jumps_are_the_differences_where_pieces_meet() -> None:
         ]
         assert found.jumps[order] == pytest.approx(np.max(jumps, axis=0), rel=1e-12)
         assert (found.jump_times[order] == starts[1 + np.argmax(jumps, axis=0)]).all()
+
+
+def test_the_joint_that_counts_is_the_nearest_to_its_limit() -> None:
+    values, times = np.array([-3.0, 1.0, 2.0, 0.0]), np.arange(4.0)
+    none = np.full(4, np.inf)
+    assert worst(values, times, np.array([6.0, 1.0, 4.0, np.inf])) == (1.0, 1.0, 1.0, 1.0)
+    assert worst(values, times, np.array([6.0, np.inf, 4.0, 1.0])) == (0.5, -3.0, 0.0, 0.0), "the first of equals"
+    assert worst(values, times, none) == (-1.0, -3.0, 0.0, 0.0), "no limit"
+    assert worst(values, times, np.array([1.0, 0.0, 1.0, 0.0])) == (np.inf, 1.0, 1.0, 1.0), "a limit of 0"
+    assert worst(np.zeros(2), times, np.array([0.0, 1.0])) == (0.0, 0.0, 0.0, 0.0), "kept by 0"
+    assert worst(np.array([9.0, np.nan]), times, np.ones(2))[2] == 1.0, "what is no number counts first"

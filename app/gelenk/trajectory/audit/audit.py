@@ -8,7 +8,6 @@ the poses of some samples. The result passes, or gives the reasons why not.
 import math
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass, replace
-from operator import sub
 from typing import Any, Literal, TypeVar
 
 import numpy as np
@@ -16,13 +15,12 @@ import numpy as np
 from gelenk.errors import CertificationFailed
 from gelenk.kinematics.judge.judge import MAX_SAMPLES, certify_poses
 from gelenk.kinematics.judge.words import PoseCertificate
-from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.demands import Demands
 from gelenk.trajectory.audit.examine import examined
-from gelenk.trajectory.audit.joints import JointFigures, joint_figures
-from gelenk.trajectory.audit.pieces import Pieces, are_pieces, pieces_of
+from gelenk.trajectory.audit.joints import joint_figures
+from gelenk.trajectory.audit.pieces import Pieces, pieces_of
 from gelenk.trajectory.audit.result import (
     Audit,
     Continuity,
@@ -36,6 +34,7 @@ from gelenk.trajectory.audit.result import (
 )
 from gelenk.trajectory.audit.tip import Largest, largest_rates, path_peaks, tip_peaks
 from gelenk.trajectory.audit.torques import torque_peaks
+from gelenk.trajectory.audit.worst import ENDS, JUMPS, MARGIN, STATED, JointDemands, jumps_of, worst
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _Timed = TypeVar("_Timed", Peak, LimitMargin, SmallestSingularValue, Reason)
@@ -44,6 +43,7 @@ DERIVATIVES = ("position", "velocity", "acceleration", "jerk")
 _RATES: tuple[Literal["velocity", "acceleration", "jerk"], ...] = ("velocity", "acceleration", "jerk")
 _DIGIT = 10.0
 """Factor by which the tolerated jump grows with each derivative: coefficients hold fewer digits of higher ones."""
+_AT_REST = np.zeros((0, 1, 1))
 _TIP_UNITS = {"speed": "m/s", "angular_speed": "rad/s", "acceleration": "m/s²", "angular_acceleration": "rad/s²"}
 
 
@@ -54,16 +54,15 @@ def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands:
         CertificationFailed: Pinocchio's poses differ, or the motion is invalid: a number is not finite, or a piece
             has no duration.
     """
-    if not are_pieces(np.ascontiguousarray(motion.breaks), np.ascontiguousarray(motion.coefficients)):
+    found = examined(chain, motion, _of_joints(chain, demands), demands.task, MAX_SAMPLES)
+    if found is None:
         raise CertificationFailed("the motion", math.nan, 0.0)
-    found = examined(chain, motion, demands.task, MAX_SAMPLES)
-    examination = _Examination(found.pieces, chain, demands, [])
-    values, times = found.joints.extremes.tolist(), found.joints.times.tolist()
-    peaks = examination.joint_peaks(values[2:], times[2:])
-    tip, deviations = examination.tip(largest_rates(found.tip, found.tip_times))
-    continuity = examination.continuity(peaks, found.joints)
-    margin = examination.margin(values, times)
-    ends = examination.ends(peaks, found.ends)
+    examination, rows = _Examination(motion, chain, demands, []), found.joints.tolist()
+    peaks = examination.joint_peaks(rows)
+    tip, deviations = examination.tip(largest_rates(*found.tip))
+    continuity = examination.continuity(peaks, rows[JUMPS:MARGIN])
+    margin = examination.margin(rows[MARGIN])
+    ends = examination.ends(peaks, rows[ENDS:])
     torque = examination.torque()
     return Audit(
         not examination.reasons,
@@ -92,8 +91,9 @@ def whole_audit(chain: Chain, motion: PiecewisePolynomial, audits: Sequence[Audi
     if len(audits) == 1:
         return audits[0]
     timed = list(zip(audits, starts, strict=True))
-    meeting = _Examination(pieces_of(motion), chain, Demands(), [])
-    continuity = meeting.continuity({}, joint_figures(meeting.pieces))
+    meeting = _Examination(motion, chain, Demands(), [])
+    jumps = jumps_of(motion.breaks, np.ascontiguousarray(motion.coefficients)).tolist() if len(chain) else []
+    continuity = meeting.continuity({}, jumps)
     reasons = (*(_moved(reason, at) for one, at in timed for reason in one.reasons), *meeting.reasons)
     certificates, errors = [one.certificate for one in audits], [one.way_error for one in audits if one.way_error]
 
@@ -146,108 +146,111 @@ def _largest_error(errors: Sequence[PathError]) -> PathError:
     return PathError(*(None if None in column else max(column) for column in columns))
 
 
+def _of_joints(chain: Chain, demands: Demands) -> JointDemands:
+    given, none = demands.joints, np.full(len(chain), math.inf)
+    limits = given.velocity, given.acceleration, given.jerk, demands.stated_jerk
+    return JointDemands(
+        np.array([none if each is None else each for each in limits]),
+        chain.lower if given.lower is None else given.lower,
+        chain.upper if given.upper is None else given.upper,
+        none[None][:0] if demands.ends is None else np.array(demands.ends),
+        _AT_REST if demands.end_rates is None else np.array(demands.end_rates),
+    )
+
+
 @dataclass(frozen=True, slots=True)
 class _Examination:
-    """The checks of a motion; each adds to the reasons why it does not pass."""
+    """The checks of a motion; each adds to the reasons why it does not pass. The rows are those of `worst`."""
 
-    pieces: Pieces
+    motion: PiecewisePolynomial
     chain: Chain
     demands: Demands
     reasons: list[Reason]
 
-    def joint_peaks(self, values: list[list[float]], times: list[list[float]]) -> dict[str, Peak]:
+    @property
+    def pieces(self) -> Pieces:
+        """The pieces of the motion."""
+        return pieces_of(self.motion)
+
+    def peak(self, row: Sequence[float]) -> Peak:
+        ratio, value, joint, time = row
+        return Peak(None if ratio == -1.0 else ratio, value, self.chain.joint_names[int(joint)], time)
+
+    def joint_peaks(self, rows: list[list[float]]) -> dict[str, Peak]:
         """Compare the peaks of velocity, acceleration and jerk with their limits; empty without joints."""
-        demands, names = self.demands, self.chain.joint_names
+        demands = self.demands
         peaks: dict[str, Peak] = {}
-        for order, check in enumerate(_RATES if names else (), start=1):
-            whole = values[order - 1], times[order - 1]
-            found = [self.joint_peak(order, *whole, getattr(demands.joints, check), demands.stated_jerk)]
+        for order, check in enumerate(_RATES if len(self.chain) else (), start=1):
+            peak = self.joint_peak(check, rows[order - 1], None if demands.stated_jerk is None else rows[STATED])
             for zone in demands.zones:
                 if zone.joints is not None:
                     within = joint_figures(self.pieces.between(zone.begin, zone.end))
-                    sizes, at = within.extremes[order + 1].tolist(), within.times[order + 1].tolist()
-                    found.append(self.joint_peak(order, sizes, at, zone.joints[order - 1], zone.stated_jerk))
-            peaks[check] = max(found, key=lambda peak: peak.ratio or 0.0)
+                    found = within.extremes[order + 1], within.times[order + 1]
+                    stated = None if zone.stated_jerk is None else worst(*found, zone.stated_jerk)
+                    one = self.joint_peak(check, worst(*found, zone.joints[order - 1]), stated)
+                    peak = max(peak, one, key=lambda peak: peak.ratio or 0.0)
+            peaks[check] = peak
         return peaks
 
     def joint_peak(
-        self, order: int, values: list[float], times: list[float], limits: Array | None, stated_jerk: Array | None
+        self, check: Literal["velocity", "acceleration", "jerk"], row: Sequence[float], stated: Sequence[float] | None
     ) -> Peak:
         """Return the peak nearest to its limit of those of all joints, and check it."""
-        check, names = _RATES[order - 1], self.chain.joint_names
-        peak = _worst(values, times, names, limits)
+        peak = self.peak(row)
         enforced: Peak | None = peak
         if check == "jerk" and not self.demands.keeps_jerk:
-            enforced = None if stated_jerk is None else _worst(values, times, names, stated_jerk)
+            enforced = None if stated is None else self.peak(stated)
         if enforced and enforced.ratio is not None and not enforced.ratio <= 1.0 + self.demands.tolerance:
             detail = f"{check} is {enforced.ratio:.6g} times the limit"
             self.reasons.append(Reason(check, detail, enforced.joint, enforced.time))
         return peak
 
-    def continuity(self, peaks: dict[str, Peak], joints: JointFigures) -> Continuity:
-        names, tolerance = self.chain.joint_names, self.demands.tolerance
+    def continuity(self, peaks: dict[str, Peak], rows: list[list[float]]) -> Continuity:
+        names, demands = self.chain.joint_names, self.demands
         if not names:
             return Continuity(None, None, None, None)
-        jumps = []
-        values, times = joints.jumps.tolist(), joints.jump_times.tolist()
-        for order, quantity in enumerate(DERIVATIVES):
-            joint = _worst_index(values[order])
-            jump = Jump(values[order][joint], names[joint], times[order][joint])
-            jumps.append(jump)
-            allowed = _DIGIT**order * tolerance * _scale(peaks, quantity)
-            if order <= self.demands.continuous and not jump.value <= allowed:
-                detail = f"{quantity} jumps by {jump.value:.6g}"
+        jumps = [Jump(value, names[int(joint)], time) for _, value, joint, time in rows]
+        for order, jump in enumerate(jumps[: demands.continuous + 1]):
+            if not jump.value <= _DIGIT**order * demands.tolerance * _scale(peaks, DERIVATIVES[order]):
+                detail = f"{DERIVATIVES[order]} jumps by {jump.value:.6g}"
                 self.reasons.append(Reason("continuity", detail, jump.joint, jump.time))
         return Continuity(*jumps)
 
-    def margin(self, values: list[list[float]], times: list[list[float]]) -> LimitMargin | None:
-        chain, limits = self.chain, self.demands.joints
-        if not chain.joint_names:
-            return None
-        lower = chain.lower if limits.lower is None else limits.lower
-        upper = chain.upper if limits.upper is None else limits.upper
-        # 0 - 0 is 0, and the opposite of 0 is -0.
-        below = [0.0 - value - bound for value, bound in zip(values[0], lower.tolist(), strict=True)]
-        above = [bound - value for value, bound in zip(values[1], upper.tolist(), strict=True)]
-        joint = _worst_index([-distance for distance in (*above, *below)])
-        side, joint = divmod(joint, len(above))
-        if (distance := (above, below)[side][joint]) == math.inf:
+    def margin(self, row: list[float]) -> LimitMargin | None:
+        side, distance, joint, time = row
+        if not len(self.chain) or distance == math.inf:
             return None
         bound: Literal["lower", "upper"] = "lower" if side else "upper"
-        margin = LimitMargin(distance, chain.joint_names[joint], bound, times[1 - side][joint])
+        margin = LimitMargin(distance, self.chain.joint_names[int(joint)], bound, time)
         if not margin.value >= -self.demands.tolerance:
             detail = f"the joint goes {-margin.value:.6g} beyond its {bound} limit"
             self.reasons.append(Reason("joint_limit", detail, margin.joint, margin.time))
         return margin
 
-    def ends(self, peaks: dict[str, Peak], at_ends: Array) -> dict[str, float]:
-        pieces, names, demands = self.pieces, self.chain.joint_names, self.demands
+    def ends(self, peaks: dict[str, Peak], rows: list[list[float]]) -> dict[str, float]:
+        names, demands, breaks = self.chain.joint_names, self.demands, self.motion.breaks
+        rates = 1 if demands.end_rates is None else len(demands.end_rates[0])
+        orders = range(1 if demands.ends is None else 0, rates + 1)
         errors: dict[str, float] = {}
-        rest = [[0.0] * len(names)]
         for i, end in enumerate(("start", "end") if names else ()):
-            rates = rest if demands.end_rates is None else demands.end_rates[i].tolist()
-            position = None if demands.ends is None else demands.ends[i].tolist()
-            for quantity, values, wanted in zip(DERIVATIVES, at_ends[i].tolist(), (position, *rates), strict=False):
-                if wanted is None:
-                    continue
-                off = list(map(abs, map(sub, values, wanted)))
-                joint = _worst_index(off)
-                errors[f"{end}_{quantity}"] = error = off[joint]
+            for order in orders:
+                quantity, (_, error, joint, _) = DERIVATIVES[order], rows[3 * i + order]
+                errors[f"{end}_{quantity}"] = error
                 if not error <= demands.tolerance * _scale(peaks, quantity):
-                    time = float(pieces.starts[-1] + pieces.widths[-1] if i else pieces.starts[0])
+                    time = float(breaks[-2] + (breaks[-1] - breaks[-2]) if i else breaks[0])
                     detail = f"{quantity} at the {end} is off by {error:.6g}"
-                    self.reasons.append(Reason("boundary", detail, names[joint], time))
+                    self.reasons.append(Reason("boundary", detail, names[int(joint)], time))
         return errors
 
     def torque(self) -> Peak | None:
         """Find the torque nearest to its limit, or the largest if none is limited."""
-        stretches = [(self.pieces, self.demands.torque)]
-        stretches += [(self.pieces.between(zone.begin, zone.end), zone.torque) for zone in self.demands.zones]
-        names, peaks = self.chain.joint_names, []
-        for pieces, limits in stretches:
-            if limits is not None and names:
-                values, times = torque_peaks(pieces, limits)
-                peaks.append(_worst(values.tolist(), times.tolist(), names, limits.most))
+        stretches = [(-math.inf, math.inf, self.demands.torque)]
+        stretches += [(zone.begin, zone.end, zone.torque) for zone in self.demands.zones]
+        peaks = []
+        for begin, end, limits in stretches:
+            if limits is not None and len(self.chain):
+                found = torque_peaks(self.pieces.between(begin, end), limits)
+                peaks.append(self.peak(worst(*found, limits.most)))
         peak = max(peaks, key=lambda one: one.ratio or 0.0, default=None)
         if peak is not None and peak.ratio is not None and not peak.ratio <= 1.0 + self.demands.tolerance:
             detail = f"torque is {peak.ratio:.6g} times the limit"
@@ -288,22 +291,6 @@ class _Examination:
             unit = "m" if quantity == "position" else "rad"
             detail = f"the tip's {quantity} is {found.value:.6g} {unit} from the path; the limit is {limit:g} {unit}"
             self.reasons.append(Reason("path", detail, None, found.time))
-
-
-def _worst(values: list[float], times: list[float], names: tuple[str, ...], bounds: Array | None) -> Peak:
-    """Return the joint nearest to its limit, or the largest value if none is limited."""
-    limits = [math.inf] if bounds is None else bounds.tolist()
-    limited = min(limits) < math.inf
-    ratios = list(map(_ratio, values, limits)) if limited else list(map(abs, values))
-    joint = _worst_index(ratios)
-    return Peak(ratios[joint] if limited else None, values[joint], names[joint], times[joint])
-
-
-def _worst_index(values: list[float]) -> int:
-    """Return where the largest value is; one that is not a number is the largest."""
-    if math.isnan(sum(values)):
-        values = [math.inf if math.isnan(value) else value for value in values]
-    return values.index(max(values))
 
 
 def _ratio(value: float, limit: float) -> float:
