@@ -5,12 +5,13 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from gelenk.kinematics.simd.block import Block, table
+from gelenk.kinematics.simd.block import Block
+from gelenk.kinematics.simd.lanes import part
 
 
 @njit
 def _doubled(numbers: Any, at: Any, n: int) -> float:
-    matrix, counts, cube = table(numbers, at[0], (2, n)), table(at, at[2], (n,)), table(numbers, at[3], (1, 2, n))
+    matrix, counts, cube = part(numbers, at[0], (2, n)), part(at, at[2], (n,)), part(numbers, at[3], (1, 2, n))
     total = 0.0
     for i in range(2):
         for j in range(n):

@@ -19,7 +19,8 @@ from gelenk.ik.verdict.judge import recompute
 from gelenk.ik.verdict.result import InverseKinematics, by_search
 from gelenk.kinematics.judge.own_pose import OwnPose
 from gelenk.kinematics.judge.placements import expand, walk_to
-from gelenk.kinematics.simd.block import Block, table
+from gelenk.kinematics.simd.block import Block
+from gelenk.kinematics.simd.lanes import part
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain, FlatChain
 from gelenk.robot.compilation import compiled
@@ -113,24 +114,24 @@ def _searched(numbers: Array, at: Indices, by_quaternion: bool, is_seeded: bool)
     c, t = at[_CHOICES], at[_TOLERANCES]
     joints, n, nq, to_base, to_tip, kind, axis = at[c], at[c + 1], at[c + 2], at[c + 3], at[c + 4], at[c + 5], at[c + 6]
     flat = FlatChain(
-        table(numbers, at[_PLACEMENTS], (joints + 1, 12)),
-        table(at, at[_JOINTS], (joints, 2)),
-        table(numbers, at[_DRIVES], (joints, 2)),
+        part(numbers, at[_PLACEMENTS], (joints + 1, 12)),
+        part(at, at[_JOINTS], (joints, 2)),
+        part(numbers, at[_DRIVES], (joints, 2)),
     )
-    bounds, weights = table(numbers, at[_BOUNDS], (6, n)), table(numbers, at[_WEIGHTS], (6,))
+    bounds, weights = part(numbers, at[_BOUNDS], (6, n)), part(numbers, at[_WEIGHTS], (6,))
     tolerances = numbers[t], numbers[t + 1]
     goal = Goal(bounds, weights, kind, axis, tolerances[0], numbers[t + 2], numbers[t + 3], at[c + 7], at[c + 8])
-    position, rotation = table(numbers, at[_POSITION], (1, 3)), table(numbers, at[_ROTATION], (1, 3, 3))
+    position, rotation = part(numbers, at[_POSITION], (1, 3)), part(numbers, at[_ROTATION], (1, 3, 3))
     if by_quaternion:
-        turn_by_quaternions_xyzw(table(numbers, at[_QUATERNION], (1, 4)), rotation)
-    seed = table(numbers, at[_SEEDS] + n * is_seeded, (1, n))
-    q, errors = table(numbers, at[_Q], (1, n)), table(numbers, at[_ERRORS], (2, 1))
-    if not search_few(flat, goal, position, rotation, seed, q, table(at, at[_OUTCOMES], (3, 1))):
+        turn_by_quaternions_xyzw(part(numbers, at[_QUATERNION], (1, 4)), rotation)
+    seed = part(numbers, at[_SEEDS] + n * is_seeded, (1, n))
+    q, errors = part(numbers, at[_Q], (1, n)), part(numbers, at[_ERRORS], (2, 1))
+    if not search_few(flat, goal, position, rotation, seed, q, part(at, at[_OUTCOMES], (3, 1))):
         return False
-    full_q, good = table(numbers, at[_FULL_Q], (1, nq)), np.empty(1, np.bool_)
-    expand(table(numbers, at[_OFFSET], (nq,)), table(numbers, at[_MATRIX], (nq, n)), q, full_q)
-    walks = table(numbers, at[_BASE], (to_base, 12)), table(numbers, at[_TIP], (to_tip, 12))
-    task, limits = (weights, kind, axis), table(numbers, at[_LIMITS], (2, n))
+    full_q, good = part(numbers, at[_FULL_Q], (1, nq)), np.empty(1, np.bool_)
+    expand(part(numbers, at[_OFFSET], (nq,)), part(numbers, at[_MATRIX], (nq, n)), q, full_q)
+    walks = part(numbers, at[_BASE], (to_base, 12)), part(numbers, at[_TIP], (to_tip, 12))
+    task, limits = (weights, kind, axis), part(numbers, at[_LIMITS], (2, n))
     own = recompute(*walks, full_q, task, position, rotation, tolerances, limits, q, errors, good)
-    table(numbers, at[_OWN_POSITION], (1, 3))[:], table(numbers, at[_OWN_ROTATION], (1, 3, 3))[:] = own
+    part(numbers, at[_OWN_POSITION], (1, 3))[:], part(numbers, at[_OWN_ROTATION], (1, 3, 3))[:] = own
     return bool(good[0])
