@@ -49,7 +49,7 @@ def _steps(begun: Coroutine[Any, Any, None], awaited: Any) -> Generator[Any, Any
         return
 
 
-class Exchange(RequestResponseCycle):
+class RequestCycle(RequestResponseCycle):
     """A request and its response, as the server has them, in fewer steps."""
 
     async def receive(self) -> Any:

@@ -20,7 +20,7 @@ import orjson
 from httptools import parse_url
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol, RequestResponseCycle
 
-from gelenk.answering import Exchange, answered
+from gelenk.answering import RequestCycle, answered
 
 AT_ONCE = ("/healthz", "/readyz", "/metrics")
 """Paths that never wait and are never refused: monitoring must see the service when it is busy."""
@@ -160,7 +160,7 @@ class BoundedProtocol(HttpToolsProtocol):
         self._in_message = self._in_head = False
         self._stage = self._other_bytes = 0
         self._ends: float | None = None
-        self._arriving: Exchange | None = None
+        self._arriving: RequestCycle | None = None
 
     @property
     def waits_for_client(self) -> bool:
@@ -217,7 +217,8 @@ class BoundedProtocol(HttpToolsProtocol):
     def on_headers_complete(self) -> None:
         """Prepare the request that the complete head describes; if its target names a host, that one counts.
 
-        (RFC 9112, 3.2.2.) The server does the same after asking for WebSockets and other things that are not in use.
+        (RFC 9112, 3.2.2.) The server does the same, but for WebSockets and for its options `root_path` and
+        `limit_concurrency`, which are not in use.
         """
         self.since, self._body_bytes = self.loop.time(), 0
         self._stage, self._in_head = self._stage + 1, False
@@ -230,7 +231,7 @@ class BoundedProtocol(HttpToolsProtocol):
         self.scope["method"], self.scope["http_version"] = self.parser.get_method().decode("ascii"), version
         self.scope["path"], self.scope["raw_path"] = unquote(path) if "%" in path else path, target.path
         self.scope["query_string"] = target.query or b""
-        self.cycle = Exchange(
+        self.cycle = RequestCycle(
             self.scope,
             self.transport,
             self.flow,

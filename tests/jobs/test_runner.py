@@ -89,13 +89,13 @@ def test_results_come_in_order_and_progress_only_grows(runner: Runner, tmp_path:
     gate.write_text("4")
     job = submitted(runner, "note", [f"{tmp_path / 'notes'}:{k}" for k in range(8)])
     deadline = time.monotonic() + 60.0
-    while runner.store.get(job.id).progress < 0.5:
+    while (half := runner.store.get(job.id).progress) < 0.5:
         assert time.monotonic() < deadline
         time.sleep(0.02)
     open_gate = tmp_path / "open gate"
     open_gate.write_text("8")
     open_gate.replace(gate)  # at once: a part may be reading it
-    progress = [state.progress for state in watched(runner, job)]
+    progress = [half, *(state.progress for state in watched(runner, job))]
     assert progress == sorted(progress)
     assert (progress[0], progress[-1]) == (0.5, 1.0)
 

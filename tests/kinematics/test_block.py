@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from gelenk.kinematics.simd.block import Block
+from gelenk.kinematics.simd.block import ArrayBlock
 from gelenk.kinematics.simd.lanes import part
 
 
@@ -22,7 +22,7 @@ def _doubled(numbers: Any, at: Any, n: int) -> float:
 
 def test_compiled_code_reads_and_writes_each_array() -> None:
     matrix, counts = np.arange(6.0).reshape(2, 3), np.array([1, 0, 2**60])
-    block = Block([matrix, np.empty((0, 2)), counts, np.zeros((1, 2, 3)), np.array([np.nan])])
+    block = ArrayBlock([matrix, np.empty((0, 2)), counts, np.zeros((1, 2, 3)), np.array([np.nan])])
     assert [view.shape for view in block.views] == [(2, 3), (0, 2), (3,), (1, 2, 3), (1,)]
     assert _doubled(block.numbers, block.integers, 3) == float((matrix * counts).sum())
     np.testing.assert_array_equal(block.views[3][0], 2.0 * matrix)

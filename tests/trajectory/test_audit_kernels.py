@@ -181,4 +181,5 @@ def test_the_joint_that_counts_is_the_nearest_to_its_limit() -> None:
     assert worst(values, times, none) == (-1.0, -3.0, 0.0, 0.0), "no limit"
     assert worst(values, times, np.array([1.0, 0.0, 1.0, 0.0])) == (np.inf, 1.0, 1.0, 1.0), "a limit of 0"
     assert worst(np.zeros(2), times, np.array([0.0, 1.0])) == (0.0, 0.0, 0.0, 0.0), "kept by 0"
-    assert worst(np.array([9.0, np.nan]), times, np.ones(2))[2] == 1.0, "what is no number counts first"
+    for limits in (np.ones(2), np.array([1.0, 0.0])):
+        assert worst(np.array([9.0, np.nan]), times, limits)[2] == 1.0, "what is no number counts first"

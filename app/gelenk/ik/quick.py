@@ -19,7 +19,7 @@ from gelenk.ik.verdict.judge import recompute
 from gelenk.ik.verdict.result import InverseKinematics, by_search
 from gelenk.kinematics.judge.own_pose import OwnPose
 from gelenk.kinematics.judge.placements import expand, walk_to
-from gelenk.kinematics.simd.block import Block
+from gelenk.kinematics.simd.block import ArrayBlock
 from gelenk.kinematics.simd.lanes import part
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain, FlatChain
@@ -62,7 +62,7 @@ class QuickSearch:
         )
         seeds, pose = np.array([mid_range(chain)] * 2), (np.zeros((1, 3)), np.zeros((1, 3, 3)))
         found = np.zeros((1, n)), np.zeros((2, 1)), np.zeros((3, 1), np.int64)
-        block = Block((*constant, seeds, np.zeros((1, 4)), *pose, *pose, np.zeros((1, nq)), *found))
+        block = ArrayBlock((*constant, seeds, np.zeros((1, 4)), *pose, *pose, np.zeros((1, nq)), *found))
         views, numbers, places = block.views, memoryview(block.numbers.data), block.integers.tolist()
         self._memory, self._seed, self._count = (block.numbers, block.integers), views[_SEEDS][1], n
         self._lock = robot.lock
@@ -74,7 +74,7 @@ class QuickSearch:
         self._found = partial(Struct(f"{n + 2}d3q").unpack_from, numbers[places[_Q] :])
 
     def __call__(self, target: Sequence[float], seed: Array | None) -> tuple[Any, ...] | None:
-        """Return the solution from a seed, shape (n,), or the middle of the ranges if that is None; None if none.
+        """Return the solution from a seed, shape (n,), or the middle of the ranges; None if the search finds none.
 
         The target is a unit quaternion x y z w and a position, or a position and a rotation row by row: 7 or 12
         numbers. Those of the solution are the configuration, its errors [m] and [rad], and the outcome, see
@@ -109,7 +109,8 @@ quick_search = lru_cache(_KEPT)(QuickSearch)
 def _searched(numbers: Array, at: Indices, by_quaternion: bool, is_seeded: bool) -> bool:
     """Fill in a solution, see `search_few` and `recompute`, with Pinocchio's configuration and the pose there.
 
-    The arguments are the memory, as numbers and as integers, in which form of the target and which of the seeds count.
+    The memory comes as numbers and as integers; `by_quaternion` says in which form the target is, and `is_seeded` which
+    of the two seeds counts.
     """
     c, t = at[_CHOICES], at[_TOLERANCES]
     joints, n, nq, to_base, to_tip, kind, axis = at[c], at[c + 1], at[c + 2], at[c + 3], at[c + 4], at[c + 5], at[c + 6]

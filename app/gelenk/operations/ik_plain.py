@@ -17,15 +17,13 @@ from gelenk.ik.quick import QuickSearch, quick_search
 from gelenk.ik.search.task import FULL_POSE
 from gelenk.operations.chains import head
 from gelenk.operations.ik_answer import unsolved_headers
-from gelenk.operations.ik_request import PLAIN, seeds_of, starts_of
+from gelenk.operations.ik_request import NUMBERS_OF_SOLUTION, PLAIN, seeds_of, starts_of
 from gelenk.operations.outcome import Limits, Outcome, RequestCounts
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import unit_quaternion
 from gelenk.robot.robot import RobotModel
 
 _KEPT = 64
-_FURTHER_NUMBERS = 4
-"""Numbers of a solution beside its joint positions."""
 
 
 def plain_outcome(robot: RobotModel, call: InverseRequest, limits: Limits) -> tuple[Outcome | None] | None:
@@ -34,7 +32,7 @@ def plain_outcome(robot: RobotModel, call: InverseRequest, limits: Limits) -> tu
         return None
     tolerances = call.position_tolerance, call.orientation_tolerance
     chain, search = _search(robot, call.base_frame, call.tip_frame, tolerances, call.respect_limits, call.random_seed)
-    if search is None or len(goals) * (len(chain) + _FURTHER_NUMBERS) > limits.answer_numbers:
+    if search is None or len(goals) * (len(chain) + NUMBERS_OF_SOLUTION) > limits.answer_numbers:
         return None
     seeds = None if call.seeds is None else seeds_of(chain, call, len(goals))
     found = []

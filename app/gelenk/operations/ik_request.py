@@ -26,6 +26,8 @@ PLAIN = {"targets", "seeds", "base_frame", "tip_frame", "respect_limits", "rando
 _VARIED = attrgetter("position_tolerance", "orientation_tolerance", "respect_limits", "random_seed")
 _QUICK_STARTS = 64
 """Starts of seven joints that take the event loop about 0.1 ms; a target that needs more goes to a worker."""
+NUMBERS_OF_SOLUTION = 4
+"""Numbers of a solution beside its joint positions."""
 NUMBERS_OF_CONTACT = 9
 """Numbers about the contacts of a solution."""
 NUMBERS_OF_STEPS = 1000
@@ -159,7 +161,7 @@ def _check_size(call: InverseRequest, targets: int, joints: int, bounds: TargetL
     rows = call.max_solutions if call.solutions == "all" else MAX_TRACE if call.trace else 1
     # The sweeps of families together have at most as many configurations as there may be solutions.
     contact = NUMBERS_OF_CONTACT * has_cell(call)
-    each = joints + 4 + contact + joints * (call.solutions == "all")
+    each = joints + NUMBERS_OF_SOLUTION + contact + joints * (call.solutions == "all")
     numbers = targets * (each * rows + NUMBERS_OF_STEPS * call.steps)
     if bounds.numbers is not None and numbers > bounds.numbers:
         raise TooLarge("numbers in the answer", numbers, bounds.numbers)

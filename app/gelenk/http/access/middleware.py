@@ -94,9 +94,11 @@ class Middleware:
 
         async def completed(message: Message) -> None:
             if message["type"] == "http.response.start":
-                message["headers"] = self._headers(exchange, message["status"], message.get("headers", ()))
+                headers = self._headers(exchange, message["status"], message.get("headers", ()))
                 if exchange.is_audited:
-                    await self._audit(exchange, message["headers"])
+                    await self._audit(exchange, headers)
+                # Without a body: FastAPI's traces end with the message that brings it.
+                message = {"type": message["type"], "status": message["status"], "headers": headers}
             await send(message)
 
         return completed

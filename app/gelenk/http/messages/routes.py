@@ -3,7 +3,7 @@
 FastAPI writes the OpenAPI document from the signature of an endpoint. Running the endpoint through FastAPI as well
 would cost several times the kinematics: its middleware, resolving dependencies, validating the response against its
 model (the tests do that instead). So a `DocumentedRoute` keeps the documentation and runs a handler; and `Application`
-calls that of an operation, which clients call thousands of times a second, before anything else.
+finds that of an operation, which clients call thousands of times a second, by its name alone.
 """
 
 import asyncio

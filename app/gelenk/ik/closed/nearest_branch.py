@@ -21,7 +21,7 @@ from gelenk.robot.chain import FlatChain
 from gelenk.robot.compilation import compiled, exclusive, inlined
 
 _HEAD = 16
-"""Number of single numbers before the arrays: ten integers, then four others."""
+"""Number of single numbers before the arrays: eleven integers, then four others."""
 _SMALL = 92
 """Numbers of the memory before those that depend on the arm: the target, and space for positioning joints."""
 _ROWS = MOST + 1

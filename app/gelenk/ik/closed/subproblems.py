@@ -56,7 +56,7 @@ def turn_of(angle: float) -> Turn:
 
 @inlined
 def angle_of(turn: Turn) -> float:
-    """Angle of a turn of any length, [rad], within 4e-16; 0 if the length is 0.
+    """Angle of a turn of any length, [rad], within 5e-16; 0 if the length is 0. A sine of -0 counts as 0.
 
     Unlike `math.atan2` it is no call, which would cost more than the arithmetic, and has no branches. The coefficients
     are those of Moshier's Cephes library.

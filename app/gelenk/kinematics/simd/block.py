@@ -1,6 +1,7 @@
 """Many small arrays in one piece of memory, for a compiled function that Python calls often.
 
-Each array among its arguments takes 50 ns, and half a kilobyte of code that is not at hand if others ran meanwhile.
+Each array among its arguments takes 50 ns, and half a kilobyte of machine code, which other calls push out
+of the processor's cache.
 """
 
 from collections.abc import Sequence
@@ -11,7 +12,7 @@ import numpy as np
 from gelenk.robot.arrays import Array, Indices
 
 
-class Block:
+class ArrayBlock:
     """Copies of arrays, one after the other.
 
     Attributes:

@@ -8,6 +8,7 @@ the poses of some samples. The result passes, or gives the reasons why not.
 import math
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass, replace
+from functools import cached_property
 from typing import Any, Literal, TypeVar
 
 import numpy as np
@@ -92,7 +93,7 @@ def whole_audit(chain: Chain, motion: PiecewisePolynomial, audits: Sequence[Audi
         return audits[0]
     timed = list(zip(audits, starts, strict=True))
     meeting = _Examination(motion, chain, Demands(), [])
-    jumps = jumps_of(motion.breaks, np.ascontiguousarray(motion.coefficients)).tolist() if len(chain) else []
+    jumps = jumps_of(*map(np.ascontiguousarray, (motion.breaks, motion.coefficients))).tolist() if len(chain) else []
     continuity = meeting.continuity({}, jumps)
     reasons = (*(_moved(reason, at) for one, at in timed for reason in one.reasons), *meeting.reasons)
     certificates, errors = [one.certificate for one in audits], [one.way_error for one in audits if one.way_error]
@@ -158,7 +159,7 @@ def _of_joints(chain: Chain, demands: Demands) -> JointDemands:
     )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Examination:
     """The checks of a motion; each adds to the reasons why it does not pass. The rows are those of `worst`."""
 
@@ -167,7 +168,7 @@ class _Examination:
     demands: Demands
     reasons: list[Reason]
 
-    @property
+    @cached_property
     def pieces(self) -> Pieces:
         """The pieces of the motion."""
         return pieces_of(self.motion)
@@ -296,7 +297,7 @@ class _Examination:
 def _ratio(value: float, limit: float) -> float:
     """Divide a magnitude by its limit; if the limit is 0, a value of 0 gives 0 and any other gives infinity."""
     size = abs(value)
-    return size / limit if limit > 0.0 else math.inf if size > 0.0 else 0.0
+    return size / limit if limit > 0.0 else 0.0 if size == 0.0 else math.inf
 
 
 def _scale(peaks: dict[str, Peak], quantity: str) -> float:

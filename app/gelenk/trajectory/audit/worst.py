@@ -91,7 +91,7 @@ def worst(values: Array, times: Array, limits: Array) -> tuple[float, float, flo
     for j in range(len(values)):
         ratio = size = abs(values[j])
         if is_limited:
-            ratio = size / limits[j] if limits[j] > 0.0 else np.inf if size > 0.0 else 0.0
+            ratio = size / limits[j] if limits[j] > 0.0 else 0.0 if size == 0.0 else np.inf
         rank = np.inf if math.isnan(ratio) else ratio
         if rank > most:
             joint, found, most = j, ratio, rank
