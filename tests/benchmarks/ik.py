@@ -198,7 +198,7 @@ def summary(scores: Scores) -> list[Row]:
         *ratio_rows(engine, scores, IkLmTuned, inside, median),
         *ratio_rows(one, scores, TracIk, median, median),
         *ratio_rows(one, scores, IkLm, median, median),
-        *ratio_rows(f"{one}, arms with a closed form", scores, Eaik, median, median, of=GelenkForm),
+        *ratio_rows(f"{one}, arms with a closed form", scores, Eaik, median, median, "≥ 1", GelenkForm),
         *slowest_row(scores),
         *ratio_rows(f"{batch}, 6 and 7 joints", few, TracIk, together, mean, "≥ 150"),
         *ratio_rows(f"{batch}, 6 and 7 joints", few, TracIkOnOneCore, together, mean),
