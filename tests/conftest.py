@@ -1,10 +1,15 @@
-"""Which cases of a sweep run at every turn; collecting them quickly."""
+"""Which cases of a sweep run at every turn; collecting them quickly; hearing interrupts."""
 
 import gc
+import signal
 import zlib
 from collections import defaultdict
 
 import pytest
+
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    # As a shell starts what runs in the background; what tests start would inherit it and hear no Ctrl-C.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_collection() -> None:
