@@ -40,7 +40,7 @@ def call_for(name: str, count: int, first: int = 0, **fields: Any) -> InverseReq
     return InverseRequest.model_validate_json(json.dumps({"targets": targets, **fields}))
 
 
-def told(outcome: Outcome | None, count: int) -> tuple[Any, ...]:
+def parts_of(outcome: Outcome | None, count: int) -> tuple[Any, ...]:
     """All that an answer may be made of."""
     assert outcome is not None
     assert outcome.array is not None
@@ -68,7 +68,7 @@ def test_it_is_what_the_general_way_answers(count: int, fields: dict[str, Any]) 
         call = call_for("panda", count, first, **fields)
         found = plain_outcome(robot.robot, call, LIMITS)
         if found is not None and found[0] is not None:
-            assert told(found[0], count) == told(ik.run(robot, call, LIMITS), count)
+            assert parts_of(found[0], count) == parts_of(ik.run(robot, call, LIMITS), count)
             compared += 1
     assert compared * count > 20
 
@@ -117,7 +117,7 @@ def test_threads_share_it() -> None:
 
     def positions(call: InverseRequest) -> Any:
         found = plain_outcome(robot.robot, call, LIMITS)
-        return found and found[0] and told(found[0], 1)[1]
+        return found and found[0] and parts_of(found[0], 1)[1]
 
     alone = [positions(call) for call in calls]
     with ThreadPoolExecutor(8) as threads:

@@ -90,7 +90,7 @@ class Middleware:
             log_request(exchange)
 
     def _completing(self, exchange: RequestContext, send: Send) -> Send:
-        """Return what sends a response of FastAPI, which it makes out of our sight."""
+        """Return a `send` that completes the headers of a response that FastAPI makes."""
 
         async def completed(message: Message) -> None:
             if message["type"] == "http.response.start":
