@@ -8,7 +8,9 @@ from random import Random
 
 import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
+from sympy.core import random as sympy_random
 
+from gelenk.dh.derive import factors as factoring
 from gelenk.dh.derive.algebra import (
     LENGTH,
     MAX_TERMS,
@@ -113,7 +115,7 @@ def test_derivatives_by_a_complex_step(polynomial: Polynomial, index: int) -> No
 
 
 def drawn(random: Random) -> Polynomial:
-    """A polynomial like POLYNOMIAL's. Few of these take minutes to factorise, so the draws have to be the same ones."""
+    """A polynomial like POLYNOMIAL's; the same ones each time, since they are not equally quick to factorise."""
     terms = []
     for _ in range(random.randint(1, 3)):
         term = random.choice([A2, A3, D4, ONE]) * number(random.choice([-3, -2, -1, 1, 2, 3]))
@@ -134,6 +136,24 @@ def test_a_factorisation_multiplies_out_to_what_was_factorised(seed: int) -> Non
             continue
         factor, factors = factorised(polynomial, group)
         assert reduce(lambda x, y: reduced(x * y, group), factors, number(factor)) == polynomial
+
+
+def test_a_factorisation_draws_the_same_numbers_each_time() -> None:
+    product = reduced((A2 + A3 * cosine((3,))) * (A2 * cosine((2,)) + A3 * cosine((2, 3))), group)
+    left = []
+    for begun in (1, 2):
+        sympy_random.seed(begun)
+        factorised(product, group)
+        left.append(sympy_random.rng.getstate())
+    assert left[0] == left[1]
+
+
+def test_factors_that_would_take_long_to_find_are_not_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(factoring, "MAX_HALF_ANGLE_TERMS", 11)
+    product = reduced((A2 + A3 * cosine((3,))) * (A2 * cosine((2,)) + A3 * cosine((2, 3))), group)
+    factor, found = factorised(product, group)
+    assert len(found) == 1
+    assert number(factor) * found[0] == product
 
 
 C2, S2, C3, S3, S5 = cosine((2,)), sine((2,)), cosine((3,)), sine((3,)), sine((5,))

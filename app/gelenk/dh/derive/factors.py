@@ -38,6 +38,8 @@ Degrees: TypeAlias = tuple[int, ...]
 MAX_FACTORED_TERMS = 60
 """Maximum number of terms of a polynomial that is searched for factors with common variables."""
 MAX_FACTORED_ANGLES = 4
+MAX_HALF_ANGLE_TERMS = 400
+"""Maximum number of terms of a polynomial in the tangents of the half angles: those of known arms have up to 160."""
 
 
 def factorised(polynomial: Polynomial, group: Group) -> tuple[Fraction, list[Polynomial]]:
@@ -164,6 +166,8 @@ def _searched(polynomial: Polynomial, group: Group) -> list[Polynomial] | None:
     ):
         return None
     half = _HalfAngles(polynomial, angles, group)
+    if len(half) > MAX_HALF_ANGLE_TERMS:
+        return None
     found = half.factors()
     if len(found) < 2:
         return None
@@ -222,8 +226,18 @@ class _HalfAngles:
         }
         self._numerator = self._half(polynomial)
 
+    def __len__(self) -> int:
+        return len(self._numerator)
+
     def factors(self) -> list[Polynomial]:
-        """Return the factors up to a number, without those that the denominator cancels."""
+        """Return the factors up to a number, without those that the denominator cancels.
+
+        SymPy draws at random where it evaluates a polynomial, and a bad draw takes it minutes where most take a
+        second. The draws are the same each time, so that a polynomial is always factored or never.
+        """
+        from sympy.core.random import seed  # noqa: PLC0415 - see above
+
+        seed(0)
         items: list[tuple[Degrees, Any]] = []
         squares = [self._tangents[k] ** 2 + 1 for k in self._angles]
         lacking = {k: 2 * self._degrees[k] for k in self._angles}
