@@ -91,6 +91,33 @@ def test_the_tour_brings_back_what_was_there(studio: Studio) -> None:
 
 
 @pytest.mark.slow
+def test_who_goes_through_it_quicker_than_the_address_follows_comes_back_too(studio: Studio) -> None:
+    studio.open("jacobian", robot="planar_2r", q="0.3,0.7")
+    before = studio.address()
+    at_the_end = studio.run(
+        """async () => {
+          const card = new Promise((done) => {
+            const seen = new MutationObserver(() => document.querySelector(".tour") && done());
+            seen.observe(document.body, {childList: true});
+          });
+          for (const tool of document.querySelectorAll("#tools button"))
+            if (tool.textContent === "Tour") tool.click();
+          await card;
+          for (let step = 1; step < 6; step++) document.querySelector(".tour .primary").click();
+          const hash = location.hash;
+          for (const found of document.querySelectorAll(".tour button"))
+            if (found.textContent === "Back to where I was") found.click();
+          return hash;
+        }"""
+    )
+    assert before.endswith(at_the_end), "the address has not followed yet"
+    studio.wait_for_robot("planar_2r")
+    assert studio.address() == before
+    assert studio.state("panel") == "jacobian"
+    assert list(studio.state("positions").values()) == [0.3, 0.7]
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(("size", "scheme"), [((1440, 900), "light"), ((390, 844), "dark")])
 def test_everyone_can_take_the_tour(another: Callable[..., Studio], size: tuple[int, int], scheme: str) -> None:
     """What a step points at is in sight, and the card covers no more than a part of it."""

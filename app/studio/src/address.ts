@@ -15,6 +15,7 @@ export const MARKS = ["frames", "axes", "names", "dh", "dimensions", "bodies"] a
 const FLAGS = [...UNITS, "parallel", ...MARKS] as const;
 const OPTION = /^[a-z]+\.[a-z]+$/; // `panel.option`
 const PARTS: readonly string[] = ["transforms", "pose", "jacobian", "singular", "motion"];
+const AGAIN = "gelenk:address"; // as the browser's `popstate`, where the address stays the same
 const WRITE_AFTER = 250; // browsers refuse more than some hundred changes of the address in half a minute
 
 export interface Address {
@@ -122,15 +123,24 @@ export function mirror(
       timer = window.setTimeout(update, WRITE_AFTER);
     },
   );
-  const follow = () => {
-    if (location.hash === written) return;
+  const show = () => {
     clearTimeout(timer);
     written = location.hash;
     restore(read(location.hash, store.value));
     place = placeOf(store.value);
   };
+  const follow = () => {
+    if (location.hash !== written) show();
+  };
   window.addEventListener("popstate", follow);
   window.addEventListener("hashchange", follow);
+  window.addEventListener(AGAIN, show);
+}
+
+/** Show what a link says, also if it is still in the address bar since the state is ahead of it. */
+export function goTo(hash: string): void {
+  if (location.hash === hash) window.dispatchEvent(new Event(AGAIN));
+  else location.hash = hash;
 }
 
 function placeOf({ panel, robot, options }: Readonly<State>): string {

@@ -1,5 +1,6 @@
 /** Leads through the page: a card with a step at a time, beside what it speaks of. */
 
+import { goTo } from "../address.ts";
 import type { Studio } from "../panels/panel.ts";
 import { shownChain } from "../robot/chain.ts";
 import { t } from "../texts/index.ts";
@@ -139,7 +140,7 @@ export class Tour {
     this.#step.abort();
     this.#card.remove();
     this.studio.store.set({ lit: null });
-    if (back) location.hash = this.#before;
+    if (back) goTo(this.#before);
     if (this.from.isConnected && this.from.offsetHeight > 0) this.from.focus();
     else this.#panel.focus();
   }
