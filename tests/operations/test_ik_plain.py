@@ -11,8 +11,9 @@ import pytest
 
 from gelenk.contract.ik import InverseRequest
 from gelenk.errors import InvalidInput, TooLarge
+from gelenk.ik.closed.closed_form import closed_form
 from gelenk.kinematics.simd.kernels import chain_poses
-from gelenk.operations import ik
+from gelenk.operations import ik, ik_plain
 from gelenk.operations.ik_plain import plain_outcome
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.pose_arrays import pose_list
@@ -25,9 +26,12 @@ LIMITS = Limits(1000, 60.0)
 
 
 @cache
-def loaded(name: str) -> LoadedRobot:
+def loaded(name: str, base_frame: str | None = None, tip_frame: str | None = None) -> LoadedRobot:
+    """A robot of which it is known whether the chain has a closed form."""
     folder = Settings().catalogue_dir
-    return Library(folder, folder / "none").get(name)
+    found = Library(folder, folder / "none").get(name)
+    closed_form(found.robot.chain(base_frame, tip_frame))
+    return found
 
 
 def call_for(name: str, count: int, first: int = 0, **fields: Any) -> InverseRequest:
@@ -63,12 +67,11 @@ def parts_of(outcome: Outcome | None, count: int) -> tuple[Any, ...]:
 )
 @pytest.mark.parametrize("count", [1, 4])
 def test_it_is_what_the_general_way_answers(count: int, fields: dict[str, Any]) -> None:
-    robot, compared = loaded("panda"), 0
+    robot, compared = loaded("panda", fields.get("base_frame"), fields.get("tip_frame")), 0
     for first in range(0, 40, count):
         call = call_for("panda", count, first, **fields)
-        found = plain_outcome(robot.robot, call, LIMITS)
-        if found is not None and found[0] is not None:
-            assert parts_of(found[0], count) == parts_of(ik.run(robot, call, LIMITS), count)
+        if (found := plain_outcome(robot, call, LIMITS)) is not None:
+            assert parts_of(found, count) == parts_of(ik.run(robot, call, LIMITS), count)
             compared += 1
     assert compared * count > 20
 
@@ -85,30 +88,46 @@ def test_it_is_what_the_general_way_answers(count: int, fields: dict[str, Any]) 
     ],
 )
 def test_it_leaves_other_calls_to_the_general_way(name: str, fields: dict[str, Any]) -> None:
-    assert plain_outcome(loaded(name).robot, call_for(name, 1, **fields), LIMITS) is None
+    assert plain_outcome(loaded(name), call_for(name, 1, **fields), LIMITS) is None
 
 
 def test_it_leaves_refusals_and_large_answers_to_the_general_way() -> None:
     robot, call = loaded("panda"), call_for("panda", 2)
-    assert plain_outcome(robot.robot, call, Limits(22, 60.0)) is not None
+    assert plain_outcome(robot, call, Limits(22, 60.0)) is not None
     small = Limits(21, 60.0)
-    assert plain_outcome(robot.robot, call, small) is None
+    assert plain_outcome(robot, call, small) is None
     with pytest.raises(TooLarge, match="numbers in the answer"):
         ik.attempt(robot, call, small)
+    assert plain_outcome(robot, call_for("panda", 8), LIMITS) is not None
+    assert plain_outcome(robot, call_for("panda", 9), LIMITS) is None
     for seeds in ([[0.0] * 7] * 3, [[0.0] * 6]):
         wrong = call_for("panda", 2, seeds=seeds)
         with pytest.raises(InvalidInput) as general:
             ik.run(robot, wrong, LIMITS)
         with pytest.raises(type(general.value)) as plain:
-            ik.attempt(robot, wrong, LIMITS)
+            plain_outcome(robot, wrong, LIMITS)
         assert str(plain.value) == str(general.value)
 
 
 def test_a_target_without_a_solution_is_left_to_a_worker() -> None:
     robot, call = loaded("panda"), call_for("panda", 2)
     call.targets[1].position[:] = [9.0, 9.0, 9.0]  # type: ignore[union-attr]
-    assert plain_outcome(robot.robot, call, LIMITS) == (None,)
+    assert plain_outcome(robot, call, LIMITS) is None
     assert ik.attempt(robot, call, LIMITS) is None
+
+
+def test_nothing_is_prepared_that_would_take_long(monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = Settings().catalogue_dir
+    robot, call = Library(folder, folder / "none").get("panda"), call_for("panda", 1)
+    assert plain_outcome(robot, call, LIMITS) is None
+    assert not ik.WARM_UP.is_known(robot, call), "it has not been found on the way"
+    ik.WARM_UP.keep(robot, call, ik.WARM_UP.find(robot, call))
+    monkeypatch.setattr(ik_plain, "is_awaited", lambda: True)
+    assert plain_outcome(robot, call, LIMITS) is None, "the kernels are still compiled"
+    monkeypatch.undo()
+    assert plain_outcome(robot, call, LIMITS) is not None
+    monkeypatch.setattr(ik_plain, "is_awaited", lambda: True)
+    assert plain_outcome(robot, call, LIMITS) is not None, "this search is prepared"
 
 
 def test_threads_share_it() -> None:
@@ -116,8 +135,8 @@ def test_threads_share_it() -> None:
     calls = [call_for("panda", 1, i) for i in range(30)] * 4
 
     def positions(call: InverseRequest) -> Any:
-        found = plain_outcome(robot.robot, call, LIMITS)
-        return found and found[0] and parts_of(found[0], 1)[1]
+        found = plain_outcome(robot, call, LIMITS)
+        return found and parts_of(found, 1)[1]
 
     alone = [positions(call) for call in calls]
     with ThreadPoolExecutor(8) as threads:

@@ -106,9 +106,15 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
             return await submitted(runner, endpoint.name, request, planned, pieces, applied)
         if request.length <= INLINE_BYTES and pool_client.may_compute_here:
             call, found = _parsed(endpoint, query, pieces, is_npy), operation(endpoint.name)
+            robot = pool_client.loaded(request.scope["path_params"]["robot"]) if found.needs_robot else None
+            if robot is not None and found.at_once is not None:
+                began = time.thread_time()
+                outcome = found.at_once(robot, call, limits)
+                pool_client.note_computation(began)
+                if outcome is not None:
+                    return _answered(endpoint, call, outcome, wanted)
             if not (wanted in PICTURES or _names_scene(call) or found.is_heavy(call)):
-                robot = _at_hand(found, pool_client, request, call)
-                if robot is None and found.needs_robot:
+                if found.needs_robot and not _is_prepared(found, robot, call):
                     robot = await _prepared(found, pool_client, request, call, task_request)
                 began = time.thread_time()
                 outcome = found.run(None, call, limits) if robot is None else found.attempt(robot, call, limits)
@@ -132,10 +138,9 @@ def _format(query: str, wanted: str) -> str:
     return YAML if name == "joint_trajectory" and wanted == YAML else _FORMATS[name]
 
 
-def _at_hand(found: Operation, pool_client: PoolClient, request: BoundedRequest, call: Any) -> LoadedRobot | None:
-    """Return the robot of a request, if it is in memory with all that a quick answer needs of it."""
-    robot = pool_client.loaded(request.scope["path_params"]["robot"]) if found.needs_robot else None
-    return robot if robot and (found.warm_up is None or found.warm_up.is_known(robot, call)) else None
+def _is_prepared(found: Operation, robot: LoadedRobot | None, call: Any) -> bool:
+    """Check whether a robot is in memory with all that a quick answer needs of it."""
+    return robot is not None and (found.warm_up is None or found.warm_up.is_known(robot, call))
 
 
 async def _prepared(

@@ -38,7 +38,7 @@ _KEPT = 64
 
 
 class QuickSearch:
-    """The search of a chain for a task, and its judge, ready to be called from any thread."""
+    """The search of a chain of `count` variables for a task, and its judge, ready to be called from any thread."""
 
     def __init__(
         self,
@@ -62,13 +62,14 @@ class QuickSearch:
         )
         seeds, pose = np.array([mid_range(chain)] * 2), (np.zeros((1, 3)), np.zeros((1, 3, 3)))
         found = np.zeros((1, n)), np.zeros((2, 1)), np.zeros((3, 1), np.int64)
-        block = ArrayBlock((*constant, seeds, np.zeros((1, 4)), *pose, *pose, np.zeros((1, nq)), *found))
+        block = ArrayBlock((*constant, seeds, np.zeros((1, 5)), *pose, *pose, np.zeros((1, nq)), *found))
         views, numbers, places = block.views, memoryview(block.numbers.data), block.integers.tolist()
-        self._memory, self._seed, self._count = (block.numbers, block.integers), views[_SEEDS][1], n
+        self._memory, self._seed = (block.numbers, block.integers), views[_SEEDS][1]
+        self.chain, self.count = chain, n
         self._lock = robot.lock
         self._own = OwnPose(robot, chain, views[_FULL_Q][0], (views[_OWN_POSITION], views[_OWN_ROTATION]))
         self._writers = {
-            7: partial(Struct("7d").pack_into, numbers[places[_QUATERNION] :], 0),
+            8: partial(Struct("8d").pack_into, numbers[places[_QUATERNION] :], 0),
             12: partial(Struct("12d").pack_into, numbers[places[_POSITION] :], 0),
         }
         self._found = partial(Struct(f"{n + 2}d3q").unpack_from, numbers[places[_Q] :])
@@ -76,15 +77,15 @@ class QuickSearch:
     def __call__(self, target: Sequence[float], seed: Array | None) -> tuple[Any, ...] | None:
         """Return the solution from a seed, shape (n,), or the middle of the ranges; None if the search finds none.
 
-        The target is a unit quaternion x y z w and a position, or a position and a rotation row by row: 7 or 12
-        numbers. Those of the solution are the configuration, its errors [m] and [rad], and the outcome, see
-        `search_few`. Raises CertificationFailed if Pinocchio's own pose there is another.
+        The target is the length of a quaternion x y z w, that, and a position; or a position and a rotation row by
+        row: 8 or 12 numbers. Those of the solution are the configuration, its errors [m] and [rad], and the outcome,
+        see `search_few`. Raises CertificationFailed if Pinocchio's own pose there is another.
         """
         with self._lock:
             self._writers[len(target)](*target)
             if seed is not None:
                 self._seed[:] = seed
-            if not _searched(*self._memory, len(target) == 7, seed is not None):
+            if not _searched(*self._memory, len(target) == 8, seed is not None):
                 return None
             self._own.errors()
             return self._found()
@@ -96,7 +97,7 @@ class QuickSearch:
             if (numbers := self(target, seeds[i if len(seeds) > 1 else 0])) is None:
                 return None
             found.append(numbers)
-        n, rows = self._count, np.array(found).reshape(-1, self._count + 5)
+        n, rows = self.count, np.array(found).reshape(-1, self.count + 5)
         restarts, iterations, _ = rows[:, n + 2 :].T.astype(np.int64)
         return InverseKinematics(rows[:, :n], rows[:, n], rows[:, n + 1], iterations, restarts, *by_search(len(found)))
 
@@ -124,7 +125,10 @@ def _searched(numbers: Array, at: Indices, by_quaternion: bool, is_seeded: bool)
     goal = Goal(bounds, weights, kind, axis, tolerances[0], numbers[t + 2], numbers[t + 3], at[c + 7], at[c + 8])
     position, rotation = part(numbers, at[_POSITION], (1, 3)), part(numbers, at[_ROTATION], (1, 3, 3))
     if by_quaternion:
-        turn_by_quaternions_xyzw(part(numbers, at[_QUATERNION], (1, 4)), rotation)
+        length, quaternion = numbers[at[_QUATERNION]], part(numbers, at[_QUATERNION] + 1, (1, 4))
+        for k in range(4):
+            quaternion[0, k] /= length
+        turn_by_quaternions_xyzw(quaternion, rotation)
     seed = part(numbers, at[_SEEDS] + n * is_seeded, (1, n))
     q, errors = part(numbers, at[_Q], (1, n)), part(numbers, at[_ERRORS], (2, 1))
     if not search_few(flat, goal, position, rotation, seed, q, part(at, at[_OUTCOMES], (3, 1))):

@@ -15,16 +15,17 @@ from gelenk.operations.cells import cell_of, has_cell
 from gelenk.operations.ik_answer import results_to_json, table, to_json, unsolved_headers
 from gelenk.operations.ik_contacts import certify_table, contacts_of
 from gelenk.operations.ik_plain import plain_outcome
-from gelenk.operations.ik_request import PLAIN, TargetLimits, has_table, parse, starts_of, task_of
+from gelenk.operations.ik_request import PLAIN, QUICK_TARGETS, TargetLimits, has_table, parse, starts_of, task_of
 from gelenk.operations.outcome import Limits, Outcome, RequestCounts, WarmUp
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.compilation import is_awaited
 from gelenk.store.records import LoadedRobot
 
-_QUICK_TARGETS = 8
 _SHARE_OF_TIME = 0.8
 """Share of a request's time for a search with a time limit: sending its result takes time too."""
+
+at_once = plain_outcome
 
 
 def run(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome:
@@ -40,8 +41,6 @@ def run(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome:
 
 def attempt(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome | None:
     """Try the operation with a few starts; return None if they do not suffice."""
-    if (plain := plain_outcome(loaded.robot, call, limits)) is not None:
-        return plain[0]
     problem = parse(loaded.robot, call, _bounds(limits))
     starts = starts_of(problem.chain, call.max_iterations)
     result = solve_quickly(problem, starts, by_form=call.method == "analytic")
@@ -54,7 +53,7 @@ def _bounds(limits: Limits) -> TargetLimits:
 
 def is_heavy(call: InverseRequest) -> bool:
     """Check whether a request takes the event loop more than about a millisecond."""
-    one_by_search = call.model_fields_set <= PLAIN or (
+    one_by_search = call.__pydantic_fields_set__ <= PLAIN or (
         not has_cell(call)
         and call.method in {"auto", "analytic"}
         and call.elbow_angle is None
@@ -64,7 +63,7 @@ def is_heavy(call: InverseRequest) -> bool:
         and not call.steps
         and call.objective is None
     )
-    return is_awaited() or not one_by_search or len(call.targets) > _QUICK_TARGETS
+    return is_awaited() or not one_by_search or len(call.targets) > QUICK_TARGETS
 
 
 def _subject(loaded: LoadedRobot, call: InverseRequest) -> tuple[Chain, Task]:

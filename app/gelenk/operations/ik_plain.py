@@ -5,58 +5,66 @@ numbers are the answer.
 """
 
 from functools import lru_cache
-from typing import Any, cast
+from math import hypot
+from typing import Any
 
 import numpy as np
 
 from gelenk.contract.ik import InverseRequest
-from gelenk.contract.pose import Pose
-from gelenk.errors import InvalidPose
-from gelenk.ik.closed.closed_form import closed_form
+from gelenk.ik.closed.closed_form import closed_form, is_looked_at
 from gelenk.ik.quick import QuickSearch, quick_search
 from gelenk.ik.search.task import FULL_POSE
 from gelenk.operations.chains import head
 from gelenk.operations.ik_answer import unsolved_headers
-from gelenk.operations.ik_request import NUMBERS_OF_SOLUTION, PLAIN, seeds_of, starts_of
+from gelenk.operations.ik_request import NUMBERS_OF_SOLUTION, PLAIN, QUICK_TARGETS, seeds_of, starts_of
 from gelenk.operations.outcome import Limits, Outcome, RequestCounts
 from gelenk.robot.chain import Chain
-from gelenk.robot.poses import unit_quaternion
+from gelenk.robot.compilation import is_awaited
+from gelenk.robot.poses import is_unit
 from gelenk.robot.robot import RobotModel
+from gelenk.store.records import LoadedRobot
 
 _KEPT = 64
 
 
-def plain_outcome(robot: RobotModel, call: InverseRequest, limits: Limits) -> tuple[Outcome | None] | None:
-    """Return the outcome of such a call, None in its place if a target has no solution; and None for other calls."""
-    if not call.__pydantic_fields_set__ <= PLAIN or not (goals := _goals(call)):
+def plain_outcome(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome | None:
+    """Return the outcome of such a call; None for other calls, and if a target has no solution.
+
+    A search is prepared only if that is quick: if the kernels are there, and the lack of a closed form is known.
+    """
+    if not call.__pydantic_fields_set__ <= PLAIN or not (goals := _goals(call.targets)):
         return None
-    tolerances = call.position_tolerance, call.orientation_tolerance
-    chain, search = _search(robot, call.base_frame, call.tip_frame, tolerances, call.respect_limits, call.random_seed)
-    if search is None or len(goals) * (len(chain) + NUMBERS_OF_SOLUTION) > limits.answer_numbers:
+    robot, tolerances = loaded.robot, (call.position_tolerance, call.orientation_tolerance)
+    try:
+        search = _search(robot, call.base_frame, call.tip_frame, tolerances, call.respect_limits, call.random_seed)
+    except _NotYetError:
         return None
-    seeds = None if call.seeds is None else seeds_of(chain, call, len(goals))
+    if search is None or len(goals) * (search.count + NUMBERS_OF_SOLUTION) > limits.answer_numbers:
+        return None
+    seeds = None if call.seeds is None else seeds_of(search.chain, call, len(goals))
     found = []
     for i, goal in enumerate(goals):
         seed = None if seeds is None else seeds[i if len(seeds) > 1 else 0]
         if (numbers := search(goal, seed)) is None:
-            return (None,)
+            return None
         found.append(numbers)
-    return (_outcome(chain, found),)
+    return _outcome(search.chain, found)
 
 
-def _goals(call: InverseRequest) -> list[list[float]] | None:
-    """Return unit quaternions x y z w and positions; None for another notation, and for what is none of that."""
-    if isinstance(call.targets, np.ndarray):
+def _goals(targets: Any) -> list[list[float]] | None:
+    """Return what a search takes; None for many, for another notation, and for quaternions of no rotation."""
+    if type(targets) is not list or len(targets) > QUICK_TARGETS:
         return None
     goals = []
-    for pose in cast(list[Pose], call.targets):
-        if pose.quaternion_xyzw is None:
+    for pose in targets:
+        if (quaternion := pose.quaternion_xyzw) is None or not is_unit(length := hypot(*quaternion)):
             return None
-        try:
-            goals.append([*unit_quaternion(pose.quaternion_xyzw), *pose.position])
-        except InvalidPose:  # for the general way to say so
-            return None
+        goals.append([length, *quaternion, *pose.position])
     return goals
+
+
+class _NotYetError(Exception):
+    """What a search needs is not there yet: it is not kept that there is none."""
 
 
 @lru_cache(_KEPT)
@@ -67,13 +75,15 @@ def _search(
     tolerances: tuple[float, float],
     respect_limits: bool,
     random_seed: int,
-) -> tuple[Chain, QuickSearch | None]:
-    """Return a chain and its search, None if it has a closed form."""
+) -> QuickSearch | None:
+    """Return the search of a chain, None if it has a closed form."""
     chain = robot.chain(base_frame, tip_frame)
+    if is_awaited() or not is_looked_at(chain):
+        raise _NotYetError
     if closed_form(chain) is not None:
-        return chain, None
+        return None
     starts = starts_of(chain, None)
-    return chain, quick_search(robot, chain, FULL_POSE, tolerances, respect_limits, starts, random_seed)
+    return quick_search(robot, chain, FULL_POSE, tolerances, respect_limits, starts, random_seed)
 
 
 def _outcome(chain: Chain, found: list[tuple[Any, ...]]) -> Outcome:

@@ -19,6 +19,7 @@ class Operation:
     endpoint: Endpoint[Any, Any]
     _run: Callable[..., Outcome]
     is_heavy: Callable[[Any], bool]
+    at_once: Callable[[LoadedRobot, Any, Limits], Outcome | None] | None
     _attempt: Callable[[LoadedRobot, Any, Limits], Outcome | None] | None
     warm_up: WarmUp[Any] | None
     _takes_robot: bool
@@ -45,5 +46,5 @@ def operation(name: str) -> Operation:
     is_heavy = getattr(module, "is_heavy", lambda _: False)
     needs_robot = isinstance(endpoint, RobotEndpoint)
     takes_robot = needs_robot or bool(endpoint.robot_field)
-    attempt, warm_up = getattr(module, "attempt", None), getattr(module, "WARM_UP", None)
-    return Operation(endpoint, module.run, is_heavy, attempt, warm_up, takes_robot, needs_robot)
+    at_once, attempt, warm_up = (getattr(module, name, None) for name in ("at_once", "attempt", "WARM_UP"))
+    return Operation(endpoint, module.run, is_heavy, at_once, attempt, warm_up, takes_robot, needs_robot)
