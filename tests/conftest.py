@@ -1,7 +1,8 @@
-"""Which cases of a sweep run at every turn; collecting them quickly; hearing interrupts."""
+"""Which cases of a sweep run at every turn; collecting them quickly; hearing interrupts; the same draws each time."""
 
 import gc
 import signal
+import sys
 import zlib
 from collections import defaultdict
 
@@ -18,9 +19,14 @@ def pytest_collection() -> None:
 
 
 def pytest_collection_finish() -> None:
-    """From here on it counts, but for what is there already."""
+    """From here on it counts, but for what is there already. Hypothesis is loaded by now, if any test needs it."""
     gc.freeze()
     gc.enable()
+    if (providers := sys.modules.get("hypothesis.internal.conjecture.providers")) is not None:
+        # It would also draw the numbers and texts in modules of ours that are loaded: what an earlier test imports
+        # would change the draws of all later ones.
+        nothing = providers.Constants()
+        vars(providers)["_get_local_constants"] = lambda: nothing
 
 
 @pytest.hookimpl(tryfirst=True)
