@@ -132,10 +132,12 @@ def answer(url: str, asked: Asked, further: dict[str, Any]) -> Any:
 
 
 @pytest.fixture(scope="module", autouse=True)
-def cell(url: str) -> None:
-    """The scene that options name."""
+def cell(url: str) -> Iterator[None]:
+    """The scene that options name; gone at the end, for other tests may come between those of this module."""
     post = {"name": "post", "shape": {"type": "sphere", "radius": 0.1}, "pose": {"position": [0.0, 0.8, 0.3]}}
     assert get(f"{url}/v1/scenes", "POST", {"name": "cell", "objects": [post]})[0] == 201
+    yield
+    assert get(f"{url}/v1/scenes/cell", "DELETE")[0] == 204
 
 
 @pytest.mark.slow
