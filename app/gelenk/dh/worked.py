@@ -47,7 +47,7 @@ _Result = TypeVar("_Result")
 
 
 class BoundedRunner(Protocol):
-    """Runs a function of plain data somewhere, with a time limit in [s]; TimeoutError if it takes longer."""
+    """Runs a function of plain data somewhere, with processor time in [s]; TimeoutError if it takes longer."""
 
     def __call__(self, function: Callable[[_Question], _Result], question: _Question, seconds: float, /) -> _Result:
         """Return the function's result."""
@@ -109,7 +109,7 @@ def worked_solution(
         first_index: Index of the first row: 4 for a wrist at the end of an arm with three joints.
         columns: Order of the columns of the table in the steps.
         run: Runs the symbolic part.
-        deadline: Time at which the symbolic part must be done, on the monotonic clock, [s]; none if left out.
+        deadline: Time at which the symbolic part must be done, on `time.process_time`, [s]; none if left out.
 
     Raises:
         InvalidDhTable: A row follows another joint.
@@ -202,7 +202,7 @@ class _Timed:
         what: str,
     ) -> _Result | None:
         """Return the function's result within its share of the time that is left; None and a note if it fails."""
-        seconds = float("inf") if self.deadline is None else (self.deadline - time.monotonic()) * share
+        seconds = float("inf") if self.deadline is None else (self.deadline - time.process_time()) * share
         try:
             return self.run(function, question, seconds)
         except (TimeoutError, MemoryError):

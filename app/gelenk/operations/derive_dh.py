@@ -23,7 +23,7 @@ from gelenk.errors import InvalidField
 from gelenk.operations.outcome import always, json_only
 
 SECONDS = 8.0
-"""Time limit of the symbolic part, [s]; what is not done by then stays numeric."""
+"""Processor time of the symbolic part, [s]; what is not done by then stays numeric."""
 _IMPORT = "<frozen importlib._bootstrap>"
 _AFTER_IMPORT = 0.02
 _Question = TypeVar("_Question")
@@ -48,7 +48,7 @@ def run(call: DeriveRequest) -> dict[str, Any]:
         columns=call.columns,
         dynamics=None if call.dynamics is None else call.dynamics.dynamics(),
         run=in_time,
-        deadline=time.monotonic() + SECONDS,
+        deadline=time.process_time() + SECONDS,
     )
     found, singular, names = solution.formulas, solution.singularities, solution.joint_names
     jacobian = None
@@ -82,14 +82,15 @@ def run(call: DeriveRequest) -> dict[str, Any]:
 def in_time(function: Callable[[_Question], _Result], question: _Question, seconds: float) -> _Result:
     """Run a function, but break it off with TimeoutError after `seconds`, though never while it imports a module.
 
-    Only a main thread can be broken off, as a worker's is; in another one, as at the command line, the function ends
+    They are seconds of processor time, so that an answer does not depend on what else the machine has to do. Only a
+    main thread can be broken off, as a worker's is; in another one, as at the command line, the function ends
     by itself.
     """
 
     def stop(_: int, frame: FrameType | None) -> None:
         while frame is not None:
             if frame.f_code.co_filename == _IMPORT:
-                signal.setitimer(signal.ITIMER_REAL, _AFTER_IMPORT)
+                signal.setitimer(signal.ITIMER_PROF, _AFTER_IMPORT)
                 return
             frame = frame.f_back
         raise _Overdue
@@ -98,13 +99,13 @@ def in_time(function: Callable[[_Question], _Result], question: _Question, secon
         raise TimeoutError
     if threading.current_thread() is not threading.main_thread():
         return function(question)
-    signal.signal(signal.SIGALRM, stop)
+    signal.signal(signal.SIGPROF, stop)
     try:
         try:
-            signal.setitimer(signal.ITIMER_REAL, seconds)
+            signal.setitimer(signal.ITIMER_PROF, seconds)
             return function(question)
         finally:
-            signal.setitimer(signal.ITIMER_REAL, 0.0)
+            signal.setitimer(signal.ITIMER_PROF, 0.0)
     except _Overdue:
         raise TimeoutError from None
 

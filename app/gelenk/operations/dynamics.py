@@ -45,7 +45,7 @@ from gelenk.store.records import LoadedRobot
 _MOST_JOINTS = 2
 """Number of joints up to which the equations of motion are short enough to stand before their numbers."""
 _SECONDS = 4.0
-"""Time limit of the equations in symbols, [s]."""
+"""Processor time of the equations in symbols, [s]."""
 _ROUNDING = 1e-9
 """Coordinates of a centre of mass below this count as zero, [m]."""
 
@@ -106,7 +106,7 @@ def _closed_form(found: ChainMechanism, gravity: Array) -> list[Step]:
     x, y, z = (R.T @ gravity / size if size else -R[2]).tolist()
     bodies = _link_bodies(found, table, motions(found.bodies, np.zeros((1, len(chain)))))
     properties = MassProperties(bodies, Gravity(size, (x, y, z)))
-    solved = worked_solution(table, dynamics=properties, run=in_time, deadline=time.monotonic() + _SECONDS)
+    solved = worked_solution(table, dynamics=properties, run=in_time, deadline=time.process_time() + _SECONDS)
     if solved.motion is None or solved.formulas is None:
         return []
     legend = {entry.latex: entry.value for entry in (*solved.formulas.legend, *solved.motion.texts.legend)}

@@ -33,7 +33,7 @@ from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot
 
 _SECONDS = 4.0
-"""Time limit of the determinant in symbols, [s]."""
+"""Processor time of the determinant in symbols, [s]."""
 _TRIALS = 5
 _SAME = 1e-6
 
@@ -72,7 +72,8 @@ def _factored(robot: RobotModel, chain: Chain, space: TaskSpace) -> list[Step]:
     table = standard_table(robot.description, chain)
     if table is None or any(row.mimic is not None for row in table.joints):
         return []
-    found = worked_solution(table, list(map(tuple, trials.tolist())), run=in_time, deadline=time.monotonic() + _SECONDS)
+    until = time.process_time() + _SECONDS
+    found = worked_solution(table, list(map(tuple, trials.tolist())), run=in_time, deadline=until)
     plain = TaskSpace(space.task, None, space.reference)
     products = np.prod(np.linalg.svd(plain.jacobians(chain, trials), compute_uv=False), axis=1)
     sizes = np.abs(np.array(found.determinants, dtype=float))
