@@ -53,6 +53,12 @@ class Shell:
     def json(self, *arguments: object, code: int = 0) -> Any:
         return json.loads(self("--format", "json", *arguments, code=code)[0])
 
+    def remove_added(self) -> None:
+        """Remove the robots that a test has added to the application in this process: others list what is there."""
+        for robot in self.json("robots")["robots"]:
+            if robot["source"] == "uploaded":
+                self("remove", robot["name"])
+
 
 @pytest.fixture
 def shell(own: local.InProcess, capfdbinary: pytest.CaptureFixture[bytes], monkeypatch: pytest.MonkeyPatch) -> Shell:

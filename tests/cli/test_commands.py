@@ -163,6 +163,7 @@ def test_what_is_not_read_of_an_mjcf_is_told_on_standard_error(shell: Shell, tmp
     for command in (("fk", arm, "-q", "0.5"), ("robots", arm), ("add", arm, "--name", "told")):
         assert shell(*command)[1] == "gelenk: file 'arm.xml': line 2: actuator is not read\n"
     assert shell("--quiet", "fk", arm, "-q", "0.5")[1] == ""
+    shell.remove_added()
 
 
 @pytest.mark.parametrize("prefix", ["", "xacro:"])
@@ -189,9 +190,7 @@ def test_a_faulty_file_is_taken_unless_strict(shell: Shell, tmp_path: Path) -> N
             shell(*command)
             assert "not well-formed XML" in shell("--strict", *command, code=2)[1]
     assert "before the XML declaration" in shell("add", file)[0]
-    for added in shell.json("robots")["robots"]:
-        if added["source"] == "uploaded":
-            shell("remove", added["name"])
+    shell.remove_added()
 
 
 def test_one_of_several_urdfs_of_a_zip_is_added(shell: Shell, tmp_path: Path) -> None:

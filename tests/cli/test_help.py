@@ -36,6 +36,7 @@ def test_each_command_shows_a_call_and_each_call_answers(
         if command == "grade":
             Path("answers.csv").write_text("participant,exercise,field,answer\n7,actuators.gear,speed,60\n", "utf-8")
         shell(*arguments)
+    shell.remove_added()
     assert {path.name for path in tmp_path.iterdir()} == {
         *("arm.urdf", "table.csv", "motion.csv", "points.npy", "ellipse.svg", "reach.png"),
         *("sheets.zip", "answers.csv", "frames.svg"),
