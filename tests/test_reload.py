@@ -34,13 +34,13 @@ def test_a_change_starts_it_again_and_a_mistake_does_not_end_it(tmp_path: Path) 
     main = package / "main.py"
     with subprocess.Popen(command, cwd=tmp_path, env=environment) as run:
         try:
-            wait_for(lambda: version() == "Gelenk", 120.0)
+            wait_for(lambda: version() == "Gelenk", 300.0)
             file.write_text("def wrong(:\n")
             wait_for(lambda: version() == "", 60.0)
             assert run.poll() is None
             file.write_text(right)
             main.write_text(main.read_text().replace('title="Gelenk"', 'title="Another"'))
-            wait_for(lambda: version() == "Another", 120.0)
+            wait_for(lambda: version() == "Another", 300.0)
         finally:
             run.terminate()
-            assert run.wait(30) == 0
+            assert run.wait(60) == 0

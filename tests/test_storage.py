@@ -160,14 +160,14 @@ def test_a_read_only_disk_and_a_full_one(tmp_path: Path) -> None:
         large = job(url)
         assert large.status == 202
         path = f"/v1/jobs/{large.content['id']}"
-        wait_for(lambda: ask(url, path).content["state"] == "failed", 60.0)
+        wait_for(lambda: ask(url, path).content["state"] == "failed")
         assert problem(ask(url, f"{path}/result")) == (507, "storage-full")
         # What a process of jobs was writing in this very moment goes a minute later.
         leftovers = re.compile(r"part-|\.new-|\.npy$")
-        wait_for(lambda: not [name for name in disk.files() if leftovers.search(name)], 100.0)
+        wait_for(lambda: not [name for name in disk.files() if leftovers.search(name)], 200.0)
         small = job(url, samples=1000)
         assert small.status == 202
-        wait_for(lambda: ask(url, f"/v1/jobs/{small.content['id']}").content["state"] == "succeeded", 60.0)
+        wait_for(lambda: ask(url, f"/v1/jobs/{small.content['id']}").content["state"] == "succeeded")
 
 
 @pytest.mark.slow

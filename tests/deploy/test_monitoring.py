@@ -120,12 +120,12 @@ def test_the_dashboard_shows_a_running_service(tmp_path: Path) -> None:
                 wait_for_numbers(f"http://{HOST}:{port}", url, anna)
             finally:
                 run.terminate()
-                run.wait(timeout=30)
+                run.wait(timeout=60)
 
 
 def wait_for_numbers(prometheus: str, url: str, key: dict[str, str]) -> None:
     """Go on calling, for a rate needs two looks, until every panel has a number."""
-    deadline = time.monotonic() + 120
+    deadline = time.monotonic() + 300
     missing = list(dashboard_queries())
     while missing:
         for path, call in CALLS:

@@ -47,7 +47,7 @@ def ended(ask: Callable[[], dict[str, Any]], seconds: float = 120.0) -> dict[str
 
 def running(client: TestClient, location: str) -> dict[str, Any]:
     """The job, once some of it is done."""
-    deadline = time.monotonic() + 60.0
+    deadline = time.monotonic() + 120.0
     while (job := client.get(location).json())["progress"] == 0.0:
         assert time.monotonic() < deadline
         time.sleep(0.02)
