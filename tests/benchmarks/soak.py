@@ -38,7 +38,10 @@ class Asked(NamedTuple):
 
 
 class Times(NamedTuple):
-    """How long it goes on, [s]: what comes first is not measured, then what it is measured against, and its end."""
+    """How long it goes on once each client has asked everything, [s].
+
+    What comes first is not measured, then what it is measured against, and its end.
+    """
 
     warm_up: float = 240.0
     measured: float = 1200.0
@@ -58,6 +61,8 @@ def measured(times: Times) -> list[Row]:
         for client in clients:
             client.start()
         try:
+            while answers.total() < CLIENTS * len(requests):
+                stop.wait(1.0)
             stop.wait(times.warm_up)
             sizes = sampled(pid, times.measured)
         finally:
@@ -89,7 +94,7 @@ def sampled(pid: int, seconds: float) -> list[float]:
 
 def requests_of(url: str) -> list[Asked]:
     """Every operation that has an example, those that need none, and some of the author's own."""
-    with urlopen(f"{url}/openapi.json", timeout=20) as answer:
+    with urlopen(f"{url}/openapi.json", timeout=120) as answer:
         paths = json.load(answer)["paths"]
     found = [Asked("DELETE", "/v1/robots/my_arm", None), large_batch()]
     for path, methods in paths.items():
@@ -113,11 +118,12 @@ def large_batch() -> Asked:
 
 
 def ask(url: str, requests: Sequence[Asked], seed: int, answers: Counter[int], stop: threading.Event) -> None:
-    """What a client does: one request after the other, in an order of its own; 0 stands for a broken connection."""
-    address, draw = urlsplit(url), random.Random(seed)
+    """What a client does: all requests, each time in another order of its own; 0 stands for a broken connection."""
+    address, draw, left = urlsplit(url), random.Random(seed), list[Asked]()
     connection = HTTPConnection(address.hostname or "", address.port, timeout=90)
     while not stop.is_set():
-        method, path, body = draw.choice(requests)
+        left = left or draw.sample(requests, len(requests))
+        method, path, body = left.pop()
         try:
             connection.request(method, path, body, {"Content-Type": "application/json"} if body else {})
             answer = connection.getresponse()

@@ -7,7 +7,8 @@ from tests.benchmarks.soak import Times, measured
 
 @pytest.mark.slow
 def test_a_short_one_tells_of_answers_and_memory() -> None:
-    (row,) = measured(Times(warm_up=10.0, measured=10.0, plateau=4.0))
+    # By then the processes are replaced that have loaded what is seldom needed, which gives memory back.
+    (row,) = measured(Times(warm_up=40.0, measured=10.0, plateau=4.0))
     assert int(row.measured.split()[0]) > 50  # a busy machine answers few
     assert "unexpected none" in row.measured
     assert row.ratio is not None
