@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from playwright.sync_api import Route, expect
 
 from gelenk.robot.arrays import Array
 from tests.studio.browser import Studio
@@ -194,6 +195,20 @@ def test_every_form_of_the_matrix_and_a_reload(studio: Studio, refusals: set[int
     assert len(told(studio, "semi-axes")) == 2
     studio.button("Base axes").click()
     problem.wait_for(state="hidden")
+
+
+@pytest.mark.slow
+def test_a_singularity_that_is_found_before_the_ellipsoids_follows_the_unit(studio: Studio) -> None:
+    held: list[Route] = []
+    studio.page.route("**/manipulability", lambda route: held.append(route))  # noqa: PLW0108 - it takes no built-in
+    studio.open("jacobian", robot="planar_2r", q="0.3,0.8")
+    found = "document.querySelector('.singularity').dataset.distance > 0"
+    studio.until(found)
+    held[0].continue_()
+    studio.until("document.querySelector('[data-semi-axes]')")
+    studio.run("studio.store.set({degrees: true})")
+    expect(studio.page.locator(".nearest")).to_contain_text("45.8°")
+    assert studio.run(found)
 
 
 @pytest.mark.slow

@@ -1,14 +1,18 @@
 """How the page loads: what is on the canvas when, which meshes it asks for, and what it no longer waits for."""
 
+import contextlib
 import io
 import json
+import re
 from typing import Any
 
 import pytest
 from PIL import Image
-from playwright.sync_api import Route, expect
+from playwright.sync_api import Error, Route, expect
 
+from tests.oracles import catalogue
 from tests.studio.browser import Studio
+from tests.test_serve import get
 
 HELD_FRAMES = """
 const queue = [], now = requestAnimationFrame.bind(globalThis);
@@ -142,3 +146,36 @@ def test_a_mesh_that_cannot_be_made_small_is_shown_as_it_is(studio: Studio) -> N
     studio.open(robot="talos_left_arm")
     assert studio.run("studio.store.value.model.meshes.failed.length") == 0
     assert asked.count("*/*") == len(asked) / 2
+
+
+@pytest.mark.slow
+def test_a_table_that_comes_late_does_not_replace_the_one_that_is_typed(studio: Studio) -> None:
+    """Of a chain, which the service has to look for."""
+    held: list[Route] = []
+    studio.page.route(re.compile(r"/dh\?"), lambda route: held.append(route))  # noqa: PLW0108 - it takes no built-in
+    studio.open("pose", robot="planar_2r", tip="frame_1", show="dh")
+    studio.hear(held)
+    typed = catalogue.dh_table("scara")
+    studio.run("(draft) => studio.store.set({robot: '', draft, base: null, tip: null})", typed)
+    studio.wait_for_robot(None)
+    with contextlib.suppress(Error):  # the page has given it up
+        held[0].fulfill(json=get(held[0].request.url)[1])
+    studio.address()
+    assert studio.state("table")["dh"] == typed
+
+
+@pytest.mark.slow
+def test_a_panel_that_fails_to_load_leaves_the_one_that_is_open_by_then(studio: Studio) -> None:
+    held: list[Route] = []
+    failed: list[str] = []
+    studio.page.route("**/chunks/exercises-*", lambda route: held.append(route))  # noqa: PLW0108 - it takes no built-in
+    studio.page.on("requestfailed", lambda request: failed.append(request.url))
+    studio.open("exercises", robot="planar_2r")
+    studio.hear(held)
+    studio.page.get_by_role("tab", name="Pose").click()
+    held[0].abort()
+    studio.hear(failed)
+    studio.drawn()
+    expect(studio.field("joint_1")).to_be_visible()
+    assert studio.page.locator(".problem:visible").count() == 0
+    studio.complaints.clear()  # the console tells of it too

@@ -22,6 +22,7 @@ export function later(load: () => Promise<Pick<Panel, "open">>, failure: string)
         close = loaded.open(host, studio);
       },
       (error: unknown) => {
+        if (!isOpen) return;
         host.replaceChildren(problem.host);
         problem.show(asProblem(error, failure));
       },

@@ -116,9 +116,9 @@ export class Loader {
   /** The table of the chain, where its frames are wanted. A draft is its own. */
   async #fetchTable(): Promise<void> {
     const { dh, draft, model } = this.store.value;
+    this.#tables.cancel();
     if (draft || !model || model.name === null) return;
     if (!dh) {
-      this.#tables.cancel();
       this.store.set({ table: null });
       return;
     }

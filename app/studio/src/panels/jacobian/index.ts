@@ -119,7 +119,6 @@ class Views implements Listener {
   answered(answers: Answers): void {
     const { matrix, form } = answers;
     this.#answers = answers;
-    this.#nearest = null;
     this.#problems.all.show(null);
     this.#problems.matrix.show(matrix instanceof Problem ? matrix : null);
     if (matrix instanceof Problem) this.matrix.clear();
