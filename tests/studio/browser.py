@@ -24,12 +24,20 @@ Only what a page draws with WebGL goes through the card's stand-in: whole pages 
 share a process, since a new one for each visit costs as much as the visit.
 """
 
-_PATIENCE = 90.0
-"""How long whatever a test waits for may take, [s]: a busy machine draws slowly."""
+PATIENCE = 200.0
+"""How long whatever a test waits for may take, [s]: a busy machine draws slowly, a fresh tree compiles its kernels."""
 
-expect.set_options(timeout=_PATIENCE * 1000)
+expect.set_options(timeout=PATIENCE * 1000)
 
 _NAMES = ("chromium", "chromium-browser", "google-chrome")
+
+_FORGET = """() => {
+  try {
+    for (const kept of [localStorage, sessionStorage]) kept.clear();
+  } catch { /* a page of no service has none */ }
+  Storage.prototype.setItem = () => {};
+}"""
+"""The studio keeps its steps when it is left, at an address that the next test may open too."""
 
 _WATCH_POLICY = """
 globalThis.violations = [];
@@ -47,14 +55,14 @@ def chromium() -> str | None:
 class Pages:
     """Pages of one browser profile, each used by a test after the other: a new one costs several times its studio.
 
-    The studio keeps in the browser a key for a service that wants one, and what a person prefers, which is forgotten
-    here; a test begins at an empty page.
+    The studio keeps in the browser a key for a service that wants one, what a person prefers, and steps to undo, which
+    are forgotten here; a test begins at an empty page.
     """
 
     def __init__(self, browser: Browser, *, is_certificate_checked: bool = True) -> None:
         self._context = browser.new_context(ignore_https_errors=not is_certificate_checked)
         self._context.add_init_script(_WATCH_POLICY)
-        self._context.set_default_timeout(_PATIENCE * 1000)
+        self._context.set_default_timeout(PATIENCE * 1000)
         self._free: list[Page] = []
 
     def take(self) -> Page:
@@ -65,7 +73,7 @@ class Pages:
         """A page that a test has left, as it left it; one that no longer answers is not used again."""
         try:
             page.unroute_all(behavior="ignoreErrors")
-            page.evaluate("() => { try { localStorage.clear() } catch { /* a page of no service has none */ } }")
+            page.evaluate(_FORGET)
             page.goto("about:blank")
         except Error:
             page.close()
@@ -136,14 +144,15 @@ class Studio:
         )
         self.until("(({shown, failed, wanted}) => shown + failed.length >= wanted)(studio.store.value.model.meshes)")
         self.until("!studio.view || studio.view.canvas.dataset.drawn === studio.store.value.model.title")
+        self.drawn()  # the last mesh has moved the camera
 
     def run(self, expression: str, argument: Any = None) -> Any:
         """The value of an expression in the page; playwright's own waiting would need `unsafe-eval`."""
         return self.page.evaluate(expression, argument)
 
-    def until(self, expression: str, seconds: float = _PATIENCE) -> None:
+    def until(self, expression: str) -> None:
         """Wait until an expression is true in the page: what it asks of may not be there yet, nor the page itself."""
-        deadline = time.monotonic() + seconds
+        deadline = time.monotonic() + PATIENCE
         while (found := self._found(expression)) is not True:
             assert time.monotonic() < deadline, f"never true: {expression}, but {found}"
             time.sleep(0.02)
@@ -162,19 +171,34 @@ class Studio:
 
     def hear(self, events: Sized, count: int = 1) -> None:
         """Wait until so many events have come to a list: Playwright hands them over while it is asked for something."""
-        deadline = time.monotonic() + _PATIENCE
+        deadline = time.monotonic() + PATIENCE
         while len(events) < count:
             assert time.monotonic() < deadline, f"{len(events)} of {count} have come"
             self.run("1")
 
     def address(self) -> str:
         """The address, once it has followed the state: a timer of the page's own comes after those of before."""
-        self.run("new Promise((done) => setTimeout(done, 300))")
-        return self.page.url
+        address: str = self.run("new Promise((done) => setTimeout(() => done(location.href), 300))")
+        return address
 
     def drawn(self) -> None:
         """Wait until what has been asked for is drawn: a frame comes after those of before."""
         self.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+    def typeset(self) -> None:
+        """Wait for the fonts of what stands on the page: without them rows have other heights."""
+        self.drawn()
+        self.until("document.fonts.status === 'loaded'")
+
+    def copied(self, button: Locator) -> str:
+        """What a button puts into the clipboard, which it does in its own time."""
+        self.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+        self.run("navigator.clipboard.writeText('')")
+        button.click()
+        self.run("globalThis.copied = ''")
+        self.until("(navigator.clipboard.readText().then((text) => { copied = text; }), copied)")
+        text: str = self.run("copied")
+        return text
 
     def state(self, key: str) -> Any:
         """A value of the page's state."""

@@ -43,7 +43,7 @@ def trajectory(studio: Studio) -> None:
         studio.run("(moved) => studio.store.set({positions: {...studio.store.value.positions, ...moved}})", moved)
         studio.button(segment).click()
     studio.button("Plan").click()
-    studio.until("studio.store.value.plan", 200)
+    studio.until("studio.store.value.plan")
 
 
 def worked(studio: Studio) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Locator, expect
 
-from tests.studio.browser import Studio
+from tests.studio.browser import PATIENCE, Studio
 from tests.studio.pure import values
 from tests.studio.test_page import CUT_OFF, axe
 from tests.test_serve import get
@@ -269,7 +269,7 @@ def drag(studio: Studio, what: str, dx: float, dy: float) -> None:
 
 def eventually(is_true: Callable[[], bool]) -> None:
     """Wait until the page has caught up."""
-    deadline = time.monotonic() + 90.0
+    deadline = time.monotonic() + PATIENCE
     while not is_true():
         assert time.monotonic() < deadline
         time.sleep(0.02)

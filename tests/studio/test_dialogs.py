@@ -59,7 +59,6 @@ def test_a_key_is_asked_for_where_the_service_wants_one(another: Callable[..., S
         again = studio.page.get_by_role("dialog", name="This service wants a key")
         again.get_by_role("button", name="Cancel").click()
         expect(again).to_have_count(0)
-        studio.run("sessionStorage.clear()")
 
 
 @pytest.mark.slow

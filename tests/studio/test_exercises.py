@@ -167,9 +167,8 @@ def test_a_key_that_may_not_see_solutions_gets_titles_as_hints(another: Callable
         assert studio.page.locator(".steps li").all_text_contents() == ["Axes and lever arms"]
         graded(studio)
         studio.button("Show the solution").click()
-        studio.page.wait_for_timeout(300)
+        studio.drawn()
         assert studio.page.locator(".answer-right:visible, .problem:visible").count() == 0
-        studio.run("sessionStorage.clear()")
 
 
 @pytest.mark.slow
@@ -194,6 +193,7 @@ def test_it_speaks_german_and_keeps_what_is_typed(studio: Studio) -> None:
 @pytest.mark.slow
 def test_new_numbers_and_the_way_back(studio: Studio) -> None:
     studio.open("exercises", robot="planar_2r")
+    studio.field("Lecture").wait_for()
     assert any("chunks/exercises" in name for name in loaded(studio))
     studio.field("Lecture").select_option("velocities")
     studio.page.get_by_role("button", name="The Jacobian of two links").click()
@@ -232,7 +232,7 @@ def test_the_pictures_of_the_course_and_of_the_robots_table(studio: Studio) -> N
     studio.open("exercises", robot="anthropomorphic", **{"exercises.part": "pictures", "exercises.language": "de"})
     listed = get(f"{studio.url}/v1/course/pictures?language=de")[1]["pictures"]
     shown = "[...document.querySelectorAll('figure img')].filter((image) => image.naturalWidth > 0)"
-    studio.until(f"{shown}.length === {len(listed) + 2}", 200)
+    studio.until(f"{shown}.length === {len(listed) + 2}")
     assert [one["title"] for one in listed] == studio.run(f"{shown}.slice(2).map(({{alt}}) => alt)")
     (triangle,) = (one["title"] for one in listed if one["name"] == "triangle")
     with studio.page.expect_download() as download:

@@ -157,15 +157,16 @@ def test_the_target_is_turned_about_its_own_axes(studio: Studio) -> None:
 PLAYED_TO = """(least) => new Promise((done) => {
   const slider = document.querySelector(".stepper input");
   const play = [...document.querySelectorAll(".stepper button")].find((each) => each.textContent === "Play");
-  play.click();
-  const look = () => {
-    if (Number(slider.value) < least) return requestAnimationFrame(look);
+  const seen = new MutationObserver(() => {
+    if (Number(slider.value) < least) return;
+    seen.disconnect();
     play.click();
     done();
-  };
-  look();
+  });
+  seen.observe(document.querySelector(".stepper-count"), {childList: true});
+  play.click();
 })"""
-"""Play until an iteration is reached, and pause there: a walk is over before a busy machine would press."""
+"""Play until an iteration is reached, and pause there: a walk is over before a busy machine would press, or draw."""
 
 
 def way(studio: Studio, method: str, index: int) -> tuple[float, float]:

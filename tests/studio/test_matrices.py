@@ -33,15 +33,13 @@ def test_other_programs_read_it_to_the_last_digit() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize(("panel", "name"), [("pose", "Homogeneous"), ("jacobian", "the Jacobian")])
 def test_it_is_copied_from_the_page(studio: Studio, panel: str, name: str) -> None:
-    studio.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     studio.open(panel, robot="planar_2r", q="0.3,0.8")
     if panel == "pose":
         studio.page.locator("summary", has_text="As matrices").click()
     else:
         studio.until("document.querySelector('[data-jacobian]')")
     copy = studio.page.get_by_role("button", name=re.compile(f"Copy {name} as NumPy", re.IGNORECASE))
-    copy.click()
-    copied = studio.run("navigator.clipboard.readText()")
+    copied = studio.copied(copy)
     shown = studio.page.locator("[data-matrix], [data-jacobian]").first
     whole = shown.get_attribute("data-matrix") or shown.get_attribute("data-jacobian")
     assert whole is not None

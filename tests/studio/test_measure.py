@@ -55,6 +55,7 @@ def test_what_is_not_seen_is_not_measured(studio: Studio) -> None:
     studio.open("ik", robot="scara", q="0.4,0.8,0.1,0.4")
     studio.until("studio.store.value.target && [...studio.view.handles].length")
     studio.button("Measure").click()
+    studio.drawn()
     left, top, height = studio.run(
         "(({left, top, height}) => [left, top, height])(studio.view.canvas.getBoundingClientRect())"
     )
@@ -67,6 +68,7 @@ def test_two_points_of_the_picture_are_measured(studio: Studio) -> None:
     """A press near a frame means its origin, another one a point of the surface; nothing is dragged meanwhile."""
     studio.open("pose", robot="scara", q="0.4,0.8,0.1,0.4")
     studio.button("Measure").click()
+    studio.drawn()  # what stands above the picture may have changed its size
     before = studio.state("positions")
     places = [studio.run(PLACE, link) for link in ("base", "frame_1")]
     for _, (x, y) in places:
@@ -116,6 +118,7 @@ def test_ghosts_are_told_apart(studio: Studio) -> None:
 def test_rows_of_symbols_and_numbers_are_beside_each_other(studio: Studio, part: str) -> None:
     studio.open("worked", robot="anthropomorphic", q="0.3,0.6,-0.8", worked=part)
     studio.until("document.querySelector('.sheet .katex .mtable')")
+    studio.typeset()
     found = studio.run("""[...document.querySelectorAll(".line:not(.large)")].flatMap((line) => {
       const [, column] = [...line.querySelectorAll(".mtable")].map((table) => table.firstElementChild).slice(-2)
           .length > 1 ? [null, null] : [null, line.querySelector(".mtable > span")];

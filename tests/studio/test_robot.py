@@ -295,6 +295,7 @@ def test_a_malformed_urdf_shows_its_error(studio: Studio, refusals: set[int]) ->
 def test_a_typed_table_is_on_the_screen_with_its_frames(studio: Studio) -> None:
     type_table(studio, ANTHROPOMORPHIC)
     studio.until("document.querySelectorAll('.label.z').length === 4")
+    studio.drawn()
     shown = studio.page.locator(".label:visible")
     texts = set(" ".join(shown.all_text_contents()).split())
     assert {"x₀", "z₀", "x₃", "z₃", "a₂", "a₃"} <= texts

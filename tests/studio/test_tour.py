@@ -17,15 +17,13 @@ STEPS = [
     ("Worked solution", "worked", ".sheet"),
     ("Plan a motion", "trajectory", ".player"),
 ]
-COLD = 200
-"""Seconds that the first plan of a fresh tree may take, while its kernels are compiled."""
 
 
 def stands(studio: Studio, step: int) -> None:
     """Wait for a step, with what it points at; the card has the focus."""
     title, panel, points = STEPS[step]
     expect(studio.page.get_by_role("dialog", name=title)).to_be_visible()
-    studio.until(f"document.querySelector('[data-toured]')?.matches({points!r})", COLD)
+    studio.until(f"document.querySelector('[data-toured]')?.matches({points!r})")
     assert studio.state("panel") == panel
     assert studio.run("document.querySelectorAll('[data-toured]').length") == 1
     assert studio.run("document.activeElement.closest('.tour') !== null")
@@ -55,7 +53,7 @@ def test_the_tour_shows_six_things_by_the_keys(studio: Studio) -> None:
     studio.page.keyboard.press("ArrowRight")
     stands(studio, 5)
     studio.page.keyboard.press("ArrowRight")  # held too long, it does not end it
-    studio.until("studio.store.value.plan", COLD)
+    studio.until("studio.store.value.plan")
     assert studio.run("studio.store.value.plan.answer.duration") > 0
     expect(studio.button("Back to where I was")).to_be_hidden()
     studio.page.keyboard.press("Enter")

@@ -167,7 +167,6 @@ def test_a_planar_arm_has_equations_of_motion(studio: Studio) -> None:
 
 @pytest.mark.slow
 def test_it_is_written_otherwise_copied_and_reopened(studio: Studio) -> None:
-    studio.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     studio.open("worked", dh_table=ANTHROPOMORPHIC_TABLE, q="0.3,0.6,-0.8")
     part(studio, "T⁰ᵢ")
     studio.button("cos(q₁ + q₂)").click()
@@ -176,8 +175,7 @@ def test_it_is_written_otherwise_copied_and_reopened(studio: Studio) -> None:
     answer = derived(studio, dh, [0.3, 0.6, -0.8], notation="full", symbolic=False)
     last = f"T^{{0}}_{{3}} = {answer['T_0'][2]['latex']}"
     studio.until(f"{FORMULAS}.includes({json.dumps(last)})")
-    studio.button("Copy Forward kinematics as LaTeX").click()
-    copied = studio.run("navigator.clipboard.readText()")
+    copied = studio.copied(studio.button("Copy Forward kinematics as LaTeX"))
     assert copied.startswith("\\paragraph{Forward kinematics}\nT\\_0\\_i")
     assert f"\\[ {last} \\approx \\begin{{bmatrix}}" in copied
     studio.address()
@@ -259,6 +257,7 @@ def test_rows_of_numbers_stand_on_those_of_the_formula_beside_them(
     studio.until(AGREES)
     for name in ("DH and Aᵢ", "T⁰ᵢ", "Jacobian"):
         part(studio, name)
+        studio.typeset()
         rows = dict(studio.run(APART))
         assert len(rows) >= (1 if name == "T⁰ᵢ" else 3)
         assert np.abs(np.concatenate(list(rows.values()))).max() < 1, rows
