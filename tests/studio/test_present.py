@@ -64,3 +64,22 @@ def test_keys_step_through_the_panels_and_hide_them(another: Callable[..., Studi
     studio.button("Next panel").focus()
     studio.page.keyboard.press("Escape")
     expect(studio.page.get_by_role("tablist")).to_be_visible()
+
+
+@pytest.mark.slow
+def test_who_leaves_before_the_screen_is_full_is_not_left_with_a_full_one(studio: Studio) -> None:
+    studio.open("pose", robot="planar_2r")
+    studio.run("""() => {
+      globalThis.left = 0;
+      document.documentElement.requestFullscreen = () => new Promise((done) => (globalThis.fill = done));
+      document.exitFullscreen = () => Promise.resolve((left += 1));
+    }""")
+    for kept in (True, False):
+        studio.button("Present").click()
+        if not kept:
+            studio.button("Leave").click()
+        studio.run("fill()")
+        studio.drawn()
+        assert studio.run("left") == (0 if kept else 1)
+        if kept:
+            studio.button("Leave").click()
