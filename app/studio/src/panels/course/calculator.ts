@@ -33,6 +33,15 @@ export interface Field {
   choose?: (value: string) => Inputs;
 }
 
+export const number = (pointer: string, label: string, unit: string, optional = false, step = 0.1): Field => ({
+  pointer,
+  label,
+  unit,
+  kind: "number",
+  optional,
+  step,
+});
+
 /** A line of the answer; a matrix is set as one, and what is in `rad` is shown in degrees where these are wanted. */
 export interface Fact {
   label: string;

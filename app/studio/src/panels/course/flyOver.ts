@@ -2,7 +2,7 @@
 
 import { t } from "../../texts/index.ts";
 import type { FlyOverAnswer, FlyOverRequest } from "../../types.ts";
-import { type Calculator, type Field, type Inputs, type Picture, type Point, valueAt } from "./calculator.ts";
+import { type Calculator, type Field, type Inputs, number, type Picture, type Point, valueAt } from "./calculator.ts";
 import { short } from "./chart.ts";
 import { Plane, type Stage } from "./stage.ts";
 import { arrow, dot, handle, label, line } from "./svg.ts";
@@ -21,14 +21,6 @@ const GIVEN = [
 ] as const;
 
 const POINTS = ["start", "corner", "end"] as const;
-const number = (pointer: string, label: string, unit: string, optional = false): Field => ({
-  pointer,
-  label,
-  unit,
-  kind: "number",
-  optional,
-  step: 0.1,
-});
 
 export const flyOver: Calculator<FlyOverRequest, FlyOverAnswer> = {
   id: "fly-over",

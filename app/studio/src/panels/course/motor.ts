@@ -2,7 +2,7 @@
 
 import { t } from "../../texts/index.ts";
 import type { DcMotorAnswer, DcMotorRequest } from "../../types.ts";
-import type { Calculator, Field, Picture } from "./calculator.ts";
+import { type Calculator, number, type Picture } from "./calculator.ts";
 import { chart, short } from "./chart.ts";
 import type { Stage } from "./stage.ts";
 
@@ -20,15 +20,6 @@ const EXAMPLE: DcMotorRequest = {
   duration: 0.5,
 };
 
-const number = (pointer: string, label: string, unit: string, step: number, optional = false): Field => ({
-  pointer,
-  label,
-  unit,
-  kind: "number",
-  step,
-  optional,
-});
-
 export const motor: Calculator<DcMotorRequest, DcMotorAnswer> = {
   id: "dc-motor",
   title: t("DC motor"),
@@ -42,15 +33,15 @@ export const motor: Calculator<DcMotorRequest, DcMotorAnswer> = {
     { title: t("Oscillating"), inputs: { ...EXAMPLE, inductance: 0.05, inertia: 2e-5, duration: 0.3 } },
   ],
   fields: () => [
-    number("voltage", t("Voltage V"), "V", 1),
-    number("load_torque", "Load τ_L", "N m", 0.01, true),
-    number("resistance", t("Resistance R"), "Ω", 0.1),
-    number("inductance", t("Inductance L"), "H", 0.001),
-    number("torque_constant", "Constant k_t", "N m/A", 0.01),
-    number("back_emf_constant", "Constant k_e", "V s/rad", 0.01, true),
-    number("viscous_friction", t("Friction b"), "N m s", 1e-5, true),
-    number("inertia", t("Inertia J"), "kg m²", 1e-5),
-    number("duration", t("Shown for"), "s", 0.1, true),
+    number("voltage", t("Voltage V"), "V", false, 1),
+    number("load_torque", "Load τ_L", "N m", true, 0.01),
+    number("resistance", t("Resistance R"), "Ω"),
+    number("inductance", t("Inductance L"), "H", false, 0.001),
+    number("torque_constant", "Constant k_t", "N m/A", false, 0.01),
+    number("back_emf_constant", "Constant k_e", "V s/rad", true, 0.01),
+    number("viscous_friction", t("Friction b"), "N m s", true, 1e-5),
+    number("inertia", t("Inertia J"), "kg m²", false, 1e-5),
+    number("duration", t("Shown for"), "s", true),
   ],
   beside: ({ duration }) => (duration == null ? {} : { samples: 241, times: null }),
   facts: ({ steady_state: steady, torque_speed_line: edge, dynamics }) => [

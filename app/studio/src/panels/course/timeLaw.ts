@@ -2,7 +2,7 @@
 
 import { t } from "../../texts/index.ts";
 import type { TimeLawAnswer, TimeLawRequest } from "../../types.ts";
-import type { Calculator, Fact, Field, Inputs } from "./calculator.ts";
+import { type Calculator, type Fact, type Field, type Inputs, number } from "./calculator.ts";
 import { motionFacts, motionPicture } from "./motion.ts";
 import { short } from "./chart.ts";
 
@@ -39,14 +39,6 @@ const field = (pointer: string, label: string, unit: string, optional = true): F
   unit,
   kind: "list",
   optional,
-});
-const number = (pointer: string, label: string, unit: string, optional = false): Field => ({
-  pointer,
-  label,
-  unit,
-  kind: "number",
-  optional,
-  step: 0.1,
 });
 
 const ENDS = [field("start", t("Start q₀"), JOINT, false), field("target", t("Target q₁"), JOINT, false)];
