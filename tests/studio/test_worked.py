@@ -209,6 +209,8 @@ def test_long_work_is_stopped(studio: Studio) -> None:
     studio.page.route("**/v1/dh/derive", lambda route: held.append(route.continue_))
     studio.button("Values").click()
     studio.hear(held)
+    studio.run("studio.store.set({positions: {...studio.store.value.positions}})")
+    studio.run("new Promise((done) => setTimeout(done, 400))")  # the joints have come to rest where they were
     studio.button("Stop").click()
     assert studio.page.get_by_role("status").all_text_contents().count("Working it out …") == 0
     assert "a_{2}" in " ".join(studio.run(FORMULAS))
@@ -216,6 +218,43 @@ def test_long_work_is_stopped(studio: Studio) -> None:
     studio.button("Symbols").click()
     studio.until(AGREES)
     assert len(held) == 1
+
+
+@pytest.mark.slow
+def test_what_is_asked_for_no_more_does_not_come(studio: Studio) -> None:
+    studio.open("worked", dh_table=ANTHROPOMORPHIC_TABLE)
+    studio.until(AGREES)
+    held: list[Callable[[], None]] = []
+    studio.page.route("**/v1/dh/derive", lambda route: held.append(route.continue_))
+    studio.button("Values").click()
+    studio.hear(held)
+    studio.button("Symbols").click()
+    studio.until(
+        "![...document.querySelectorAll('[role=status]')].some((one) => one.textContent.startsWith('Working'))"
+    )
+    assert "a_{2}" in " ".join(studio.run(FORMULAS))
+    studio.page.unroute("**/v1/dh/derive")
+    studio.button("Values").click()
+    studio.until(f"{AGREES} && !{FORMULAS}.join().includes('a_{{2}}')")
+    studio.button("Symbols").click()
+    studio.until(f"{AGREES} && {FORMULAS}.join().includes('a_{{2}}')")
+
+
+@pytest.mark.slow
+def test_a_failure_does_not_stay_where_what_was_before_is_wanted_again(studio: Studio, refusals: set[int]) -> None:
+    refusals.add(503)
+    studio.open("worked", dh_table=ANTHROPOMORPHIC_TABLE)
+    studio.until(AGREES)
+    problem = {"title": "Overloaded", "status": 503, "detail": "later", "type": "about:blank"}
+    studio.page.route(
+        "**/v1/dh/derive",
+        lambda route: route.fulfill(status=503, content_type="application/problem+json", body=json.dumps(problem)),
+    )
+    studio.button("Values").click()
+    studio.page.locator(".problem:visible").wait_for()
+    studio.page.unroute("**/v1/dh/derive")
+    studio.button("Symbols").click()
+    studio.until(f"{AGREES} && {FORMULAS}.join().includes('a_{{2}}')")
 
 
 SLANTED = {

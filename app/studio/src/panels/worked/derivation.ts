@@ -31,6 +31,7 @@ export class Derivation {
   #answers = new Latest();
   #table: DhTable | null = null;
   #answered = "";
+  #asked = "";
   #rest = 0;
 
   constructor(
@@ -57,18 +58,27 @@ export class Derivation {
 
   /** Wait no longer. */
   cancel(): void {
+    clearTimeout(this.#rest);
     this.#tables.cancel();
-    this.#answers.cancel();
+    this.#drop();
     this.listener.busy(false);
   }
 
-  /** Ask for the solution, unless it is there. */
+  #drop(): void {
+    this.#answers.cancel();
+    this.#asked = "";
+  }
+
+  /** Ask for the solution, unless it is there, or asked for already. */
   async ask(): Promise<void> {
     const { positions, writing } = this.store.value;
     if (!this.#table) return;
     const { key, call } = question(this.#table, positions, writing);
     const asked = JSON.stringify(call);
-    if (asked === this.#answered) return;
+    if (asked === this.#asked) return;
+    this.#drop();
+    if (asked === this.#answered) return this.listener.busy(false);
+    this.#asked = asked;
     await this.#attempt(async () => {
       const answer = await this.#answers.run((signal) => this.api.post<DeriveAnswer>("v1/dh/derive", call, signal));
       if (!answer) return false;
@@ -81,7 +91,7 @@ export class Derivation {
   async #fetchTable(): Promise<void> {
     this.#table = null;
     this.#answered = ""; // the sheet is empty again, be the table the same
-    this.#answers.cancel();
+    this.#drop();
     await this.#attempt(async () => {
       const found = await this.#tables.run((signal) => chainTable(this.api, this.store.value, signal));
       if (!found) return false;
@@ -98,6 +108,7 @@ export class Derivation {
       if (!(await work())) return;
       this.listener.failed(null);
     } catch (error) {
+      this.#asked = this.#answered = ""; // what stood on the sheet is gone
       this.listener.failed(asProblem(error));
     }
     this.listener.busy(false);
