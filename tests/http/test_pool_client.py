@@ -47,10 +47,7 @@ def test_in_a_turn_of_the_event_loop_one_long_answer_is_computed_there() -> None
         )
         may = []
         for seconds in (0.0, 2e-3):
-            began = time.thread_time()
-            while time.thread_time() < began + seconds:
-                pass
-            assert pool_client.note_computation(began) == (seconds > 0.0)
+            assert pool_client.note_computation(seconds) == (seconds > 0.0)
             may.append(pool_client.may_compute_here)
         await asyncio.sleep(0)
         return [*may, pool_client.may_compute_here]

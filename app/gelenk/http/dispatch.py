@@ -108,9 +108,9 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
             call, found = _parsed(endpoint, query, pieces, is_npy), operation(endpoint.name)
             robot = pool_client.loaded(request.scope["path_params"]["robot"]) if found.needs_robot else None
             if robot is not None and found.at_once is not None:
-                began = time.thread_time()
+                began = time.perf_counter()  # processor time is the same or less, and a tenth as quick to read
                 outcome = found.at_once(robot, call, limits)
-                pool_client.note_computation(began)
+                pool_client.note_computation(time.perf_counter() - began)
                 if outcome is not None:
                     return _answered(endpoint, call, outcome, wanted)
             if not (wanted in PICTURES or _names_scene(call) or found.is_heavy(call)):
@@ -118,7 +118,7 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
                     robot = await _prepared(found, pool_client, request, call, task_request)
                 began = time.thread_time()
                 outcome = found.run(None, call, limits) if robot is None else found.attempt(robot, call, limits)
-                took_long = pool_client.note_computation(began)
+                took_long = pool_client.note_computation(time.thread_time() - began)
                 if outcome is not None:
                     if took_long:  # Others get their turn before this is encoded.
                         await asyncio.sleep(0)

@@ -20,7 +20,7 @@ from gelenk.operations.ik_request import NUMBERS_OF_SOLUTION, PLAIN, QUICK_TARGE
 from gelenk.operations.outcome import Limits, Outcome, RequestCounts
 from gelenk.robot.chain import Chain
 from gelenk.robot.compilation import is_awaited
-from gelenk.robot.poses import is_unit
+from gelenk.robot.poses import ROTATION_TOLERANCE
 from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot
 
@@ -57,7 +57,10 @@ def _goals(targets: Any) -> list[list[float]] | None:
         return None
     goals = []
     for pose in targets:
-        if (quaternion := pose.quaternion_xyzw) is None or not is_unit(length := hypot(*quaternion)):
+        if (quaternion := pose.quaternion_xyzw) is None:
+            return None
+        length = hypot(*quaternion)
+        if abs(length - 1.0) > ROTATION_TOLERANCE:
             return None
         goals.append([length, *quaternion, *pose.position])
     return goals
@@ -96,8 +99,13 @@ def _outcome(chain: Chain, found: list[tuple[Any, ...]]) -> Outcome:
     return Outcome(
         content,
         lambda: (np.array(found)[:, : len(chain)], unsolved_headers([])),
-        solved=lambda targets: RequestCounts(targets, {"solved": targets}, targets, sum([one[-2] for one in found])),
+        solved=lambda targets: _counts(targets, sum([one[-2] for one in found])),
     )
+
+
+@lru_cache
+def _counts(targets: int, iterations: int) -> RequestCounts:
+    return RequestCounts(targets, {"solved": targets}, targets, iterations)
 
 
 def _solution(numbers: tuple[Any, ...]) -> dict[str, Any]:

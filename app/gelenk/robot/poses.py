@@ -75,17 +75,12 @@ def _is_rotation(x: list[float], y: list[float], z: list[float]) -> bool:
 def unit_quaternion(quaternion: Sequence[float]) -> list[float]:
     """Normalise a quaternion, in any order; raises InvalidPose if |length - 1| > `ROTATION_TOLERANCE`."""
     length = math.hypot(*quaternion)
-    if not is_unit(length):
+    if abs(length - 1.0) > ROTATION_TOLERANCE:
         raise InvalidPose(
             f"the quaternion has length {length:.9g}; allowed: 1 ± {ROTATION_TOLERANCE:g}",
             _finite(abs(length - 1.0)),
         )
     return [part / length for part in quaternion]
-
-
-def is_unit(length: float) -> bool:
-    """Check whether a quaternion of this length is one of a rotation, rounded."""
-    return abs(length - 1.0) <= ROTATION_TOLERANCE
 
 
 def _finite(distance: float) -> float | None:

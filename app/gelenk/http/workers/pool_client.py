@@ -1,7 +1,6 @@
 """Sends requests to the worker pool, with a deadline; a request is cancelled when its client disconnects."""
 
 import asyncio
-import time
 from collections import Counter
 from collections.abc import Coroutine
 from typing import Any, TypeVar
@@ -57,12 +56,12 @@ class PoolClient:
         """
         return not (self._has_computed or self.pool.is_starting)
 
-    def note_computation(self, began: float) -> bool:
-        """Note that the event loop has computed since `began` in `time.thread_time`; if long, as the last of its turn.
+    def note_computation(self, seconds: float) -> bool:
+        """Note that the event loop has computed for so long, [s]; if that is long, as the last of its turn.
 
         Return whether it was long.
         """
-        took_long = time.thread_time() - began > _LONG
+        took_long = seconds > _LONG
         if took_long:
             self._has_computed = True
             asyncio.get_running_loop().call_soon(self._begin_turn)
