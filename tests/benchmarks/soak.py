@@ -11,7 +11,7 @@ import threading
 import time
 from collections import Counter
 from collections.abc import Sequence
-from http.client import HTTPConnection
+from http.client import HTTPConnection, HTTPException
 from typing import Any, NamedTuple
 from urllib.parse import urlsplit
 from urllib.request import urlopen
@@ -38,7 +38,7 @@ class Asked(NamedTuple):
 
 
 class Times(NamedTuple):
-    """How long it goes on once each client has asked everything, [s].
+    """How long it goes on once there are as many answers as if each client had asked everything, [s].
 
     What comes first is not measured, then what it is measured against, and its end.
     """
@@ -61,7 +61,7 @@ def measured(times: Times) -> list[Row]:
         for client in clients:
             client.start()
         try:
-            while answers.total() < CLIENTS * len(requests):
+            while answers.total() < CLIENTS * len(requests) and all(client.is_alive() for client in clients):
                 stop.wait(1.0)
             stop.wait(times.warm_up)
             sizes = sampled(pid, times.measured)
@@ -129,7 +129,7 @@ def ask(url: str, requests: Sequence[Asked], seed: int, answers: Counter[int], s
             answer = connection.getresponse()
             answer.read()
             answers[answer.status] += 1
-        except OSError:
+        except (OSError, HTTPException):
             answers[0] += 1
             connection.close()
         stop.wait(PAUSE_SECONDS)

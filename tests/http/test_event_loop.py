@@ -33,6 +33,7 @@ SQUARES, SQUARES_SECONDS = 20_000, 0.8e-3
 
 PANDA = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 TARGET = {"position": [0.4, 0.1, 0.5], "rpy": [3.0, 0.2, 0.4]}
+PLAIN_TARGET = {"position": [0.4, 0.1, 0.5], "quaternion_xyzw": [0.0, 1.0, 0.0, 0.0]}
 
 MOVE = {"start": PANDA, "segments": [{"type": "joint", "target": [0.3, -0.5, 0.1, -2.2, 0.05, 1.8, 0.9]}]}
 
@@ -113,6 +114,8 @@ def test_every_example(client: TestClient, longest_step: Steps) -> None:
         ("panda/ik", {"targets": [TARGET] * 5000}),
         ("panda/ik", {"targets": [TARGET] * 8}),
         ("panda/ik", {"targets": [{**TARGET, "position": [9.0, 0.0, 0.0]}] * 8}),
+        ("panda/ik", {"targets": [PLAIN_TARGET] * 8}),
+        ("panda/ik", {"targets": [{**PLAIN_TARGET, "position": [9.0, 0.0, 0.0]}] * 8}),
         ("panda/velocity", {"joint_positions": [PANDA] * 10, "joint_velocities": [PANDA] * 10}),
         ("panda/singularities", {"joint_positions": [PANDA] * 10}),
         ("panda/manipulability", {"joint_positions": [PANDA] * 10}),

@@ -3,13 +3,14 @@
 import contextlib
 import json
 import math
+import time
 from typing import Any
 
 import pytest
 from playwright.sync_api import Error, FloatRect, Request, Response, Route
 
 from tests.oracles import catalogue
-from tests.studio.browser import Studio
+from tests.studio.browser import PATIENCE, Studio
 from tests.studio.inverse import SOLVED
 from tests.studio.pure import values
 from tests.studio.test_cell import TETRAHEDRON
@@ -439,8 +440,9 @@ def test_sixty_times_back_and_forth_leave_nothing(studio: Studio) -> None:
 
 def settled(studio: Studio, under_way: set[Request]) -> list[int]:
     """What is drawn, when for a while nothing is asked for any more: answers about contacts follow the robot."""
-    calm, reading = 0, list[int]()
+    calm, reading, deadline = 0, list[int](), time.monotonic() + PATIENCE
     while calm < 5:
+        assert time.monotonic() < deadline, f"{len(under_way)} requests are under way, {reading} drawn"
         before, reading = reading, studio.run(COUNTS)
         calm = calm + 1 if reading == before and not under_way else 0
     return reading

@@ -26,6 +26,8 @@ SECONDS = 8.0
 """Processor time of the symbolic part, [s]; what is not done by then stays numeric."""
 _IMPORT = "<frozen importlib._bootstrap>"
 _AFTER_IMPORT = 0.02
+_BY_THE_CLOCK = 5.0
+"""How many times as long it may take by the clock: a request that takes longer than allowed gets no answer at all."""
 _Question = TypeVar("_Question")
 _Result = TypeVar("_Result")
 
@@ -82,15 +84,16 @@ def run(call: DeriveRequest) -> dict[str, Any]:
 def in_time(function: Callable[[_Question], _Result], question: _Question, seconds: float) -> _Result:
     """Run a function, but break it off with TimeoutError after `seconds`, though never while it imports a module.
 
-    They are seconds of processor time, so that an answer does not depend on what else the machine has to do. Only a
-    main thread can be broken off, as a worker's is; in another one, as at the command line, the function ends
-    by itself.
+    They are seconds of processor time, so that an answer does not depend on what else the machine has to do, within
+    `_BY_THE_CLOCK`. Only a main thread can be broken off, as a worker's is; in another one, as at the command line, the
+    function ends by itself.
     """
+    timers = {signal.ITIMER_PROF: seconds, signal.ITIMER_REAL: _BY_THE_CLOCK * seconds}
 
     def stop(_: int, frame: FrameType | None) -> None:
         while frame is not None:
             if frame.f_code.co_filename == _IMPORT:
-                signal.setitimer(signal.ITIMER_PROF, _AFTER_IMPORT)
+                signal.setitimer(signal.ITIMER_REAL, _AFTER_IMPORT)
                 return
             frame = frame.f_back
         raise _Overdue
@@ -100,12 +103,15 @@ def in_time(function: Callable[[_Question], _Result], question: _Question, secon
     if threading.current_thread() is not threading.main_thread():
         return function(question)
     signal.signal(signal.SIGPROF, stop)
+    signal.signal(signal.SIGALRM, stop)
     try:
         try:
-            signal.setitimer(signal.ITIMER_PROF, seconds)
+            for timer, limit in timers.items():
+                signal.setitimer(timer, limit)
             return function(question)
         finally:
-            signal.setitimer(signal.ITIMER_PROF, 0.0)
+            for timer in timers:
+                signal.setitimer(timer, 0.0)
     except _Overdue:
         raise TimeoutError from None
 

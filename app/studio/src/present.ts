@@ -34,10 +34,10 @@ export function presenting(stage: HTMLElement, store: Store<State>): HTMLElement
     root.dataset["mode"] = "present";
     bar.hidden = false;
     next.focus();
-    root.requestFullscreen?.().then(
-      () => (isOn() ? undefined : document.exitFullscreen()), // whoever has left meanwhile
-      () => {}, // a browser that has none presents in its window
-    );
+    root
+      .requestFullscreen?.()
+      .then(() => (isOn() ? undefined : document.exitFullscreen())) // whoever has left meanwhile
+      .catch(() => {}); // a browser that has none presents in its window
   };
   const next = button("›", () => step(1), { title: t("Next (Page Down)"), "aria-label": t("Next panel") });
   const bar = element(

@@ -23,7 +23,7 @@ For the same reason it compiles nothing: while the pool is starting, every reque
 """
 
 _LONG = 5e-4
-"""Duration of an answer after which the event loop computes no other one in the same turn, [s] of processor time."""
+"""Duration of an answer after which the event loop computes no other one in the same turn, [s]."""
 
 PARSED_HERE_BYTES = 512 * 1024
 """Size of the largest body that a thread of this process parses, [bytes]: parsing delays the event loop."""
