@@ -241,6 +241,18 @@ def test_what_is_asked_for_no_more_does_not_come(studio: Studio) -> None:
 
 
 @pytest.mark.slow
+def test_after_a_table_that_was_not_waited_for_another_choice_asks_for_it_again(studio: Studio) -> None:
+    held: list[Callable[[], None]] = []
+    studio.page.route("**/v1/robots/ur5/dh*", lambda route: held.append(route.continue_))
+    studio.open("worked", robot="ur5")
+    studio.hear(held)
+    studio.button("Stop").click()
+    studio.page.unroute("**/v1/robots/ur5/dh*")
+    studio.button("Values").click()
+    studio.until(f"{AGREES} && {FORMULAS}.length")
+
+
+@pytest.mark.slow
 def test_a_failure_does_not_stay_where_what_was_before_is_wanted_again(studio: Studio, refusals: set[int]) -> None:
     refusals.add(503)
     studio.open("worked", dh_table=ANTHROPOMORPHIC_TABLE)

@@ -30,6 +30,7 @@ export class Derivation {
   #tables = new Latest();
   #answers = new Latest();
   #table: DhTable | null = null;
+  #isFetching = false;
   #answered = "";
   #asked = "";
   #rest = 0;
@@ -48,7 +49,7 @@ export class Derivation {
     };
     const stops = [
       this.store.watch(["model", "base", "tip"], () => void this.#fetchTable()),
-      this.store.watch(["writing"], () => void this.ask()),
+      this.store.watch(["writing"], () => void (this.#table || this.#isFetching ? this.ask() : this.#fetchTable())),
       this.store.watch(["positions"], settle),
       () => clearTimeout(this.#rest),
       () => this.cancel(),
@@ -90,6 +91,7 @@ export class Derivation {
 
   async #fetchTable(): Promise<void> {
     this.#table = null;
+    this.#isFetching = true;
     this.#answered = ""; // the sheet is empty again, be the table the same
     this.#drop();
     await this.#attempt(async () => {
@@ -98,6 +100,7 @@ export class Derivation {
       this.#table = found.dh;
       return true;
     });
+    this.#isFetching = false;
     await this.ask();
   }
 
