@@ -1,6 +1,7 @@
 """Looking ahead over the self-motion: lines that only another use of the spare joint follows, judged by Pinocchio."""
 
 from dataclasses import replace
+from itertools import islice
 
 import numpy as np
 import pytest
@@ -102,6 +103,16 @@ def test_no_guide_is_sought_to_an_end_beyond_the_joint_limits(monkeypatch: pytes
     assert stop is not None
     assert "; the end of the path: solvable only beyond the joint limits" in stop.detail
     assert "looking ahead" not in stop.detail
+
+
+def test_a_guide_ends_exactly_where_its_path_does() -> None:
+    """What was missing for rounding became a piece of no length, along which no motion could be timed."""
+    lines, ends = Lines("panda", 20), []
+    for path, q in lines.jobs():
+        field = RateField(lines.chain, path, FULL_POSE, TOLERANCES, 0.01)
+        ends += [(guide.breaks[0], guide.breaks[-1] - path.extent) for guide in islice(guides(field, q), 1)]
+    assert len(ends) > 5
+    assert set(ends) == {(0.0, 0.0)}
 
 
 @pytest.mark.slow
