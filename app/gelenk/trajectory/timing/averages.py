@@ -21,7 +21,7 @@ _PARTS, _PER_WINDOW, _MOST_PARTS = 128, 8, 1024
 """Into how many equal parts the time-optimal law is divided: in all, in a window, and in all at most."""
 _PLACES = 200
 _PROBES = np.array([0.0, 0.5, 1.0])
-_TRIALS, _ROUNDS = 3, 6
+_TRIALS, _ROUNDS = 5, 8
 """Rounds of slowing down for each width of the window, and further ones for the best."""
 _ENOUGH = 1.002
 """Excess over a limit that is left to a uniform scaling."""
