@@ -47,7 +47,7 @@ _Result = TypeVar("_Result")
 
 
 class BoundedRunner(Protocol):
-    """Runs a function of plain data somewhere, with processor time in [s]; TimeoutError if it takes longer."""
+    """Runs a function of plain data somewhere, within a processor time, [s]; TimeoutError if it takes longer."""
 
     def __call__(self, function: Callable[[_Question], _Result], question: _Question, seconds: float, /) -> _Result:
         """Return the function's result."""

@@ -113,8 +113,9 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
                 pool_client.note_computation(time.perf_counter() - began)
                 if outcome is not None:
                     return _answered(endpoint, call, outcome, wanted)
-            is_heavy = wanted in PICTURES or _names_scene(call) or found.is_heavy(call)
-            if pool_client.may_compute_here and not is_heavy:
+            # After a long attempt it is no longer the event loop's turn.
+            is_light = pool_client.may_compute_here and wanted not in PICTURES and not _names_scene(call)
+            if is_light and not found.is_heavy(call):
                 if found.needs_robot and not _is_prepared(found, robot, call):
                     robot = await _prepared(found, pool_client, request, call, task_request)
                 began = time.thread_time()

@@ -77,9 +77,9 @@ class QuickSearch:
     def __call__(self, target: Sequence[float], seed: Array | None) -> tuple[Any, ...] | None:
         """Return the solution from a seed, shape (n,), or the middle of the ranges; None if the search finds none.
 
-        The target is the length of a quaternion x y z w, that, and a position; or a position and a rotation row by
-        row: 8 or 12 numbers. Those of the solution are the configuration, its errors [m] and [rad], and the outcome,
-        see `search_few`. Raises CertificationFailed if Pinocchio's own pose there is another.
+        The target has 8 numbers: the length of a quaternion, the quaternion x y z w, and a position; or 12: a position
+        and a rotation row by row. The solution's are the configuration, its errors [m] and [rad], and the outcome, see
+        `search_few`. Raises CertificationFailed if Pinocchio's own pose there is another.
         """
         with self._lock:
             self._writers[len(target)](*target)

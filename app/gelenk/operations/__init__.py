@@ -2,7 +2,7 @@
 
 - `run(robot, request, limits)`: computes the outcome; `run(request)` if the operation is about no robot.
 - `is_heavy(request)`: whether a request of few bytes still takes more than a millisecond.
-- `at_once(robot, request, limits)`: the same as `run` if little is asked and all is known that it takes, else None.
+- `at_once(robot, request, limits)`: the same as `run` if little is asked, and all that it takes is known; else None.
 - `attempt(robot, request, limits)`: the same as `run` if that is fast, else None.
 - `WARM_UP`: what must be known about a robot before the event loop can answer.
 

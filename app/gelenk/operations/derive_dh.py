@@ -84,9 +84,9 @@ def run(call: DeriveRequest) -> dict[str, Any]:
 def in_time(function: Callable[[_Question], _Result], question: _Question, seconds: float) -> _Result:
     """Run a function, but break it off with TimeoutError after `seconds`, though never while it imports a module.
 
-    They are seconds of processor time, so that an answer does not depend on what else the machine has to do, within
-    `_BY_THE_CLOCK`. Only a main thread can be broken off, as a worker's is; in another one, as at the command line, the
-    function ends by itself.
+    They are seconds of processor time, so that an answer does not depend on what else the machine has to do; by the
+    clock it may take `_BY_THE_CLOCK` times as long. Only a main thread can be broken off, as a worker's is; in another
+    one, as at the command line, the function ends by itself.
     """
     timers = {signal.ITIMER_PROF: seconds, signal.ITIMER_REAL: _BY_THE_CLOCK * seconds}
 

@@ -67,7 +67,7 @@ def _goals(targets: Any) -> list[list[float]] | None:
 
 
 class _NotYetError(Exception):
-    """What a search needs is not there yet: it is not kept that there is none."""
+    """What a search needs is not there yet: raised, because the cache would keep a result."""
 
 
 @lru_cache(_KEPT)

@@ -25,7 +25,7 @@ PLAIN = {"targets", "seeds", "base_frame", "tip_frame", "respect_limits", "rando
 """Fields that go with any others: a call that sets no more, as most do, is not searched for what does not."""
 _VARIED = attrgetter("position_tolerance", "orientation_tolerance", "respect_limits", "random_seed")
 QUICK_TARGETS = 8
-"""Targets that the event loop searches for itself."""
+"""Most targets of a call that the event loop searches for itself."""
 _QUICK_STARTS = 64
 """Starts of seven joints that take the event loop about 0.1 ms; a target that needs more goes to a worker."""
 NUMBERS_OF_SOLUTION = 4

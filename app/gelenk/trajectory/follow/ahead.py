@@ -151,7 +151,7 @@ def _smooth(way: Array, rounds: int) -> PiecewisePolynomial:
     points = np.concatenate((2.0 * way[:1] - way[1:2], way, 2.0 * way[-1:] - way[-2:-1]))
     before, here, after = points[:-2], points[1:-1], points[2:]
     values, rates, bends = (before + 4.0 * here + after) / 6.0, 0.5 * (after - before), before - 2.0 * here + after
-    values[[0, -1]] = way[[0, -1]]  # as they are, but for rounding: it would leave a piece of no length before the end
+    values[[0, -1]] = way[[0, -1]]  # equal but for rounding, which would leave a piece of no length
     # Places too are a spline of the index: derivatives by the index become those by the place.
     first = rates[:, 1:] / rates[:, :1]
     second = (bends[:, 1:] - bends[:, :1] * first) / rates[:, :1] ** 2

@@ -33,6 +33,7 @@ export interface Field {
   choose?: (value: string) => Inputs;
 }
 
+/** A field for one number; an arrow key adds the step. */
 export const number = (pointer: string, label: string, unit: string, optional = false, step = 0.1): Field => ({
   pointer,
   label,
